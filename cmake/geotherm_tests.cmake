@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: MIT
+# How tests reach ctest. Several build trees (release, asan, tsan, nocholmod) may run in one ctest,
+# so each gives its tests a prefix and a label of its own.
+include(GoogleTest)
+
+set(GEOTHERM_TEST_SUITE "" CACHE STRING "Prefix and label of this build tree's tests")
+set(GEOTHERM_TEST_FILTER "" CACHE STRING "GoogleTest filter: which tests this build tree has")
+
+set(GEOTHERM_TEST_PREFIX "")
+set(GEOTHERM_TEST_LABEL release)
+if(GEOTHERM_TEST_SUITE)
+  set(GEOTHERM_TEST_PREFIX "${GEOTHERM_TEST_SUITE}.")
+  set(GEOTHERM_TEST_LABEL ${GEOTHERM_TEST_SUITE})
+endif()
+
+# One BLAS thread keeps `ctest -j` honest, and a library that is not instrumented out of the thread
+# sanitizer's sight.
+set(GEOTHERM_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1" "OMP_NUM_THREADS=1")
+if("thread" IN_LIST GEOTHERM_SANITIZE)
+  list(APPEND GEOTHERM_TEST_ENVIRONMENT
+       "TSAN_OPTIONS=halt_on_error=1:suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")
+elseif("address" IN_LIST GEOTHERM_SANITIZE)
+  list(APPEND GEOTHERM_TEST_ENVIRONMENT
+       "ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1"
+       "UBSAN_OPTIONS=print_stacktrace=1")
+endif()
+
+# geotherm_discover_tests(TARGET): every TEST of the executable becomes a test of ctest.
+function(geotherm_discover_tests target)
+  set(filter)
+  if(GEOTHERM_TEST_FILTER)
+    set(filter TEST_FILTER "${GEOTHERM_TEST_FILTER}")
+  endif()
+  gtest_discover_tests(${target} TEST_PREFIX "${GEOTHERM_TEST_PREFIX}" ${filter}
+    TEST_LIST ${target}_names DISCOVERY_TIMEOUT 60
+    PROPERTIES TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL})
+  # gtest_discover_tests cannot pass on a property that is a list: it is set when ctest starts.
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_environment.cmake")
+  file(WRITE "${file}" "if(${target}_names)\n  set_tests_properties(\${${target}_names} PROPERTIES "
+                       "ENVIRONMENT \"${GEOTHERM_TEST_ENVIRONMENT}\")\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
+endfunction()
+
+# geotherm_add_test(NAME COMMAND ARGUMENTS...): a test that is a command.
+function(geotherm_add_test name)
+  add_test(NAME ${GEOTHERM_TEST_PREFIX}${name} COMMAND ${ARGN})
+  set_tests_properties(${GEOTHERM_TEST_PREFIX}${name} PROPERTIES
+    TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL} ENVIRONMENT "${GEOTHERM_TEST_ENVIRONMENT}")
+endfunction()

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds and runs the benchmark: set-up, query, batch and memory of each backend beside a plain
+# use of CHOLMOD, and the reading of OBJ files beside tinyobjloader.
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+case ${1:-} in
+  -h | --help)
+    echo "usage: scripts/bench.sh [--quick] [--json FILE]    --quick: under ten minutes on 2 cores"
+    exit 0
+    ;;
+esac
+
+"$root/scripts/setup.sh"
+build release geotherm_bench
+exec "$root/build/release/bench/geotherm_bench" "$@"

@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing to build geotherm, and nothing else. Debian 12, Ubuntu 22.04 and later.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+usage: scripts/setup.sh [--dev] [--lint]
+
+Installs, through apt-get, the packages that building and running geotherm needs and that are not
+there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
+
+  --dev    also what the tests profit from: ccache, clang-format
+  --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
+TEXT
+}
+
+packages=(g++ cmake ninja-build
+  libeigen3-dev libsuitesparse-dev libopenblas-dev  # the library
+  libcli11-dev nlohmann-json3-dev                   # the program
+  libgtest-dev libtinyobjloader-dev)                # tests, benchmark
+for argument in "$@"; do
+  case $argument in
+    --dev) packages+=(ccache clang-format) ;;
+    --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
+    -h | --help) usage && exit 0 ;;
+    *) usage >&2 && exit 2 ;;
+  esac
+done
+
+fail() {
+  printf 'setup.sh: error: %s\n' "$*" >&2
+  exit 1
+}
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  if [ -n "${GEOTHERM_SKIP_SETUP:-}" ]; then exit 0; fi
+  fail "this system has no apt-get; install what these packages hold by your own means, then set" \
+    "GEOTHERM_SKIP_SETUP=1: ${packages[*]}"
+fi
+if [ -n "${GEOTHERM_SKIP_SETUP:-}" ]; then exit 0; fi
+
+missing=()
+for package in "${packages[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  if [ "$status" != installed ]; then missing+=("$package"); fi
+done
+if [ ${#missing[@]} -eq 0 ]; then exit 0; fi
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  if ! command -v sudo >/dev/null; then
+    fail "${#missing[@]} packages are missing and there is neither root nor sudo to install them;" \
+      "ask an administrator for: apt-get install ${missing[*]}"
+  fi
+  if [ ! -t 0 ] && ! sudo -n true 2>/dev/null; then
+    fail "${#missing[@]} packages are missing and sudo asks for a password;" \
+      "run first: sudo apt-get install ${missing[*]}"
+  fi
+  as_root=(sudo)
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=300 \
+    -o Acquire::Retries=3 "$@" </dev/null
+}
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+printf 'setup.sh: installing %s\n' "${missing[*]}" >&2
+# The lists of packages may be stale or absent: one that does not suffice is brought up to date.
+if ! apt install --no-install-recommends -y "${missing[@]}" >"$log" 2>&1; then
+  if ! { apt update && apt install --no-install-recommends -y "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    fail "apt-get could not install ${missing[*]}; its last words are above"
+  fi
+fi

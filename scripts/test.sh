@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Installs what is missing, builds four ways and runs all tests in one ctest, whose summary comes
+# last: release (all tests), asan (address and undefined behaviour), tsan (threads), nocholmod
+# (without SuiteSparse). Arguments go to ctest: scripts/test.sh -R Reader
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+"$root/scripts/setup.sh" --dev
+
+# Meshes and exact distances that are not part of the project, used where they exist.
+skipped=()
+use_data() {
+  local variable=$1 folder=$2 tests=$3
+  if [ -z "${!variable:-}" ] && [ -d "$folder" ]; then export "$variable=$(realpath "$folder")"; fi
+  if [ -z "${!variable:-}" ]; then skipped+=("$tests: set $variable to their folder"); fi
+}
+use_data GEOTHERM_TEST_MESHES "$root/../shared/meshes" "tests on scanned meshes"
+use_data GEOTHERM_TEST_EXACT "$root/../shared/exact" "tests against exact distances"
+
+suites=(release nocholmod asan tsan)
+for suite in "${suites[@]}"; do
+  build "$suite"
+  # A suite without tests is a mistake, not a success.
+  (cd "$root" && ctest --preset "$suite" -N) | grep -qE '^Total Tests: [1-9]' ||
+    fail "the build $suite has no tests"
+done
+
+# One ctest over all of them.
+mkdir -p "$root/build/all"
+printf 'subdirs("%s")\n' "${suites[@]/#/$root/build/}" >"$root/build/all/CTestTestfile.cmake"
+
+say "running all tests"
+for line in "${skipped[@]}"; do printf 'not run: %s\n' "$line"; done
+exec ctest --test-dir "$root/build/all" --output-on-failure --no-tests=error -j "$(job_count)" "$@"

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "solver/mesh/edge_table.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// The faces that can carry an operator, and what was left out.
+struct CleanFaces {
+  std::vector<Face> faces;      ///< no repeated corner, no face twice; orientation as consistent
+                                ///< as the surface allows
+  std::vector<Index> original;  ///< number of each face in the mesh
+  EdgeTable edges;              ///< of `faces`
+  Index repeated_corner = 0;    ///< faces dropped: two corners are one vertex
+  Index duplicate = 0;          ///< faces dropped: the same three vertices as an earlier one
+  Index reoriented = 0;         ///< faces turned round to agree with their neighbours
+};
+
+/// Cost: O(F).
+CleanFaces clean_faces(const TriangleMesh& mesh);
+
+}  // namespace geotherm

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/delaunay.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+/// Cotangent sums down to this are accepted: cocircular corners would flip to and fro.
+constexpr double kTolerance = 1e-9;
+
+double weight(const IntrinsicMesh& mesh, Side side) {
+  const Side other = mesh.twin[side];
+  return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
+         opposite_cotangent(mesh.lengths[face_of(other)], corner_of(other));
+}
+
+using Point2 = Eigen::Vector2d;
+
+/// The quadrilateral of a flip in the plane: a at the origin, b on the positive x axis, c above,
+/// d below.
+struct Diamond {
+  Point2 a, b, c, d;
+};
+
+Diamond unfold(const std::array<double, 5>& l) {
+  const FaceLayout upper = lay_out({l[0], l[1], l[2]});
+  const FaceLayout lower = lay_out({l[0], l[4], l[3]});
+  return {Point2(0, 0), Point2(l[0], 0), Point2(upper.x, upper.height),
+          Point2(lower.x, -lower.height)};
+}
+
+void set_face(IntrinsicMesh& mesh, Index f, const Face& corners,
+              const std::array<double, 3>& lengths, const std::array<Side, 3>& twins) {
+  mesh.faces[f] = corners;
+  mesh.lengths[f] = lengths;
+  for (int k = 0; k < 3; ++k) {
+    mesh.twin[3 * f + k] = twins[k];
+    if (twins[k] != kNoSide) mesh.twin[twins[k]] = 3 * f + k;
+  }
+}
+
+Flip flip(IntrinsicMesh& mesh, Side side) {
+  const Side other = mesh.twin[side];
+  const Index f = face_of(side);
+  const Index g = face_of(other);
+  const int i = corner_of(side);
+  const int j = corner_of(other);
+  const Index a = mesh.faces[f][i];
+  const Index b = mesh.faces[g][j];
+  const Index c = mesh.faces[f][previous_corner(i)];
+  const Index d = mesh.faces[g][previous_corner(j)];
+  const auto& lf = mesh.lengths[f];
+  const auto& lg = mesh.lengths[g];
+  Flip out{f, g, static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
+           {lf[i], lf[next_corner(i)], lf[previous_corner(i)], lg[next_corner(j)],
+            lg[previous_corner(j)]}};
+  const Diamond diamond = unfold(out.lengths);
+  const double cd = (diamond.c - diamond.d).norm();
+  const auto [ab, bc, ca, ad, db] = out.lengths;
+
+  // A twin may be a side of these two faces themselves; then it moves with the flip.
+  const Side old_bc = 3 * f + next_corner(i);
+  const Side old_ca = 3 * f + previous_corner(i);
+  const Side old_ad = 3 * g + next_corner(j);
+  const Side old_db = 3 * g + previous_corner(j);
+  const auto moved = [&](Side s) {
+    if (s == old_ca) return Side{3 * f};
+    if (s == old_ad) return Side{3 * f + 1};
+    if (s == old_db) return Side{3 * g};
+    if (s == old_bc) return Side{3 * g + 1};
+    return s;
+  };
+  const Side twin_bc = moved(mesh.twin[old_bc]);
+  const Side twin_ca = moved(mesh.twin[old_ca]);
+  const Side twin_ad = moved(mesh.twin[old_ad]);
+  const Side twin_db = moved(mesh.twin[old_db]);
+  set_face(mesh, f, {c, a, d}, {ca, ad, cd}, {twin_ca, twin_ad, 3 * g + 2});
+  set_face(mesh, g, {d, b, c}, {db, bc, cd}, {twin_db, twin_bc, 3 * f + 2});
+  return out;
+}
+
+/// Weights of `p` in triangle (u, v, w), clipped to it.
+std::array<double, 3> barycentric(const Point2& u, const Point2& v, const Point2& w,
+                                  const Point2& p) {
+  const auto cross = [](const Point2& x, const Point2& y) { return x.x() * y.y() - x.y() * y.x(); };
+  std::array<double, 3> weights = {std::max(cross(v - p, w - p), 0.0),
+                                   std::max(cross(w - p, u - p), 0.0),
+                                   std::max(cross(u - p, v - p), 0.0)};
+  const double sum = weights[0] + weights[1] + weights[2];
+  for (double& x : weights) x /= sum;
+  return weights;
+}
+
+}  // namespace
+
+Index count_non_delaunay(const IntrinsicMesh& mesh) {
+  Index count = 0;
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) ++count;
+  }
+  return count;
+}
+
+std::vector<Flip> flip_to_delaunay(IntrinsicMesh& mesh) {
+  std::vector<Flip> flips;
+  std::vector<Side> queue;
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) queue.push_back(side);
+  }
+  // Each flip lowers the Dirichlet energy, so the loop ends; the bound guards against round-off.
+  const std::size_t most = 100 * mesh.twin.size() + 1000;
+  while (!queue.empty() && flips.size() < most) {
+    const Side side = queue.back();
+    queue.pop_back();
+    const Side other = mesh.twin[side];
+    if (other == kNoSide || face_of(other) == face_of(side)) continue;
+    if (!(weight(mesh, side) < -kTolerance)) continue;
+    const Flip made = flip(mesh, side);
+    flips.push_back(made);
+    for (const Index face : {made.f, made.g}) {
+      for (int k = 0; k < 2; ++k) queue.push_back(3 * face + k);
+    }
+  }
+  return flips;
+}
+
+SurfacePoint carry_through_flips(const std::vector<Flip>& flips, SurfacePoint point) {
+  for (const Flip& flip : flips) {
+    if (point.face != flip.f && point.face != flip.g) continue;
+    const bool in_f = point.face == flip.f;
+    const int start = in_f ? flip.start_f : flip.start_g;
+    const Diamond q = unfold(flip.lengths);
+    const double w0 = point.weights[start];
+    const double w1 = point.weights[next_corner(start)];
+    const double w2 = point.weights[previous_corner(start)];
+    const Point2 p = in_f ? Point2(w0 * q.a + w1 * q.b + w2 * q.c)
+                          : Point2(w0 * q.b + w1 * q.a + w2 * q.d);
+    const Point2 along = q.c - q.d;
+    const Point2 from_d = p - q.d;
+    const bool side_of_a = along.x() * from_d.y() - along.y() * from_d.x() >= 0;
+    point.face = side_of_a ? flip.f : flip.g;
+    point.weights = side_of_a ? barycentric(q.c, q.a, q.d, p) : barycentric(q.d, q.b, q.c, p);
+  }
+  return point;
+}
+
+}  // namespace geotherm

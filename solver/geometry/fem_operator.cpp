@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/fem_operator.h"
+
+#include <algorithm>
+
+namespace geotherm {
+namespace {
+
+/// Share of a face's stiffness coupling that its mass coupling may take away.
+constexpr double kMostOfStiffness = 0.5;
+
+}  // namespace
+
+FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
+                         double stiffness_factor, std::vector<Index> held, Mass mass)
+    : mesh_(std::move(mesh)),
+      mass_factor_(mass_factor),
+      stiffness_factor_(stiffness_factor),
+      mass_(mass),
+      held_(std::move(held)) {
+  diagonal_.resize(static_cast<std::size_t>(size()));
+  for (Index i = 0; i < size(); ++i) {
+    diagonal_[i] =
+        mass_factor_ * mesh_->mass[i] + stiffness_factor_ * mesh_->stiffness_diagonal[i];
+  }
+  if (mass_ == Mass::kHalfLumped) {
+    for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
+      const auto coupled = weights(mesh_->layout[f]);
+      const auto plain = stiffness(mesh_->layout[f]);
+      for (int k = 0; k < 3; ++k) {
+        const double moved = coupled[k] + stiffness_factor_ * plain[k];
+        const Index a = mesh_->faces[f][k];
+        const Index b = mesh_->faces[f][next_corner(k)];
+        if (a == b) continue;
+        diagonal_[a] += moved;
+        diagonal_[b] += moved;
+      }
+    }
+  }
+  if (held_.empty()) return;
+  is_held_.assign(static_cast<std::size_t>(size()), 0);
+  for (const Index i : held_) {
+    is_held_[i] = 1;
+    diagonal_[i] = 1;
+  }
+}
+
+std::array<double, 3> FemOperator::weights(const FaceLayout& p) const {
+  std::array<double, 3> w = stiffness(p);
+  for (double& weight : w) weight *= -stiffness_factor_;
+  if (mass_ == Mass::kLumped) return w;
+  // The consistent mass couples each pair by area / 12. Half of that, and never more than half of
+  // what the stiffness couples: M keeps the signs that make u positive.
+  const double half = mass_factor_ * p.base * p.height / 48;
+  for (double& weight : w) weight -= std::min(half, kMostOfStiffness * std::max(weight, 0.0));
+  return w;
+}
+
+Kernel FemOperator::kernel() const {
+  if (mass_factor_ != 0 || !held_.empty()) return {};
+  return {mesh_->components.of, mesh_->components.count};
+}
+
+void FemOperator::apply_free(std::span<const double> x, std::span<double> y) const {
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = mass_factor_ * mesh_->mass[i] * x[i];
+  for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
+    const Face& face = mesh_->faces[f];
+    const auto w = weights(mesh_->layout[f]);
+    for (int k = 0; k < 3; ++k) {
+      const Index a = face[k];
+      const Index b = face[next_corner(k)];
+      const double flow = w[k] * (x[a] - x[b]);
+      y[a] += flow;
+      y[b] -= flow;
+    }
+  }
+}
+
+void FemOperator::apply(std::span<const double> x, std::span<double> y) const {
+  if (held_.empty()) {
+    apply_free(x, y);
+    return;
+  }
+  std::vector<double> masked(x.begin(), x.end());
+  for (const Index i : held_) masked[i] = 0;
+  apply_free(masked, y);
+  for (const Index i : held_) y[i] = x[i];
+}
+
+const LowerMatrix& FemOperator::assembled() const {
+  if (!assembled_.value.empty()) return assembled_;
+  assembled_.start = mesh_->lower.start;
+  assembled_.row = mesh_->lower.row;
+  std::vector<double>& value = assembled_.value;
+  value.assign(assembled_.row.size(), 0.0);
+  for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
+    const std::array<double, 3> weight = weights(mesh_->layout[f]);
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t entry = mesh_->entry[f][k];
+      if (entry >= 0) value[entry] -= weight[k];
+    }
+  }
+  for (Index j = 0; j < size(); ++j) {
+    value[assembled_.start[j]] = diagonal_[j];
+    if (is_held_.empty()) continue;
+    for (std::int64_t e = assembled_.start[j] + 1; e < assembled_.start[j + 1]; ++e) {
+      if (is_held_[j] || is_held_[assembled_.row[e]]) value[e] = 0;
+    }
+  }
+  return assembled_;
+}
+
+}  // namespace geotherm

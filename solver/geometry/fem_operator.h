@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/geometry/operator_mesh.h"
+#include "solver/linear/symmetric_operator.h"
+
+namespace geotherm {
+
+/// How the mass matrix A is lumped.
+enum class Mass {
+  kLumped,      ///< diagonal: a third of the incident areas
+  kHalfLumped,  ///< mean of the lumped and the consistent mass, of fourth order in wave number on
+                ///< regular meshes (Goudreau, Taylor 1973); no entry of M changes its sign for it
+};
+
+/// M = a A + s L on a surface: A the mass (rows sum to the lumped masses), L the cotan stiffness
+/// (positive semidefinite, rows sum to 0). Rows and columns of held vertices are those of the identity, which keeps M
+/// symmetric and its pattern unchanged: the caller moves known values to the right side.
+class FemOperator final : public SymmetricOperator {
+ public:
+  /// `held`: vertices in elimination numbering, in any order; empty for none.
+  FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
+              double stiffness_factor, std::vector<Index> held = {}, Mass mass = Mass::kLumped);
+
+  Index size() const override { return mesh_->size(); }
+  void apply(std::span<const double> x, std::span<double> y) const override;
+  std::span<const double> diagonal() const override { return diagonal_; }
+  Kernel kernel() const override;
+  std::uint64_t pattern() const override { return mesh_->pattern; }
+  const LowerMatrix& assembled() const override;
+
+  /// The operator without its held rows, y = (a A + s L) x: what moves known values to the right.
+  void apply_free(std::span<const double> x, std::span<double> y) const;
+
+  const OperatorMesh& mesh() const { return *mesh_; }
+  std::span<const Index> held() const { return held_; }
+  bool is_held(Index i) const { return !is_held_.empty() && is_held_[i] != 0; }
+
+ private:
+  /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
+  /// squared difference.
+  std::array<double, 3> weights(const FaceLayout& layout) const;
+
+  std::shared_ptr<const OperatorMesh> mesh_;
+  double mass_factor_, stiffness_factor_;
+  Mass mass_;
+  std::vector<Index> held_;
+  std::vector<char> is_held_;  ///< n, or empty when nothing is held
+  std::vector<double> diagonal_;
+  mutable LowerMatrix assembled_;
+};
+
+}  // namespace geotherm

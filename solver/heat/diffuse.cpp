@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/diffuse.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+/// More levels than this many floors: 255 * 200 decades for direct solvers.
+constexpr int kMostLevels = 255;
+
+class FarField {
+ public:
+  FarField(const LinearSystem& system, const Components& components,
+           const std::vector<char>& reached, Eigen::Index column, HeatField& field)
+      : system_(system),
+        components_(components),
+        reached_(reached),
+        column_(column),
+        columns_(field.u.cols()),
+        field_(field) {}
+
+  /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
+  Result<void> extend(double floor) {
+    std::vector<Index> far = below(floor * largest(), 0);
+    std::vector<double> w(n()), r(n());
+    for (int level = 1; !far.empty() && level <= kMostLevels; ++level) {
+      if (field_.level.empty()) field_.level.assign(n() * static_cast<std::size_t>(columns_), 0);
+      restrict_to(far, level - 1, w);
+      system_.matrix().apply(w, r);
+      Block right = Block::Zero(static_cast<Eigen::Index>(n()), 1);
+      std::vector<char> is_far(n(), 0);
+      for (const Index i : far) is_far[i] = 1;
+      std::vector<Index> interface;
+      for (std::size_t i = 0; i < n(); ++i) {
+        if (is_far[i] || r[i] == 0 || !std::isfinite(r[i])) continue;
+        right(static_cast<Eigen::Index>(i), 0) = r[i] / floor;
+        interface.push_back(static_cast<Index>(i));
+      }
+      if (interface.empty()) break;
+      const auto solved = system_.factor().solve(right, interface);
+      if (!solved) return solved.error();
+      field_.iterations += solved->iterations;
+      double most = 0;
+      for (const Index i : far) most = std::max(most, std::abs(right(i, 0)));
+      if (!(most > 0)) break;  // cut off from the sources by held vertices
+      for (const Index i : far) {
+        field_.u(i, column_) = right(i, 0);
+        level_at(i) = static_cast<std::uint8_t>(level);
+      }
+      std::vector<Index> next = below(floor * most, level);
+      if (next.size() >= far.size()) break;
+      far = std::move(next);
+    }
+    return {};
+  }
+
+ private:
+  std::size_t n() const { return static_cast<std::size_t>(field_.u.rows()); }
+  std::uint8_t& level_at(Index i) {
+    return field_.level[static_cast<std::size_t>(i) * static_cast<std::size_t>(columns_) +
+                        static_cast<std::size_t>(column_)];
+  }
+  int level_of(Index i) { return field_.level.empty() ? 0 : level_at(i); }
+
+  double largest() const { return field_.u.col(column_).cwiseAbs().maxCoeff(); }
+
+  /// Reached, free entries of this level whose value is below the threshold.
+  std::vector<Index> below(double threshold, int level) {
+    std::vector<Index> out;
+    for (Index i = 0; i < static_cast<Index>(n()); ++i) {
+      if (std::abs(field_.u(i, column_)) >= threshold) continue;
+      if (!reached_[components_.of[i]] || system_.matrix().is_held(i)) continue;
+      if (level_of(i) == level) out.push_back(i);
+    }
+    return out;
+  }
+
+  /// w = u on the far entries and on the layer of vertices that touch them, 0 elsewhere.
+  void restrict_to(const std::vector<Index>& far, int level, std::vector<double>& w) {
+    std::fill(w.begin(), w.end(), 0.0);
+    const OperatorMesh& mesh = system_.matrix().mesh();
+    for (const Index i : far) {
+      for (const Index f : mesh.faces_at(i)) {
+        for (const Index j : mesh.faces[f]) {
+          const double scale = level_of(j) == level ? 1.0 : 1.0 / field_.step;
+          w[j] = field_.u(j, column_) * scale;
+        }
+      }
+    }
+  }
+
+  const LinearSystem& system_;
+  const Components& components_;
+  const std::vector<char>& reached_;
+  Eigen::Index column_, columns_;
+  HeatField& field_;
+};
+
+}  // namespace
+
+Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
+                          std::span<const Index> support,
+                          const std::vector<std::vector<char>>& reached, double floor) {
+  HeatField field;
+  field.step = floor;
+  field.u = std::move(b);
+  const auto solved = system.solve(field.u, support);
+  if (!solved) return solved.error();
+  field.iterations = solved->iterations;
+  for (Eigen::Index c = 0; c < field.u.cols(); ++c) {
+    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field);
+    if (const auto extended = far.extend(floor); !extended) return extended.error();
+  }
+  return field;
+}
+
+HeatField average(HeatField a, const HeatField& b) {
+  a.iterations += b.iterations;
+  if (a.level.empty() && b.level.empty()) {
+    a.u = 0.5 * (a.u + b.u);
+    return a;
+  }
+  const auto count = static_cast<std::size_t>(a.u.size());
+  if (a.level.empty()) a.level.assign(count, 0);
+  for (std::size_t e = 0; e < count; ++e) {
+    double& ours = a.u.data()[e];
+    double theirs = b.u.data()[e];
+    const int their_level = b.level.empty() ? 0 : b.level[e];
+    const int difference = their_level - a.level[e];
+    if (difference > 0) theirs *= std::pow(a.step, difference);
+    if (difference < 0) {
+      ours *= std::pow(a.step, -difference);
+      a.level[e] = static_cast<std::uint8_t>(their_level);
+    }
+    ours = 0.5 * (ours + theirs);
+  }
+  return a;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/heat/linear_system.h"
+
+namespace geotherm {
+
+/// u for K source sets, with an exponent of its own where doubles do not reach: the value at row i
+/// of column c is u(i, c) * step^level[i * K + c]. `level` is empty when every level is 0.
+struct HeatField {
+  Block u;
+  std::vector<std::uint8_t> level;
+  double step = 1.0;
+  int iterations = 0;
+};
+
+/// How far below a column's largest entry its entries can be trusted: far down for a direct
+/// solver, which keeps relative accuracy entry by entry on these matrices; not so for an iterative
+/// one, which converges in norm.
+inline constexpr double kDirectFloor = 1e-200;
+inline constexpr double kIterativeFloor = 1e-7;
+
+/// Diffuses: solves M u = b (b n x K, its nonzero rows listed in `support`) so that every entry in
+/// the reached components is right relative to itself, however small.
+///
+/// Where u falls below the floor, the values beyond are solved again: u restricted to the far side
+/// and one layer before it satisfies M w = r with r on the interface alone; r is scaled up by
+/// 1 / floor and solved with the same factor, and so on outwards.
+///
+/// reached: per column, a flag per component. Errors: the factorisation's.
+Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
+                          std::span<const Index> support,
+                          const std::vector<std::vector<char>>& reached, double floor);
+
+/// The mean of two fields.
+HeatField average(HeatField a, const HeatField& b);
+
+}  // namespace geotherm

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/core/types.h"
+
+namespace geotherm {
+
+/// How good an answer is, computed from the answer itself.
+struct Quality {
+  double heat_residual = 0;        ///< |M u - b| / |b|, Euclidean, M = A + t L, free rows
+  double poisson_residual = 0;     ///< |L phi - b| / |b|, Euclidean, rows that are not held
+  double max_source_distance = 0;  ///< largest |d| on a source before clamping, model units
+  double eikonal_error_mean = 0;   ///< area-weighted mean of | |grad phi| - 1 |
+  Index zero_gradient_faces = 0;   ///< faces (reached) whose gradient of u is zero or not finite
+  Index clamped_vertices = 0;      ///< vertices whose value was below 0 and was set to 0
+  int iterations_heat = 0;         ///< 0 for direct backends
+  int iterations_poisson = 0;
+};
+
+/// Milliseconds of one query: from the source set to the distances. In a blocked call each
+/// result holds its share (the block's time over its number of source sets).
+struct QueryTiming {
+  double diffuse = 0;
+  double gradient = 0;
+  double poisson = 0;
+  double query = 0;  ///< the whole
+};
+
+/// Milliseconds from mesh in memory to first query ready.
+struct SetupTiming {
+  double operators = 0;  ///< cleaning, Delaunay flips, renumbering, assembly
+  double analyze = 0;    ///< ordering and symbolic analysis
+  double factorize = 0;  ///< both numeric factorisations
+  double setup = 0;      ///< the whole
+};
+
+/// Geodesic distance from one source set.
+struct DistanceResult {
+  std::vector<double> distances;  ///< V, file order, model units; kUnreached where no source can be
+  Quality quality;
+  QueryTiming timing;
+  std::vector<std::string> warnings;  ///< one sentence each
+
+  /// Only when asked for (QueryOptions::fields).
+  std::vector<double> heat;  ///< V: u, scaled so that its largest value is 1
+};
+
+}  // namespace geotherm

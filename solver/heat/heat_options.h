@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "solver/core/types.h"
+
+namespace geotherm {
+
+/// How the diffusion time t (model units squared) is chosen.
+enum class TimeRule {
+  kMeanEdge,      ///< t = m h^2, h the mean edge length (Crane et al. 2013, section 3.2.4)
+  kMeanFaceArea,  ///< t = m A / F, total area over number of faces
+  kAbsolute,      ///< t = the given number
+};
+
+struct TimeStep {
+  TimeRule rule = TimeRule::kMeanEdge;
+  double factor = 1.0;    ///< m of the two first rules, > 0
+  double absolute = 0.0;  ///< t of kAbsolute, > 0
+
+  bool operator==(const TimeStep&) const = default;
+};
+
+/// What makes the singular Poisson system solvable (docs/numerics.md, "Constraint modes").
+enum class ConstraintMode {
+  kPinSources,      ///< phi = 0 held on every source
+  kPinVertex,       ///< phi = 0 held on one vertex of each component
+  kPenalty,         ///< last row and column replaced by `penalty` on the diagonal
+  kConserveEnergy,  ///< bordered with the masses: the total of phi is fixed
+  kPseudoInverse,   ///< the minimum-norm solution
+};
+
+struct Constraint {
+  ConstraintMode mode = ConstraintMode::kPinSources;
+  Index pin_vertex = kNoIndex;  ///< kPinVertex: this vertex in its component; otherwise chosen
+  double penalty = 10.0;        ///< kPenalty: the number on the diagonal, > 0
+
+  bool operator==(const Constraint&) const = default;
+};
+
+/// What the heat step diffuses.
+enum class HeatMode {
+  kUnit,     ///< right side 1 on every source
+  kDiffuse,  ///< right side A u0: the source's mass (Crane et al. 2013, equation 3)
+  kHold,     ///< u = 1 held on the sources
+};
+
+/// The condition on u along the border; phi's is always Neumann.
+enum class BoundaryRule {
+  kNeumann,    ///< no heat leaves
+  kDirichlet,  ///< u = 0 on the border
+  kAverage,    ///< the mean of both solutions
+};
+
+/// How the method is discretised (docs/numerics.md, "What is corrected").
+enum class Variant {
+  kCorrected,  ///< half-lumped mass, |X| < 1 where fronts meet, exact field in the source's faces
+  kClassic,    ///< as published: lumped mass, |X| = 1 on every face
+};
+
+/// Which triangulation of the surface carries the operators.
+enum class LaplacianKind {
+  kAuto,               ///< kIntrinsicDelaunay where an edge has a negative weight, else kCotan
+  kCotan,              ///< the mesh as it is
+  kIntrinsicDelaunay,  ///< after intrinsic edge flips (Bobenko, Springborn 2007)
+  kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
+};
+
+/// All options of the heat method. The defaults are the recommended ones.
+struct HeatOptions {
+  std::string backend;  ///< a name from backend_names(); empty: the first of them
+  TimeStep time_step;
+  Constraint constraint;
+  HeatMode heat = HeatMode::kUnit;
+  BoundaryRule boundary = BoundaryRule::kNeumann;
+  LaplacianKind laplacian = LaplacianKind::kAuto;
+  Variant variant = Variant::kCorrected;
+  int threads = 0;  ///< 0: all cores
+
+  bool operator==(const HeatOptions&) const = default;
+};
+
+}  // namespace geotherm

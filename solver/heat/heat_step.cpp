@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/heat_step.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "solver/heat/quality.h"
+
+namespace geotherm {
+
+Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
+                                                        double t, BoundaryRule boundary,
+                                                        Mass mass, bool iterative, const HeatStep* previous,
+                                                        int threads) {
+  std::shared_ptr<HeatStep> out(new HeatStep);
+  out->surface_ = std::move(surface);
+  out->t_ = t;
+  out->mass_ = mass;
+  out->boundary_ = boundary;
+  out->iterative_ = iterative;
+  out->threads_ = threads;
+  if (previous != nullptr && previous->t_ == t && previous->mass_ == mass) {
+    out->neumann_ = previous->neumann_;
+    out->dirichlet_ = previous->dirichlet_;
+  }
+  const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
+    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, t,
+                                     std::move(held), threads, mass);
+    if (!built) return Result<void>(built.error());
+    target = std::move(*built);
+    return Result<void>();
+  };
+  if (boundary != BoundaryRule::kDirichlet && !out->neumann_) {
+    if (const auto done = factor({}, out->neumann_); !done) return done.error();
+  }
+  if (boundary != BoundaryRule::kNeumann && !out->dirichlet_) {
+    if (const auto done = factor(out->border_without(nullptr), out->dirichlet_); !done) {
+      return done.error();
+    }
+  }
+  return std::shared_ptr<const HeatStep>(std::move(out));
+}
+
+std::vector<Index> HeatStep::border_without(const SourceAnchors* anchors) const {
+  std::vector<Index> sources;
+  if (anchors != nullptr) sources = anchors->rows();
+  std::vector<Index> border;
+  for (Index row = 0; row < surface_->operators->size(); ++row) {
+    if (!surface_->on_boundary[row]) continue;
+    if (!std::binary_search(sources.begin(), sources.end(), row)) border.push_back(row);
+  }
+  return border;
+}
+
+bool HeatStep::on_border(const SourceAnchors& anchors) const {
+  return std::any_of(anchors.anchors.begin(), anchors.anchors.end(),
+                     [this](const auto& a) { return surface_->on_boundary[a.row] != 0; });
+}
+
+bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) const {
+  if (boundary_ != BoundaryRule::kNeumann && on_border(anchors)) return true;
+  return mode == HeatMode::kHold && (iterative_ || anchors.anchors.size() > kMostHeldRows);
+}
+
+double HeatStep::held_value(const SourceAnchors::Anchor& anchor) const {
+  return std::exp(-anchor.offset / std::sqrt(t_));  // 1 on a source, Varadhan's decay beside it
+}
+
+Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
+                                                                 const SourceAnchors& anchors,
+                                                                 HeatMode mode, Block& b) const {
+  std::vector<Index> held;
+  if (dirichlet) held = border_without(&anchors);
+  if (mode == HeatMode::kHold) {
+    const std::vector<Index> rows = anchors.rows();
+    held.insert(held.end(), rows.begin(), rows.end());
+    for (const auto& anchor : anchors.anchors) b(anchor.row, 0) = held_value(anchor);
+  }
+  return LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
+                             threads_, mass_);
+}
+
+/// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set.
+Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
+                                     std::span<const SourceAnchors> anchors, Block& b) const {
+  for (std::size_t c = 0; c < anchors.size(); ++c) {
+    const std::vector<Index> rows = anchors[c].rows();
+    const auto entries = system.factor().inverse_entries(rows);
+    if (!entries) return entries.error();
+    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      values(static_cast<Eigen::Index>(i)) = held_value(anchors[c].anchors[i]);
+    }
+    const Eigen::VectorXd lambda = entries->partialPivLu().solve(values);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      b(rows[i], static_cast<Eigen::Index>(c)) = lambda(static_cast<Eigen::Index>(i));
+    }
+  }
+  return {};
+}
+
+Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
+                                              std::span<const SourceAnchors> anchors,
+                                              HeatMode mode, bool residuals) const {
+  const OperatorMesh& mesh = *surface_->operators;
+  Block b = Block::Zero(mesh.size(), static_cast<Eigen::Index>(anchors.size()));
+  std::vector<Index> support;
+  std::vector<std::vector<char>> reached;
+  for (std::size_t c = 0; c < anchors.size(); ++c) {
+    reached.emplace_back(static_cast<std::size_t>(mesh.components.count), 0);
+    for (const Index component : anchors[c].components) reached.back()[component] = 1;
+    for (const auto& anchor : anchors[c].anchors) {
+      support.push_back(anchor.row);
+      if (mode == HeatMode::kHold) continue;
+      b(anchor.row, static_cast<Eigen::Index>(c)) =
+          anchor.heat * (mode == HeatMode::kDiffuse ? mesh.mass[anchor.row] : 1.0);
+    }
+  }
+  std::shared_ptr<const LinearSystem> system = dirichlet ? dirichlet_ : neumann_;
+  const bool own = (dirichlet && on_border(anchors.front())) ||
+                   (mode == HeatMode::kHold && needs_own_system(anchors.front(), mode));
+  if (own) {
+    auto built = own_system(dirichlet, anchors.front(), mode, b);
+    if (!built) return built.error();
+    system = std::move(*built);
+  } else if (mode == HeatMode::kHold) {
+    if (const auto held = hold_by_schur(*system, anchors, b); !held) return held.error();
+  }
+  auto field = geotherm::diffuse(*system, mesh.components, b, support, reached,
+                                 iterative_ ? kIterativeFloor : kDirectFloor);
+  if (!field) return field.error();
+  Answer answer{std::move(*field), {}, {}};
+  for (Eigen::Index c = 0; residuals && c < b.cols(); ++c) {
+    answer.residual.push_back(heat_residual(system->matrix(), answer.field, b, c));
+  }
+  if (dirichlet && on_border(anchors.front())) {
+    answer.warnings.emplace_back(
+        "sources on the border are left free under the Dirichlet rule; the rest of the border is "
+        "held at 0");
+  }
+  return answer;
+}
+
+Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
+                                           bool residuals) const {
+  if (boundary_ != BoundaryRule::kAverage) {
+    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals);
+  }
+  auto neumann = solve_rule(false, anchors, mode, residuals);
+  if (!neumann) return neumann;
+  auto dirichlet = solve_rule(true, anchors, mode, residuals);
+  if (!dirichlet) return dirichlet;
+  neumann->field = average(std::move(neumann->field), dirichlet->field);
+  neumann->warnings = dirichlet->warnings;
+  for (std::size_t c = 0; c < neumann->residual.size(); ++c) {
+    neumann->residual[c] = std::max(neumann->residual[c], dirichlet->residual[c]);
+  }
+  return neumann;
+}
+
+FactorStats HeatStep::stats() const {
+  FactorStats sum;
+  for (const auto& system : {neumann_, dirichlet_}) {
+    if (!system) continue;
+    sum.nonzeros += system->factor().stats().nonzeros;
+    sum.bytes += system->factor().stats().bytes;
+  }
+  return sum;
+}
+
+}  // namespace geotherm

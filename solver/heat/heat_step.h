@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/heat/diffuse.h"
+#include "solver/heat/source_anchors.h"
+
+namespace geotherm {
+
+/// Held vertices up to this many are reached through the shared factor (HeatMode::kHold).
+inline constexpr std::size_t kMostHeldRows = 128;
+
+/// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of heat_options.h.
+class HeatStep {
+ public:
+  /// What diffuse() gives.
+  struct Answer {
+    HeatField field;
+    std::vector<double> residual;  ///< |M u - b| / |b| of each column; empty unless asked for
+    std::vector<std::string> warnings;
+  };
+
+  /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it
+  /// has them with this t and mass. Errors: the backend's.
+  static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
+                                                       double t, BoundaryRule boundary, Mass mass,
+                                                       bool iterative, const HeatStep* previous,
+                                                       int threads);
+
+  /// True when these sources change the matrix, so that they cannot share a block with others:
+  /// sources on a Dirichlet border, and u held on many vertices.
+  bool needs_own_system(const SourceAnchors& anchors, HeatMode mode) const;
+
+  /// u for every source set. Precondition: one set only, where it needs its own system.
+  /// Errors: the backend's.
+  Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
+                         bool residuals) const;
+
+  FactorStats stats() const;
+
+ private:
+  HeatStep() = default;
+  std::vector<Index> border_without(const SourceAnchors* anchors) const;
+  bool on_border(const SourceAnchors& anchors) const;
+  Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
+                            bool residuals) const;
+  /// The system of this rule for one source set, and its right side with held values in place.
+  Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
+                                                         const SourceAnchors& anchors,
+                                                         HeatMode mode, Block& b) const;
+  Result<void> hold_by_schur(const LinearSystem& system, std::span<const SourceAnchors> anchors,
+                             Block& b) const;
+  double held_value(const SourceAnchors::Anchor& anchor) const;
+
+  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const LinearSystem> neumann_, dirichlet_;  ///< those the rule needs
+  double t_ = 0;
+  Mass mass_ = Mass::kLumped;
+  BoundaryRule boundary_ = BoundaryRule::kNeumann;
+  bool iterative_ = false;
+  int threads_ = 1;
+};
+
+}  // namespace geotherm

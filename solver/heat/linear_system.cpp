@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/linear_system.h"
+
+#include <utility>
+
+namespace geotherm {
+
+Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
+    const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
+    double stiffness_factor, std::vector<Index> held, int threads, Mass mass) {
+  // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
+  // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
+  auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held, mass);
+  auto factor = analysis.factorize(factored, threads);
+  if (!factor) return factor.error();
+  std::shared_ptr<LinearSystem> out(new LinearSystem);
+  out->factor_ = std::move(*factor);
+  out->matrix_ = std::make_shared<const FemOperator>(std::move(mesh), mass_factor,
+                                                     stiffness_factor, std::move(held), mass);
+  return std::shared_ptr<const LinearSystem>(std::move(out));
+}
+
+Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support) const {
+  const std::span<const Index> held = matrix_->held();
+  bool zero = true;
+  for (const Index i : held) zero = zero && (x.row(i).array() == 0).all();
+  if (zero) return factor_->solve(x, support);
+
+  const auto n = static_cast<std::size_t>(matrix_->size());
+  std::vector<double> known(n), moved(n);
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    std::fill(known.begin(), known.end(), 0.0);
+    for (const Index i : held) known[i] = x(i, c);
+    matrix_->apply_free(known, moved);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!matrix_->is_held(static_cast<Index>(i))) x(static_cast<Eigen::Index>(i), c) -= moved[i];
+    }
+  }
+  return factor_->solve(x);
+}
+
+}  // namespace geotherm

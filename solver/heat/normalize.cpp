@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/normalize.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+/// Residuals above this are worth a word: backends reach 1e-9 and better.
+constexpr double kSuspiciousResidual = 1e-6;
+
+/// What must be added to phi on every component: 0 where no source is.
+std::vector<double> shifts(const Surface& surface, const Block& phi, Eigen::Index column,
+                           const SourceAnchors& anchors) {
+  const Components& components = surface.operators->components;
+  std::vector<double> sum(static_cast<std::size_t>(components.count), 0.0);
+  std::vector<Index> count(sum.size(), 0);
+  for (const auto& anchor : anchors.anchors) {
+    sum[components.of[anchor.row]] += anchor.offset - phi(anchor.row, column);
+    ++count[components.of[anchor.row]];
+  }
+  for (std::size_t c = 0; c < sum.size(); ++c) {
+    if (count[c] > 0) sum[c] /= count[c];
+  }
+  return sum;
+}
+
+}  // namespace
+
+Result<std::vector<double>> normalize(const Surface& surface, const Block& phi,
+                                      Eigen::Index column, const SourceAnchors& anchors,
+                                      ConstraintMode mode, DistanceResult& result) {
+  const Components& components = surface.operators->components;
+  std::vector<double> value(static_cast<std::size_t>(phi.rows()));
+  const bool pinned = mode == ConstraintMode::kPinSources;
+  const std::vector<double> shift =
+      pinned ? std::vector<double>(static_cast<std::size_t>(components.count), 0.0)
+             : shifts(surface, phi, column, anchors);
+  for (Eigen::Index i = 0; i < phi.rows(); ++i) {
+    value[i] = phi(i, column) + shift[components.of[i]];
+  }
+  for (const auto& anchor : anchors.anchors) {
+    if (pinned) value[anchor.row] = anchor.offset;  // held: what is left is the solve's round-off
+    result.quality.max_source_distance =
+        std::max(result.quality.max_source_distance,
+                 std::abs(value[anchor.row] - anchor.offset) * surface.intrinsic.unit);
+  }
+  std::vector<char> holds(static_cast<std::size_t>(components.count), 0);
+  for (const Index c : anchors.components) holds[c] = 1;
+  result.distances.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kUnreached);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!holds[components.of[i]]) continue;
+    if (!std::isfinite(value[i])) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "the distance of vertex " + std::to_string(surface.vertex_of_row[i]) +
+                       " is not finite; try another backend, a larger --time-factor or "
+                       "--laplacian intrinsic-delaunay"};
+    }
+    if (value[i] < 0) ++result.quality.clamped_vertices;
+    result.distances[surface.vertex_of_row[i]] =
+        std::max(value[i], 0.0) * surface.intrinsic.unit;
+  }
+  return value;
+}
+
+std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
+                                       Eigen::Index column) {
+  std::vector<double> out(static_cast<std::size_t>(surface.mesh->vertex_count()), 0.0);
+  const double largest = heat.u.col(column).cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
+    const bool far = !heat.level.empty() &&
+                     heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)] > 0;
+    if (!far && largest > 0) out[surface.vertex_of_row[i]] = heat.u(i, column) / largest;
+  }
+  return out;
+}
+
+void add_quality_warnings(DistanceResult& result) {
+  const Quality& q = result.quality;
+  if (q.zero_gradient_faces > 0) {
+    result.warnings.push_back("the heat has no direction on " +
+                              std::to_string(q.zero_gradient_faces) +
+                              " faces, distances there follow their surroundings; raise "
+                              "--time-factor");
+  }
+  for (const auto& [name, residual] :
+       {std::pair{"heat", q.heat_residual}, std::pair{"Poisson", q.poisson_residual}}) {
+    if (!(residual > kSuspiciousResidual)) continue;
+    result.warnings.push_back(std::string("the ") + name + " system was solved to a residual of " +
+                              std::to_string(residual) + " only");
+  }
+}
+
+}  // namespace geotherm

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "solver/heat/diffuse.h"
+#include "solver/heat/distance_result.h"
+#include "solver/heat/source_anchors.h"
+
+namespace geotherm {
+
+/// Makes distances of one column of phi. Under kPinSources the anchors have their value exactly;
+/// otherwise each component is shifted so that phi agrees with the anchors in the mean. Values
+/// below 0 become 0 and are counted. Fills `distances` (file order, model units, kUnreached
+/// elsewhere), `max_source_distance` and `clamped_vertices`; returns the shifted phi in elimination
+/// order and units of the intrinsic mesh. Errors: kNumericalFailure when a value is not finite.
+Result<std::vector<double>> normalize(const Surface& surface, const Block& phi,
+                                      Eigen::Index column, const SourceAnchors& anchors,
+                                      ConstraintMode mode, DistanceResult& result);
+
+/// u of one column, file order, scaled so that the largest value is 1; 0 where out of range.
+std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
+                                       Eigen::Index column);
+
+/// Appends what a person should know about these quality figures.
+void add_quality_warnings(DistanceResult& result);
+
+}  // namespace geotherm

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/poisson.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace geotherm {
+namespace {
+
+/// One held vertex a component: the last eliminated (the pivot that suffers least), the last of
+/// the file for the penalty mode, or the one asked for.
+Result<std::vector<Index>> choose_pins(const Surface& surface, const Constraint& constraint) {
+  const Components& components = surface.operators->components;
+  std::vector<Index> pins(static_cast<std::size_t>(components.count), kNoIndex);
+  const bool last_of_file = constraint.mode == ConstraintMode::kPenalty;
+  for (Index row = 0; row < surface.operators->size(); ++row) {
+    Index& pin = pins[components.of[row]];
+    if (pin == kNoIndex || !last_of_file ||
+        surface.vertex_of_row[row] > surface.vertex_of_row[pin]) {
+      pin = row;
+    }
+  }
+  if (constraint.mode == ConstraintMode::kPinVertex && constraint.pin_vertex != kNoIndex) {
+    const Index v = constraint.pin_vertex;
+    const Index count = surface.mesh->vertex_count();
+    if (v < 0 || v >= count || surface.row_of_vertex[v] == kNoIndex) {
+      return Error{ErrorCode::kBadInput, "vertex " + std::to_string(v) +
+                                             " cannot be pinned: it is not on the surface (0 to " +
+                                             std::to_string(count - 1) + ")"};
+    }
+    const Index row = surface.row_of_vertex[v];
+    pins[components.of[row]] = row;
+  }
+  return pins;
+}
+
+bool solves_singular(const Constraint& constraint, bool iterative) {
+  return iterative && constraint.mode != ConstraintMode::kPinVertex &&
+         constraint.mode != ConstraintMode::kPenalty;
+}
+
+/// Subtracts from every component of x the multiple of `direction` that makes its inner product
+/// with `weight` zero: x -= direction (weight' x) / (weight' direction).
+void remove(const Components& components, std::span<const double> direction,
+            std::span<const double> weight, Block& x) {
+  const auto at = [](std::span<const double> v, Eigen::Index i) { return v.empty() ? 1.0 : v[i]; };
+  Block sum = Block::Zero(components.count, x.cols());
+  std::vector<double> norm(static_cast<std::size_t>(components.count), 0.0);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    sum.row(components.of[i]) += at(weight, i) * x.row(i);
+    norm[components.of[i]] += at(weight, i) * at(direction, i);
+  }
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    x.row(i) -= at(direction, i) / norm[components.of[i]] * sum.row(components.of[i]);
+  }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
+    std::shared_ptr<const Surface> surface, const Constraint& constraint, bool iterative,
+    int threads) {
+  std::shared_ptr<PoissonSolver> out(new PoissonSolver);
+  std::vector<Index> pins;
+  auto chosen = choose_pins(*surface, constraint);
+  if (!chosen) return chosen.error();
+  if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
+  auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
+                                    std::move(pins), threads);
+  if (!system) return system.error();
+  out->system_ = std::move(*system);
+  out->surface_ = std::move(surface);
+  out->constraint_ = constraint;
+  out->iterative_ = iterative;
+  out->threads_ = threads;
+  return std::shared_ptr<const PoissonSolver>(std::move(out));
+}
+
+std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint) const {
+  const auto wanted = choose_pins(*surface_, constraint);
+  const auto held = system_->matrix().held();
+  if (!wanted) return nullptr;
+  const bool same = solves_singular(constraint, iterative_)
+                        ? held.empty()
+                        : std::equal(held.begin(), held.end(), wanted->begin(), wanted->end());
+  if (!same) return nullptr;
+  std::shared_ptr<PoissonSolver> out(new PoissonSolver(*this));
+  out->constraint_ = constraint;
+  return out;
+}
+
+Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b) const {
+  for (const Index pin : system_->matrix().held()) b.row(pin).setZero();
+  const auto solved = system_->factor().solve(b);
+  if (!solved) return solved.error();
+  return PoissonAnswer{std::move(b), solved->iterations};
+}
+
+Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors) const {
+  const Components& components = surface_->operators->components;
+  const std::span<const double> mass = surface_->operators->mass;
+  switch (constraint_.mode) {
+    case ConstraintMode::kPinSources: {
+      std::size_t most = 0;
+      for (const SourceAnchors& a : anchors) most = std::max(most, a.anchors.size());
+      return iterative_ || most > kMostSchurRows ? solve_held(b, anchors)
+                                                 : solve_schur(std::move(b), anchors);
+    }
+    case ConstraintMode::kPinVertex:
+      return solve_pinned(std::move(b));
+    case ConstraintMode::kPenalty: {
+      std::vector<Index> rows(system_->matrix().held().begin(), system_->matrix().held().end());
+      Block ends(static_cast<Eigen::Index>(rows.size()), b.cols());
+      for (std::size_t i = 0; i < rows.size(); ++i) ends.row(i) = b.row(rows[i]);
+      auto answer = solve_pinned(std::move(b));
+      if (!answer) return answer.error();
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        answer->phi.row(rows[i]) = ends.row(i) / constraint_.penalty;
+      }
+      return answer;
+    }
+    case ConstraintMode::kConserveEnergy: {
+      // [L a; a' 0] [phi; lambda] = [b; 0]: lambda = 1'b / 1'a takes the inconsistency along the
+      // masses, and phi is the pinned solution shifted to the mass-weighted mean 0.
+      remove(components, mass, {}, b);
+      auto answer = solve_pinned(std::move(b));
+      if (answer) remove(components, {}, mass, answer->phi);
+      return answer;
+    }
+    case ConstraintMode::kPseudoInverse: {
+      remove(components, {}, {}, b);
+      auto answer = solve_pinned(std::move(b));
+      if (answer) remove(components, {}, {}, answer->phi);
+      return answer;
+    }
+  }
+  return Error{ErrorCode::kBadInput, "unknown constraint mode"};
+}
+
+Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
+                                                std::span<const SourceAnchors> anchors) const {
+  const Components& components = surface_->operators->components;
+  PoissonAnswer answer{b, 0};
+  for (Eigen::Index c = 0; c < b.cols(); ++c) {
+    const SourceAnchors& a = anchors[static_cast<std::size_t>(c)];
+    std::vector<Index> held = a.rows();
+    for (const Index pin : system_->matrix().held()) {  // components without a source
+      if (!std::binary_search(a.components.begin(), a.components.end(), components.of[pin])) {
+        held.push_back(pin);
+      }
+    }
+    const auto system = LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0,
+                                            std::move(held), threads_);
+    if (!system) return system.error();
+    Block x = b.col(c);
+    for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
+    for (const auto& anchor : a.anchors) x(anchor.row, 0) = anchor.offset;
+    const auto solved = (*system)->solve(x);
+    if (!solved) return solved.error();
+    answer.phi.col(c) = x;
+    answer.iterations = std::max(answer.iterations, solved->iterations);
+  }
+  return answer;
+}
+
+/// phi = z + G_S lambda + c 1 on each component, z the pinned solution and G the pinned inverse:
+/// phi = g on the anchors and 1' lambda = 0 (so that the right side stays consistent) make a small
+/// dense system for lambda and c.
+Result<PoissonAnswer> PoissonSolver::solve_schur(Block b,
+                                                 std::span<const SourceAnchors> anchors) const {
+  const Components& components = surface_->operators->components;
+  auto answer = solve_pinned(std::move(b));
+  if (!answer) return answer.error();
+  Block& phi = answer->phi;
+  std::vector<Index> support;
+  Block correction;
+  Block shift = Block::Zero(components.count, phi.cols());
+  const auto is_pin = [this](Index row) { return system_->matrix().is_held(row); };
+  for (Eigen::Index c = 0; c < phi.cols(); ++c) {
+    const SourceAnchors& set = anchors[static_cast<std::size_t>(c)];
+    for (const Index component : set.components) {
+      std::vector<SourceAnchors::Anchor> here;
+      std::vector<Index> rows;
+      for (const auto& anchor : set.anchors) {
+        if (components.of[anchor.row] != component) continue;
+        here.push_back(anchor);
+        rows.push_back(anchor.row);
+      }
+      const auto k = static_cast<Eigen::Index>(rows.size());
+      if (k == 1) {
+        shift(component, c) = here[0].offset - phi(rows[0], c);
+        continue;
+      }
+      const auto entries = system_->factor().inverse_entries(rows);
+      if (!entries) return entries.error();
+      Eigen::MatrixXd bordered = Eigen::MatrixXd::Ones(k + 1, k + 1);
+      bordered(k, k) = 0;
+      bordered.topLeftCorner(k, k) = *entries;
+      Eigen::VectorXd right(k + 1);
+      right(k) = 0;
+      for (Eigen::Index i = 0; i < k; ++i) {
+        right(i) = here[i].offset - phi(rows[i], c);
+        if (!is_pin(rows[i])) continue;
+        bordered.row(i).head(k).setZero();  // the pinned inverse is 0 there
+        bordered.col(i).head(k).setZero();
+      }
+      const Eigen::VectorXd lambda = bordered.partialPivLu().solve(right);
+      shift(component, c) = lambda(k);
+      if (correction.size() == 0) correction = Block::Zero(phi.rows(), phi.cols());
+      for (Eigen::Index i = 0; i < k; ++i) {
+        if (is_pin(rows[i])) continue;
+        correction(rows[i], c) = lambda(i);
+        support.push_back(rows[i]);
+      }
+    }
+  }
+  if (!support.empty()) {
+    const auto solved = system_->factor().solve(correction, support);
+    if (!solved) return solved.error();
+    phi += correction;
+  }
+  for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) += shift.row(components.of[i]);
+  return answer;
+}
+
+}  // namespace geotherm

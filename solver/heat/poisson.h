@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/heat/linear_system.h"
+#include "solver/heat/source_anchors.h"
+
+namespace geotherm {
+
+/// Held vertices beyond this many are solved by a numeric factorisation of their own instead of a
+/// dense Schur complement on the shared factor.
+inline constexpr std::size_t kMostSchurRows = 128;
+
+/// What solving for phi did.
+struct PoissonAnswer {
+  Block phi;  ///< n x K, not normalised except under kPinSources (phi = offset on every anchor)
+  int iterations = 0;
+};
+
+/// L phi = b under a constraint mode: the transformations of operator, right side and answer that
+/// make the singular system solvable, whatever the backend. docs/numerics.md has the derivations.
+class PoissonSolver {
+ public:
+  /// One pinned factor serves all modes; iterative backends get the singular operator where the
+  /// mode allows it, since pinning hurts their convergence. Errors: the backend's; kBadInput when
+  /// the pin vertex does not exist.
+  static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Surface> surface,
+                                                            const Constraint& constraint,
+                                                            bool iterative, int threads);
+
+  /// The same system under another mode; null when the mode needs another factor.
+  std::shared_ptr<const PoissonSolver> with(const Constraint& constraint) const;
+
+  /// b: n x K, one anchor list a column.
+  Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors) const;
+
+  FactorStats stats() const { return system_->factor().stats(); }
+  const Constraint& constraint() const { return constraint_; }
+
+ private:
+  PoissonSolver() = default;
+  Result<PoissonAnswer> solve_pinned(Block b) const;
+  Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors) const;
+  Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors) const;
+
+  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const LinearSystem> system_;
+  Constraint constraint_;
+  bool iterative_ = false;
+  int threads_ = 1;
+};
+
+}  // namespace geotherm

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/heat/diffuse.h"
+#include "solver/heat/distance_result.h"
+#include "solver/heat/source_anchors.h"
+#include "solver/heat/unit_field.h"
+
+namespace geotherm {
+
+/// |M u - b| / |b| over free rows: how well the heat step was solved. Column c; unit 1.
+double heat_residual(const FemOperator& matrix, const HeatField& heat, const Block& b,
+                     Eigen::Index column);
+
+/// |L phi - b| / |b| over the rows that are not anchors; `phi` in elimination order, any shift.
+double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
+                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors);
+
+/// What the faces say: mean of | |grad phi| - 1 | by area, and lost gradients of u, over the
+/// components that hold a source. `phi` in units of the intrinsic mesh.
+void inspect_faces(const OperatorMesh& mesh, const UnitField& field, std::span<const double> phi,
+                   Eigen::Index column, const SourceAnchors& anchors, Quality& quality);
+
+}  // namespace geotherm

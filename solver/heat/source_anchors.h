@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "solver/heat/surface.h"
+#include "solver/mesh/surface_point.h"
+
+namespace geotherm {
+
+/// What a source set means for the vertices around it. Numbers of rows and faces are those of
+/// Surface::operators, lengths in units of the intrinsic mesh.
+struct SourceAnchors {
+  struct Anchor {
+    Index row;
+    double offset;  ///< distance to the source through the face that holds it; 0 on a source
+    double heat;    ///< share of a unit of heat (barycentric; 1 for a source at the vertex)
+  };
+  /// A face at a source, where the direction of u's gradient says little and the distance is known.
+  struct NearFace {
+    Index face;
+    std::array<double, 2> field;  ///< gradient of the interpolated straight distance
+  };
+
+  std::vector<Anchor> anchors;        ///< ascending rows, each once
+  std::vector<NearFace> near_faces;   ///< each face once
+  std::vector<Index> components;      ///< that hold a source, ascending
+
+  std::vector<Index> rows() const;
+};
+
+/// Errors (kBadInput): no source, a number out of range, bad weights, a vertex in no face.
+Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);
+
+}  // namespace geotherm

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/surface.h"
+
+#include <algorithm>
+
+#include "solver/core/stopwatch.h"
+
+namespace geotherm {
+namespace {
+
+/// Numbers the vertices that faces use; `vertices` lists them.
+std::vector<Index> number_used(Index vertex_count, const std::vector<Face>& faces,
+                               std::vector<Index>& vertices) {
+  std::vector<Index> local(static_cast<std::size_t>(vertex_count), kNoIndex);
+  for (const Face& face : faces) {
+    for (const Index corner : face) local[corner] = 0;
+  }
+  for (Index v = 0; v < vertex_count; ++v) {
+    if (local[v] == kNoIndex) continue;
+    local[v] = static_cast<Index>(vertices.size());
+    vertices.push_back(v);
+  }
+  return local;
+}
+
+void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
+                   std::vector<std::string>& warnings) {
+  if (clean.repeated_corner > 0) {
+    warnings.push_back(std::to_string(clean.repeated_corner) +
+                       " faces repeat a corner and were left out");
+  }
+  if (clean.duplicate > 0) {
+    warnings.push_back(std::to_string(clean.duplicate) + " duplicate faces were left out");
+  }
+  if (intrinsic.mollified_by > 0) {
+    warnings.push_back("degenerate or nearly degenerate faces: every edge was lengthened by " +
+                       std::to_string(intrinsic.mollified_by) + " mean edge lengths");
+  }
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
+                                                     const Backend& backend,
+                                                     LaplacianKind laplacian, int threads) {
+  Stopwatch watch;
+  auto out = std::make_shared<Surface>();
+  out->mesh = std::move(mesh);
+  CleanFaces clean = clean_faces(*out->mesh);
+  const auto positions = out->mesh->positions();
+  out->mean_edge = mean_edge_length(positions, clean.edges);
+  if (clean.faces.empty() || !(out->mean_edge > 0)) {
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has no face with area (" + std::to_string(out->mesh->face_count()) +
+                     " faces, " + std::to_string(clean.repeated_corner) +
+                     " repeat a corner, mean edge length " + std::to_string(out->mean_edge) +
+                     "); check how it was exported"};
+  }
+  out->intrinsic = build_intrinsic_mesh(positions, clean, out->mean_edge);
+  note_cleaning(clean, out->intrinsic, out->warnings);
+
+  if (laplacian == LaplacianKind::kTufted) {
+    return Error{ErrorCode::kNotAvailable,
+                 "--laplacian tufted is not available in this version; use auto, which flips every "
+                 "edge that has two faces"};
+  }
+  const bool flip = laplacian == LaplacianKind::kIntrinsicDelaunay ||
+                    (laplacian == LaplacianKind::kAuto && count_non_delaunay(out->intrinsic) > 0);
+  out->laplacian = flip ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
+  if (flip) out->flips = flip_to_delaunay(out->intrinsic);
+
+  std::vector<Index> used;
+  const std::vector<Index> local = number_used(out->mesh->vertex_count(), clean.faces, used);
+  const SymmetricPattern pattern =
+      pattern_of_faces(static_cast<Index>(used.size()), [&] {
+        std::vector<Face> faces = out->intrinsic.faces;
+        for (Face& face : faces) {
+          for (Index& corner : face) corner = local[corner];
+        }
+        return faces;
+      }());
+  std::vector<Vec3> used_positions(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i) used_positions[i] = positions[used[i]];
+  out->operators_ms = watch.lap();
+
+  auto analysis = backend.analyze(pattern, used_positions, threads);
+  if (!analysis) return analysis.error();
+  out->analysis = std::move(*analysis);
+  out->analyze_ms = watch.lap();
+
+  const std::span<const Index> order = out->analysis->order();
+  out->operators = build_operator_mesh(out->intrinsic, pattern, local, order);
+  out->vertex_of_row.resize(used.size());
+  out->row_of_vertex.assign(local.size(), kNoIndex);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    out->vertex_of_row[k] = used[order[k]];
+    out->row_of_vertex[used[order[k]]] = static_cast<Index>(k);
+  }
+  out->on_boundary.assign(used.size(), 0);
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    if (clean.edges.sides(e).size() != 1) continue;
+    out->on_boundary[out->row_of_vertex[clean.edges.low(e)]] = 1;
+    out->on_boundary[out->row_of_vertex[clean.edges.high(e)]] = 1;
+  }
+  double area = 0;
+  for (const double mass : out->operators->mass) area += mass;
+  out->area = area * out->mean_edge * out->mean_edge;
+  if (!(out->area > 0)) {
+    return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};
+  }
+  out->clean_of_face.assign(static_cast<std::size_t>(out->mesh->face_count()), kNoIndex);
+  for (std::size_t c = 0; c < clean.original.size(); ++c) {
+    out->clean_of_face[clean.original[c]] = static_cast<Index>(c);
+  }
+  out->clean_faces = std::move(clean.faces);
+  out->operators_ms += watch.lap();
+  return std::shared_ptr<const Surface>(std::move(out));
+}
+
+}  // namespace geotherm

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/geometry/delaunay.h"
+#include "solver/heat/heat_options.h"
+#include "solver/linear/backend.h"
+#include "solver/geometry/operator_mesh.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a
+/// backend and renumbered into its elimination order. Immutable; shared by every HeatMethod of the
+/// same mesh, backend and Laplacian.
+struct Surface {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<Face> clean_faces;       ///< before flips, as CleanFaces
+  std::vector<Index> clean_of_face;    ///< F of the mesh: number in clean_faces, or kNoIndex
+  IntrinsicMesh intrinsic;             ///< after flips
+  std::vector<Flip> flips;
+  LaplacianKind laplacian = LaplacianKind::kCotan;
+
+  std::vector<Index> row_of_vertex;    ///< V: elimination number, kNoIndex when in no face
+  std::vector<Index> vertex_of_row;    ///< n
+  std::vector<char> on_boundary;       ///< n: the vertex is an end of an edge with one face
+  std::shared_ptr<const Analysis> analysis;
+  std::shared_ptr<const OperatorMesh> operators;
+
+  double mean_edge = 0;  ///< of the mesh, model units; also the unit of `intrinsic`
+  double area = 0;       ///< total, model units squared
+  double operators_ms = 0, analyze_ms = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Errors: kBadInput (no face with area), and the backend's.
+Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
+                                                     const Backend& backend,
+                                                     LaplacianKind laplacian, int threads);
+
+}  // namespace geotherm

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/unit_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+using Field = std::array<double, 2>;
+
+/// Squared norms between these can be neither underflowing nor overflowing.
+constexpr double kSafeLow = 1e-280;
+constexpr double kSafeHigh = 1e280;
+
+/// Where sqrt(t) |grad log u| is above this share of what one front gives on this mesh, there is
+/// one front: the rest is the scatter of the discretisation, some 5 %.
+constexpr double kFront = 0.95;
+
+/// The unit vector against the gradient whose values at the corners are these, however small.
+Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
+  Field g = gradient(p, u0, u1, u2);
+  double square = g[0] * g[0] + g[1] * g[1];
+  if (!(square > kSafeLow && square < kSafeHigh)) {
+    const double largest = std::max(std::abs(u1 - u0), std::abs(u2 - u0));
+    if (!(largest > 0) || !std::isfinite(largest)) return {0, 0};
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    g = gradient(p, 0.0, std::ldexp(u1 - u0, -exponent), std::ldexp(u2 - u0, -exponent));
+    square = g[0] * g[0] + g[1] * g[1];
+    if (!(square > 0)) return {0, 0};
+  }
+  const double scale = -1 / std::sqrt(square);
+  return {g[0] * scale, g[1] * scale};
+}
+
+/// sqrt(t) |grad log u| of one plane front on a mesh whose extent along it is `extent`: u falls by
+/// the solution of 2 cosh x = 2 + extent^2 / t from one vertex to the next.
+double front_slope(double extent, double root_t) {
+  const double x = extent / (2 * root_t);
+  return x > 1e-3 ? std::asinh(x) / x : 1.0;
+}
+
+void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block& b,
+                    Eigen::Index column) {
+  const auto d = divergence(p, x[0], x[1]);
+  for (int k = 0; k < 3; ++k) b(face[k], column) += d[k];
+}
+
+}  // namespace
+
+UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t)
+    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)) {
+  if (t <= 0 && heat.level.empty()) return;
+  log_u_.resize(heat.u.rows(), heat.u.cols());
+  for (Eigen::Index e = 0; e < heat.u.size(); ++e) log_u_.data()[e] = std::log(heat.u.data()[e]);
+  if (heat.level.empty()) return;
+  const double step = std::log(heat.step);
+  for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
+    log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+  }
+}
+
+double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index column) const {
+  if (!(root_t_ > 0)) return 1;
+  const Field g = gradient(p, log_u_(face[0], column), log_u_(face[1], column),
+                           log_u_(face[2], column));
+  const double norm = std::sqrt(g[0] * g[0] + g[1] * g[1]);
+  const double slope = root_t_ * norm;
+  if (!(slope < kFront) || !(norm > 0)) return 1;  // one front, or no logarithm (u <= 0)
+  const double along1 = p.base * g[0] / norm;
+  const double along2 = (p.x * g[0] + p.height * g[1]) / norm;
+  const double extent = std::max({0.0, along1, along2}) - std::min({0.0, along1, along2});
+  return std::min(1.0, slope / (kFront * front_slope(extent, root_t_)));
+}
+
+Field UnitField::of_face(Index f, Eigen::Index column) const {
+  const Face& face = mesh_.faces[f];
+  std::array<double, 3> u{};
+  for (int k = 0; k < 3; ++k) u[k] = heat_.u(face[k], column);
+  if (!heat_.level.empty()) {  // to one exponent: the largest value's
+    std::array<double, 3> log_u{};
+    for (int k = 0; k < 3; ++k) log_u[k] = log_u_(face[k], column);
+    const double top = *std::max_element(log_u.begin(), log_u.end());
+    for (int k = 0; k < 3; ++k) u[k] = std::exp(log_u[k] - top);
+  }
+  const FaceLayout& p = mesh_.layout[f];
+  const Field x = against_gradient(p, u[0], u[1], u[2]);
+  const double size = length(p, face, column);
+  return {x[0] * size, x[1] * size};
+}
+
+Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
+  const Eigen::Index columns = heat_.u.cols();
+  Block b = Block::Zero(heat_.u.rows(), columns);
+  for (Index f = 0; f < mesh_.face_count(); ++f) {
+    for (Eigen::Index c = 0; c < columns; ++c) {
+      add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
+    }
+  }
+  if (!(root_t_ > 0)) return b;
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {
+      const Field x = of_face(near.face, c);
+      add_divergence(mesh_.faces[near.face], mesh_.layout[near.face],
+                     {near.field[0] - x[0], near.field[1] - x[1]}, b, c);
+    }
+  }
+  return b;
+}
+
+}  // namespace geotherm

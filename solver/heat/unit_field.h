@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "solver/heat/diffuse.h"
+#include "solver/heat/source_anchors.h"
+
+namespace geotherm {
+
+/// X = -grad u / |grad u| on every face, for K source sets.
+///
+/// Where two fronts meet, distance has a crease and u blends both sides: the mean of the two unit
+/// vectors is shorter than 1, and stretching it to 1 makes distances too long. There sqrt(t) |grad
+/// log u|, which is 1 along a single front and falls to the cosine of the fronts' half angle at the
+/// crease, says how long X is: where it is below kFront of what the mesh resolves, X is shortened
+/// in proportion (t > 0; t = 0 keeps |X| = 1, as published).
+class UnitField {
+ public:
+  /// `t` in units of the intrinsic mesh squared, or 0. Keeps references. Cost: a logarithm a row.
+  UnitField(const OperatorMesh& mesh, const HeatField& heat, double t);
+
+  /// X of one face in its own plane: (0, 0) where the gradient is zero or not finite.
+  std::array<double, 2> of_face(Index face, Eigen::Index column) const;
+
+  /// b, n x K: the integral of X against the gradient of every vertex's hat function, so that
+  /// L phi = b makes grad phi closest to X. With t > 0, faces at a source take the gradient of the
+  /// straight distance instead. Cost: one pass over the faces, nothing stored.
+  Block divergence(std::span<const SourceAnchors> anchors) const;
+
+ private:
+  double length(const FaceLayout& layout, const Face& face, Eigen::Index column) const;
+
+  const OperatorMesh& mesh_;
+  const HeatField& heat_;
+  double root_t_;
+  Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
+};
+
+}  // namespace geotherm

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/linear/backend.h"
+
+namespace geotherm {
+
+/// Supernodal or simplicial Cholesky of SuiteSparse (Chen, Davis, Hager, Rajamanickam 2008).
+/// Only in builds with GEOTHERM_WITH_CHOLMOD.
+const Backend* cholmod_backend();
+
+/// Simplicial LDL^T of Eigen: no dependency beyond Eigen.
+const Backend* eigen_ldlt_backend();
+
+/// Conjugate gradients with a diagonal preconditioner; never forms a matrix (Hestenes, Stiefel
+/// 1952).
+const Backend* cg_backend();
+
+}  // namespace geotherm

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "solver/linear/backends.h"
+
+namespace geotherm {
+namespace {
+
+/// Relative residual, in the norm of the diagonal preconditioner, at which a column is solved.
+constexpr double kTolerance = 1e-13;
+/// Iterations allowed: conjugate gradients need about the square root of the condition number,
+/// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
+constexpr double kBudgetPerRoot = 20;
+constexpr int kBudgetAtLeast = 2000;
+
+/// Removes from x its mean on every component of the kernel.
+void project(const Kernel& kernel, std::span<double> x) {
+  if (kernel.empty()) return;
+  std::vector<double> sum(static_cast<std::size_t>(kernel.count), 0.0);
+  std::vector<Index> count(static_cast<std::size_t>(kernel.count), 0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum[kernel.component[i]] += x[i];
+    ++count[kernel.component[i]];
+  }
+  for (Index c = 0; c < kernel.count; ++c) sum[c] /= count[c];
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= sum[kernel.component[i]];
+}
+
+class ConjugateGradient final : public Factorization {
+ public:
+  explicit ConjugateGradient(std::shared_ptr<const SymmetricOperator> matrix)
+      : matrix_(std::move(matrix)) {}
+
+  Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/) const override {
+    SolveReport report;
+    std::vector<double> column(static_cast<std::size_t>(size()));
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      for (Index i = 0; i < size(); ++i) column[i] = x(i, c);
+      const auto solved = solve_one(column);
+      if (!solved) return solved.error();
+      for (Index i = 0; i < size(); ++i) x(i, c) = column[i];
+      report.iterations = std::max(report.iterations, solved->iterations);
+      report.residual = std::max(report.residual, solved->residual);
+    }
+    return report;
+  }
+
+  FactorStats stats() const override { return {}; }
+  Index size() const override { return matrix_->size(); }
+
+ private:
+  /// Solves for one right side, in place. The preconditioner is the diagonal; the norm that is
+  /// watched is that of the preconditioned residual, which is scaled like the unknowns.
+  Result<SolveReport> solve_one(std::vector<double>& b) const {
+    const auto n = static_cast<std::size_t>(size());
+    const std::span<const double> diagonal = matrix_->diagonal();
+    const Kernel kernel = matrix_->kernel();
+    project(kernel, b);
+    std::vector<double> r = b, z(n), p(n), q(n), x(n, 0.0);
+    const auto precondition = [&] {
+      for (std::size_t i = 0; i < n; ++i) z[i] = r[i] / diagonal[i];
+      project(kernel, z);
+    };
+    precondition();
+    p = z;
+    double rho = std::inner_product(r.begin(), r.end(), z.begin(), 0.0);
+    const double start = rho;
+    const int budget =
+        kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
+    SolveReport report;
+    while (rho > kTolerance * kTolerance * start) {
+      if (report.iterations == budget) {
+        return Error{ErrorCode::kBudgetEnded,
+                     "cg: the budget of " + std::to_string(budget) +
+                         " iterations ended at a relative residual of " +
+                         std::to_string(std::sqrt(rho / start)) +
+                         "; try --backend cholmod or eigen-ldlt"};
+      }
+      ++report.iterations;
+      matrix_->apply(p, q);
+      const double curvature = std::inner_product(p.begin(), p.end(), q.begin(), 0.0);
+      if (!(curvature > 0)) {
+        return Error{ErrorCode::kNumericalFailure,
+                     "cg: the matrix is not positive definite (curvature " +
+                         std::to_string(curvature) + " in iteration " +
+                         std::to_string(report.iterations) +
+                         "); try --laplacian intrinsic-delaunay"};
+      }
+      const double step = rho / curvature;
+      for (std::size_t i = 0; i < n; ++i) {
+        x[i] += step * p[i];
+        r[i] -= step * q[i];
+      }
+      precondition();
+      const double next = std::inner_product(r.begin(), r.end(), z.begin(), 0.0);
+      const double beta = next / rho;
+      for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
+      rho = next;
+    }
+    report.residual = start > 0 ? std::sqrt(rho / start) : 0.0;
+    b = std::move(x);
+    return report;
+  }
+
+  std::shared_ptr<const SymmetricOperator> matrix_;
+};
+
+class CgAnalysis final : public Analysis {
+ public:
+  explicit CgAnalysis(const SymmetricPattern& pattern)
+      : order_(static_cast<std::size_t>(pattern.size())), pattern_(pattern_hash(pattern)) {
+    std::iota(order_.begin(), order_.end(), 0);
+  }
+
+  std::span<const Index> order() const override { return order_; }
+
+  Result<std::unique_ptr<Factorization>> factorize(
+      std::shared_ptr<const SymmetricOperator> matrix, int /*threads*/) const override {
+    if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
+        !same) {
+      return same.error();
+    }
+    return std::unique_ptr<Factorization>(std::make_unique<ConjugateGradient>(std::move(matrix)));
+  }
+
+ private:
+  std::vector<Index> order_;
+  std::uint64_t pattern_;
+};
+
+class CgBackend final : public Backend {
+ public:
+  std::string_view name() const override { return "cg"; }
+  std::string_view description() const override {
+    return "conjugate gradients, matrix-free: least memory, slow queries, for comparison";
+  }
+  bool iterative() const override { return true; }
+
+  Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                  std::span<const Vec3> /*positions*/,
+                                                  int /*threads*/) const override {
+    return std::shared_ptr<const Analysis>(std::make_shared<CgAnalysis>(pattern));
+  }
+};
+
+}  // namespace
+
+const Backend* cg_backend() {
+  static const CgBackend kBackend;
+  return &kBackend;
+}
+
+}  // namespace geotherm

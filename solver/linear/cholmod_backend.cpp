@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include <new>
+#include <string>
+#include <utility>
+
+#include "solver/linear/backends.h"
+#include "solver/linear/blas_threads.h"
+#include "solver/linear/cholmod_api.h"
+#include "solver/linear/column_factor.h"
+#include "solver/linear/fill_order.h"
+#include "solver/linear/supernodal_factor.h"
+
+namespace geotherm {
+namespace {
+
+/// CHOLMOD goes supernodal from this many floating-point operations per entry of the factor.
+/// Measured (docs/performance.md): below, the panels are too small to pay for the dense kernels.
+constexpr double kSupernodalSwitch = 40;
+
+/// A view of a lower triangle for CHOLMOD, with the index type of the chosen family.
+template <class Int>
+class CholmodMatrix {
+ public:
+  CholmodMatrix(const std::vector<std::int64_t>& start, const std::vector<Index>& row,
+                const double* value)
+      : start_(start.begin(), start.end()) {
+    if constexpr (!std::is_same_v<Int, Index>) wide_row_.assign(row.begin(), row.end());
+    view_.nrow = view_.ncol = start.size() - 1;
+    view_.nzmax = row.size();
+    view_.p = start_.data();
+    if constexpr (std::is_same_v<Int, Index>) {
+      view_.i = const_cast<Index*>(row.data());  // CHOLMOD does not write to its input
+    } else {
+      view_.i = wide_row_.data();
+    }
+    view_.x = const_cast<double*>(value);
+    view_.stype = -1;
+    view_.itype = CholmodApi<Int>::kType;
+    view_.xtype = value != nullptr ? CHOLMOD_REAL : CHOLMOD_PATTERN;
+    view_.dtype = CHOLMOD_DOUBLE;
+    view_.sorted = view_.packed = 1;
+  }
+  cholmod_sparse* get() { return &view_; }
+
+ private:
+  std::vector<Int> start_, wide_row_;
+  cholmod_sparse view_{};
+};
+
+template <class Int>
+std::shared_ptr<const SupernodalStructure> supernodal_structure(const cholmod_factor& factor) {
+  const auto* super = static_cast<const Int*>(factor.super);
+  const auto* row_start = static_cast<const Int*>(factor.pi);
+  const auto* value_start = static_cast<const Int*>(factor.px);
+  const auto* row = static_cast<const Int*>(factor.s);
+  auto out = std::make_shared<SupernodalStructure>();
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const Int width = super[s + 1] - super[s];
+    for (Int r = row_start[s] + width; r < row_start[s + 1]; ++r) {
+      out->rows.push_back(static_cast<Index>(row[r]));
+    }
+    const Int height = row_start[s + 1] - row_start[s];
+    out->first.push_back(static_cast<Index>(super[s + 1]));
+    out->row_start.push_back(static_cast<std::int64_t>(out->rows.size()));
+    out->value_start.push_back(static_cast<std::int64_t>(value_start[s]) +
+                               static_cast<std::int64_t>(width) * height);
+  }
+  out->finish();
+  return out;
+}
+
+template <class Int>
+ColumnFactorData column_data(const cholmod_factor& factor) {
+  const auto* start = static_cast<const Int*>(factor.p);
+  const auto* row = static_cast<const Int*>(factor.i);
+  const auto* count = static_cast<const Int*>(factor.nz);
+  const auto* value = static_cast<const double*>(factor.x);
+  ColumnFactorData out;
+  out.start.reserve(factor.n + 1);
+  out.inverse_pivot.reserve(factor.n);
+  std::size_t entries = 0;
+  for (std::size_t j = 0; j < factor.n; ++j) entries += static_cast<std::size_t>(count[j]) - 1;
+  out.row.reserve(entries);
+  out.value.reserve(entries);
+  for (std::size_t j = 0; j < factor.n; ++j) {
+    out.inverse_pivot.push_back(1 / value[start[j]]);
+    for (Int e = start[j] + 1; e < start[j] + count[j]; ++e) {
+      out.row.push_back(static_cast<Index>(row[e]));
+      out.value.push_back(value[e]);
+    }
+    out.start.push_back(static_cast<std::int64_t>(out.row.size()));
+  }
+  return out;
+}
+
+Error out_of_memory(const char* stage, Index size) {
+  return {ErrorCode::kOutOfMemory, std::string("cholmod ran out of memory in the ") + stage +
+                                       " of a matrix of size " + std::to_string(size) +
+                                       "; try --backend cg, which needs no factor"};
+}
+
+template <class Int>
+class CholmodAnalysis final : public Analysis {
+ public:
+  /// `pattern_` must be set by analyze() below before use.
+  CholmodAnalysis(std::unique_ptr<CholmodFactor<Int>> symbolic, std::uint64_t pattern,
+                  std::vector<Index> order)
+      : symbolic_(std::move(symbolic)), pattern_(pattern), order_(std::move(order)) {
+    if (symbolic_->factor->is_super) {
+      structure_ = supernodal_structure<Int>(*symbolic_->factor);
+    }
+  }
+
+  std::span<const Index> order() const override { return order_; }
+
+  Result<std::unique_ptr<Factorization>> factorize(
+      std::shared_ptr<const SymmetricOperator> matrix, int threads) const override {
+    if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
+        !same) {
+      return same.error();
+    }
+    const BlasThreads blas(threads);
+    const LowerMatrix& lower = matrix->assembled();
+    CholmodMatrix<Int> input(lower.start, lower.row, lower.value.data());
+    auto numeric = std::make_shared<CholmodFactor<Int>>();
+    numeric->factor = CholmodApi<Int>::copy(symbolic_->factor, &numeric->common);
+    if (numeric->factor == nullptr) return out_of_memory("factorisation", matrix->size());
+    CholmodApi<Int>::factorize(input.get(), numeric->factor, &numeric->common);
+    const int status = numeric->common.status;
+    if (status == CHOLMOD_OUT_OF_MEMORY) return out_of_memory("factorisation", matrix->size());
+    if (status < CHOLMOD_OK || numeric->factor->minor < numeric->factor->n) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "cholmod: the matrix is not positive definite (pivot of column " +
+                       std::to_string(numeric->factor->minor) + " of " +
+                       std::to_string(numeric->factor->n) +
+                       ", status " + std::to_string(status) +
+                       "); try --laplacian intrinsic-delaunay or another backend"};
+    }
+    if (!structure_) {
+      return make_direct_factorization(make_column_factor(column_data<Int>(*numeric->factor)));
+    }
+    const auto* values = static_cast<const double*>(numeric->factor->x);
+    return make_direct_factorization(make_supernodal_factor(structure_, values, numeric));
+  }
+
+ private:
+  std::unique_ptr<CholmodFactor<Int>> symbolic_;
+  std::uint64_t pattern_;
+  std::vector<Index> order_;
+  std::shared_ptr<const SupernodalStructure> structure_;
+};
+
+/// The analysis, or null when these indices are too narrow for the factor.
+template <class Int>
+Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                const std::vector<Index>& order) {
+  std::vector<std::int64_t> start = {0};
+  std::vector<Index> row;
+  start.reserve(pattern.start.size());
+  row.reserve(pattern.neighbor.size() / 2 + static_cast<std::size_t>(pattern.size()));
+  for (Index j = 0; j < pattern.size(); ++j) {
+    row.push_back(j);
+    for (const Index i : pattern.neighbors(j)) {
+      if (i > j) row.push_back(i);
+    }
+    start.push_back(static_cast<std::int64_t>(row.size()));
+  }
+  CholmodMatrix<Int> input(start, row, nullptr);
+  auto symbolic = std::make_unique<CholmodFactor<Int>>();
+  symbolic->common.supernodal = CHOLMOD_AUTO;
+  symbolic->common.supernodal_switch = kSupernodalSwitch;
+  std::vector<Int> given(order.begin(), order.end());
+  symbolic->factor =
+      CholmodApi<Int>::analyze(input.get(), given.data(), nullptr, 0, &symbolic->common);
+  if (symbolic->common.status == CHOLMOD_TOO_LARGE) return std::shared_ptr<const Analysis>();
+  if (symbolic->factor == nullptr) return out_of_memory("analysis", pattern.size());
+
+  // From here on matrices come in elimination order: tell CHOLMOD that nothing is permuted.
+  auto* permutation = static_cast<Int*>(symbolic->factor->Perm);
+  std::vector<Index> final_order(permutation, permutation + symbolic->factor->n);
+  for (std::size_t k = 0; k < symbolic->factor->n; ++k) permutation[k] = static_cast<Int>(k);
+  symbolic->factor->ordering = CHOLMOD_NATURAL;
+  const std::uint64_t hash = pattern_hash(permuted(pattern, final_order));
+  return std::shared_ptr<const Analysis>(std::make_shared<CholmodAnalysis<Int>>(
+      std::move(symbolic), hash, std::move(final_order)));
+}
+
+class CholmodBackend final : public Backend {
+ public:
+  std::string_view name() const override { return "cholmod"; }
+  std::string_view description() const override {
+    return "sparse Cholesky of SuiteSparse, supernodal on large meshes";
+  }
+
+  Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                  std::span<const Vec3> positions,
+                                                  int threads) const override {
+    const std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
+    auto narrow = geotherm::analyze<int>(pattern, order);
+    if (!narrow || *narrow) return narrow;
+    return geotherm::analyze<SuiteSparse_long>(pattern, order);
+  }
+};
+
+}  // namespace
+
+const Backend* cholmod_backend() {
+  static const CholmodBackend kBackend;
+  return &kBackend;
+}
+
+}  // namespace geotherm

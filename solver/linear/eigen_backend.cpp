@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <string>
+
+#include "solver/linear/backends.h"
+#include "solver/linear/column_factor.h"
+#include "solver/linear/fill_order.h"
+
+namespace geotherm {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+/// Eigen's LDL^T with its analysis kept apart from its numbers. The ordering is ours and already
+/// applied, so that Eigen's own (most of its analysis) is the natural one.
+class EigenAnalysis final : public Analysis {
+ public:
+  EigenAnalysis(std::vector<Index> order, std::uint64_t pattern)
+      : order_(std::move(order)), pattern_(pattern) {}
+
+  std::span<const Index> order() const override { return order_; }
+
+  Result<std::unique_ptr<Factorization>> factorize(
+      std::shared_ptr<const SymmetricOperator> matrix, int /*threads*/) const override {
+    if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
+        !same) {
+      return same.error();
+    }
+    const LowerMatrix& lower = matrix->assembled();
+    const std::vector<int> start(lower.start.begin(), lower.start.end());
+    const Eigen::Map<const Matrix> view(lower.size(), lower.size(),
+                                        static_cast<Eigen::Index>(lower.row.size()), start.data(),
+                                        lower.row.data(), lower.value.data());
+    Ldlt ldlt;
+    try {
+      ldlt.compute(view);
+    } catch (const std::bad_alloc&) {
+      return Error{ErrorCode::kOutOfMemory,
+                   "eigen-ldlt ran out of memory on a matrix of size " +
+                       std::to_string(matrix->size()) + "; try --backend cg"};
+    }
+    const auto pivots = ldlt.vectorD();
+    for (Index j = 0; j < lower.size(); ++j) {
+      if (ldlt.info() == Eigen::Success && pivots[j] > 0) continue;
+      return Error{ErrorCode::kNumericalFailure,
+                   "eigen-ldlt: the matrix is not positive definite (pivot " +
+                       std::to_string(pivots[j]) + " in column " + std::to_string(j) + " of " +
+                       std::to_string(lower.size()) +
+                       "); try --laplacian intrinsic-delaunay or another backend"};
+    }
+    const Matrix& factor = ldlt.matrixL().nestedExpression();
+    ColumnFactorData data;
+    data.start.assign(factor.outerIndexPtr(), factor.outerIndexPtr() + lower.size() + 1);
+    data.row.assign(factor.innerIndexPtr(), factor.innerIndexPtr() + data.start.back());
+    data.value.assign(factor.valuePtr(), factor.valuePtr() + data.start.back());
+    data.inverse_pivot.resize(static_cast<std::size_t>(lower.size()));
+    for (Index j = 0; j < lower.size(); ++j) data.inverse_pivot[j] = 1 / pivots[j];
+    return make_direct_factorization(make_column_factor(std::move(data)));
+  }
+
+ private:
+  std::vector<Index> order_;
+  std::uint64_t pattern_;
+};
+
+class EigenBackend final : public Backend {
+ public:
+  std::string_view name() const override { return "eigen-ldlt"; }
+  std::string_view description() const override { return "sparse LDL^T of Eigen, simplicial"; }
+
+  Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                  std::span<const Vec3> positions,
+                                                  int threads) const override {
+    std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
+    const std::uint64_t hash = pattern_hash(permuted(pattern, order));
+    return std::shared_ptr<const Analysis>(
+        std::make_shared<EigenAnalysis>(std::move(order), hash));
+  }
+};
+
+}  // namespace
+
+const Backend* eigen_ldlt_backend() {
+  static const EigenBackend kBackend;
+  return &kBackend;
+}
+
+}  // namespace geotherm

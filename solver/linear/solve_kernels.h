@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "solver/core/types.h"
+
+namespace geotherm {
+
+/// One supernode of a factor L: `width` columns that share their rows. Column c holds the rows
+/// from the diagonal down, at values[c * height + r]; the first `width` rows are the columns'
+/// own, the others are listed in `rows`.
+struct Panel {
+  Index first;         ///< its first column
+  Index width;
+  Index height;        ///< width + rows below
+  const Index* rows;   ///< height - width row numbers
+  const double* values;
+};
+
+/// One column of a unit lower triangular factor with a diagonal, M = L D L^T.
+struct Column {
+  Index index;
+  Index count;         ///< entries below the diagonal
+  const Index* rows;
+  const double* values;
+  double inverse_pivot;
+};
+
+/// The four inner loops of triangular solves for one group of right sides: x has `stride` doubles
+/// a row. `scratch` holds height * group doubles.
+struct SolveKernels {
+  void (*panel_forward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
+  void (*panel_backward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
+  void (*column_forward)(const Column&, double* x, std::ptrdiff_t stride);
+  void (*column_backward)(const Column&, double* x, std::ptrdiff_t stride);
+};
+
+/// An instruction set the kernels are compiled for; all give the same answer to round-off.
+enum class InstructionSet { kPlain, kAvx2, kAvx512 };
+
+/// The best one this processor has.
+InstructionSet best_instruction_set();
+
+/// Kernels for a group of 1, 2, 4, 8 or 16 right sides. Asking for a set that this build or
+/// processor lacks gives the best lower one.
+const SolveKernels& solve_kernels(int group, InstructionSet set = best_instruction_set());
+
+}  // namespace geotherm

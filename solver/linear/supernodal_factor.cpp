@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "solver/linear/supernodal_factor.h"
+
+#include <algorithm>
+
+#include "solver/linear/solve_kernels.h"
+
+namespace geotherm {
+
+void SupernodalStructure::finish() {
+  const Index nodes = count();
+  tree.parent.assign(static_cast<std::size_t>(nodes), kNoIndex);
+  tree.node_of_row.resize(static_cast<std::size_t>(first.back()));
+  for (Index s = 0; s < nodes; ++s) {
+    for (Index column = first[s]; column < first[s + 1]; ++column) tree.node_of_row[column] = s;
+  }
+  for (Index s = 0; s < nodes; ++s) {
+    const auto under = static_cast<Index>(row_start[s + 1] - row_start[s]);
+    if (under > 0) tree.parent[s] = tree.node_of_row[rows[row_start[s]]];
+    tallest = std::max(tallest, first[s + 1] - first[s] + under);
+  }
+}
+
+namespace {
+
+class SupernodalFactor final : public TriangularFactor {
+ public:
+  SupernodalFactor(std::shared_ptr<const SupernodalStructure> structure, const double* values,
+                   std::shared_ptr<const void> owner)
+      : structure_(std::move(structure)), values_(values), owner_(std::move(owner)) {}
+
+  const EliminationTree& tree() const override { return structure_->tree; }
+  Index size() const override { return structure_->first.back(); }
+  FactorStats stats() const override {
+    const std::int64_t entries = structure_->value_start.back();
+    return {entries, entries * static_cast<std::int64_t>(sizeof(double))};
+  }
+
+  void forward(double* x, Eigen::Index stride, int columns,
+               std::span<const Index> nodes) const override {
+    const auto run = solve_kernels(columns).panel_forward;
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns);
+    if (nodes.empty()) {
+      for (Index s = 0; s < structure_->count(); ++s) run(panel(s), x, stride, scratch.data());
+    } else {
+      for (const Index s : nodes) run(panel(s), x, stride, scratch.data());
+    }
+  }
+
+  void backward(double* x, Eigen::Index stride, int columns,
+                std::span<const Index> nodes) const override {
+    const auto run = solve_kernels(columns).panel_backward;
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns);
+    if (nodes.empty()) {
+      for (Index s = structure_->count(); s-- > 0;) run(panel(s), x, stride, scratch.data());
+    } else {
+      for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
+        run(panel(*s), x, stride, scratch.data());
+      }
+    }
+  }
+
+ private:
+  Panel panel(Index s) const {
+    const SupernodalStructure& t = *structure_;
+    const Index width = t.first[s + 1] - t.first[s];
+    const auto under = static_cast<Index>(t.row_start[s + 1] - t.row_start[s]);
+    return {t.first[s], width, width + under, t.rows.data() + t.row_start[s],
+            values_ + t.value_start[s]};
+  }
+
+  std::shared_ptr<const SupernodalStructure> structure_;
+  const double* values_;
+  std::shared_ptr<const void> owner_;
+};
+
+}  // namespace
+
+std::unique_ptr<TriangularFactor> make_supernodal_factor(
+    std::shared_ptr<const SupernodalStructure> structure, const double* values,
+    std::shared_ptr<const void> owner) {
+  return std::make_unique<SupernodalFactor>(std::move(structure), values, std::move(owner));
+}
+
+}  // namespace geotherm

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "solver/linear/triangular_factor.h"
+
+#include <algorithm>
+
+namespace geotherm {
+namespace {
+
+int group_of(Eigen::Index columns) {
+  for (const int width : {16, 8, 4, 2}) {
+    if (columns >= width) return width;
+  }
+  return 1;
+}
+
+class DirectFactorization final : public Factorization {
+ public:
+  explicit DirectFactorization(std::unique_ptr<TriangularFactor> factor)
+      : factor_(std::move(factor)) {}
+
+  Result<SolveReport> solve(Block& x, std::span<const Index> support) const override {
+    const std::vector<Index> path = factor_->tree().path(support);
+    for (Eigen::Index first = 0; first < x.cols();) {
+      const int width = group_of(x.cols() - first);
+      factor_->forward(x.data() + first, x.cols(), width, path);
+      factor_->backward(x.data() + first, x.cols(), width, {});
+      first += width;
+    }
+    return SolveReport{};
+  }
+
+  Result<Eigen::MatrixXd> inverse_entries(std::span<const Index> rows) const override {
+    const std::vector<Index> path = factor_->tree().path(rows);
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd entries(count, count);
+    for (Eigen::Index first = 0; first < count;) {
+      const int width = group_of(count - first);
+      Block x = Block::Zero(factor_->size(), width);
+      for (int c = 0; c < width; ++c) x(rows[static_cast<std::size_t>(first + c)], c) = 1;
+      factor_->forward(x.data(), width, width, path);
+      factor_->backward(x.data(), width, width, path);
+      for (Eigen::Index r = 0; r < count; ++r) {
+        entries.block(r, first, 1, width) = x.row(rows[static_cast<std::size_t>(r)]);
+      }
+      first += width;
+    }
+    return entries;
+  }
+
+  FactorStats stats() const override { return factor_->stats(); }
+  Index size() const override { return factor_->size(); }
+
+ private:
+  std::unique_ptr<TriangularFactor> factor_;
+};
+
+}  // namespace
+
+std::unique_ptr<Factorization> make_direct_factorization(std::unique_ptr<TriangularFactor> factor) {
+  return std::make_unique<DirectFactorization>(std::move(factor));
+}
+
+}  // namespace geotherm

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// A model made by the project's own code; bundled under its name.
+struct BundledModel {
+  std::string_view name;
+  Index faces;  ///< number of faces (about) when none is asked for
+  std::string_view description;
+};
+
+/// All bundled models: terrain, sleeve, cube, gargoyle, bunny.
+std::span<const BundledModel> bundled_models();
+
+/// Fewest and most faces that a model can be asked for.
+inline constexpr Index kFewestModelFaces = 500;
+inline constexpr Index kMostModelFaces = 5'000'000;
+
+/// Makes a bundled model of about `faces` faces (0: its usual size; within 3 % from 2,000 on). Each
+/// is an oriented manifold with exactly one component and no degenerate faces, the same on every
+/// run. Y is up, creatures face +Z, outside is where the faces run counter-clockwise; all fit into
+/// a box about 2 to 3 units wide. `terrain` has one boundary loop, `sleeve` two, the others none.
+/// Cost: linear in `faces`. Errors: an unknown name (kNotAvailable; the message lists the names), a
+/// size outside the limits (kBadInput), kCancelled.
+Result<TriangleMesh> generate_model(std::string_view name, Index faces = 0,
+                                    const Progress& progress = {});
+
+}  // namespace geotherm

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/generate/edge_flips.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm::generate {
+namespace {
+
+// Cosine of the sharpest fold across which an edge may be flipped.
+constexpr double kFlattest = 0.5;
+// Sum of cotangents below which an edge is not Delaunay; not zero, or ties would flip for ever.
+constexpr double kNotDelaunay = -1e-6;
+constexpr int kMostRounds = 20;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// Half-edge h = 3 f + c runs from corner c of face f to the next corner.
+class Flipper {
+ public:
+  explicit Flipper(DraftMesh& mesh) : mesh_(mesh), twin_(3 * mesh.faces.size(), kNoIndex) {
+    pair_half_edges();
+  }
+
+  Index run() {
+    Index total = 0;
+    for (int round = 0; round < kMostRounds; ++round) {
+      Index flips = 0;
+      for (Index h = 0; h < std::ssize(twin_); ++h) {
+        if (twin_[at(h)] > h && try_flip(h)) ++flips;
+      }
+      if (flips == 0) break;
+      total += flips;
+    }
+    return total;
+  }
+
+ private:
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  Index& start(Index h) { return mesh_.faces[at(h / 3)][at(h % 3)]; }
+  const Vec3& point(Index v) const { return mesh_.positions[at(v)]; }
+
+  void pair_half_edges() {
+    std::vector<Index> first(mesh_.positions.size() + 1, 0);  // half-edges by their smaller end
+    const auto low = [&](Index h) { return std::min(start(h), start(next(h))); };
+    for (Index h = 0; h < std::ssize(twin_); ++h) ++first[at(low(h)) + 1];
+    for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<Index> filled(first.begin(), first.end() - 1);
+    std::vector<Index> sorted(twin_.size());
+    for (Index h = 0; h < std::ssize(twin_); ++h) {
+      const std::size_t v = at(low(h));
+      for (Index i = first[v]; i < filled[v]; ++i) {
+        const Index other = sorted[at(i)];
+        if (start(other) != start(next(h)) || start(next(other)) != start(h)) continue;
+        twin_[at(h)] = other;
+        twin_[at(other)] = h;
+      }
+      sorted[at(filled[v]++)] = h;
+    }
+  }
+
+  /// True when a face around the start of `h` has the vertex `other` as well.
+  bool touches(Index h, Index other) {
+    const Index first = h;
+    do {
+      if (start(next(h)) == other || start(previous(h)) == other) return true;
+      h = twin_[at(previous(h))];
+    } while (h != kNoIndex && h != first);
+    if (h == first) return false;
+    for (h = twin_[at(first)]; h != kNoIndex; h = twin_[at(h)]) {  // the boundary's other side
+      h = next(h);
+      if (start(next(h)) == other || start(previous(h)) == other) return true;
+    }
+    return false;
+  }
+
+  double cotangent(Index apex, Index a, Index b) const {
+    const Vec3 u = point(a) - point(apex);
+    const Vec3 v = point(b) - point(apex);
+    return u.dot(v) / std::max(u.cross(v).norm(), 1e-300);
+  }
+  Vec3 normal(Index a, Index b, Index c) const {
+    return (point(b) - point(a)).cross(point(c) - point(a)).normalized();
+  }
+
+  bool try_flip(Index h) {
+    const Index t = twin_[at(h)];
+    const Index a = start(h);
+    const Index b = start(t);
+    const Index c = start(previous(h));
+    const Index d = start(previous(t));
+    if (cotangent(c, a, b) + cotangent(d, a, b) >= kNotDelaunay) return false;
+    const Vec3 fold = normal(a, b, c) + normal(b, a, d);
+    const Vec3 one = normal(a, d, c);
+    const Vec3 two = normal(b, c, d);
+    if (normal(a, b, c).dot(normal(b, a, d)) < kFlattest || one.dot(two) < kFlattest ||
+        fold.dot(one) < kFlattest || fold.dot(two) < kFlattest || touches(previous(h), d)) {
+      return false;
+    }
+    const Index outer_c = twin_[at(previous(h))];  // c -> a
+    const Index outer_d = twin_[at(previous(t))];  // d -> b
+    const Index f = h / 3 * 3;
+    const Index g = t / 3 * 3;
+    const Index outer_b = twin_[at(next(h))];  // b -> c
+    const Index outer_a = twin_[at(next(t))];  // a -> d
+    mesh_.faces[at(h / 3)] = {a, d, c};
+    mesh_.faces[at(t / 3)] = {b, c, d};
+    join(f, outer_a);
+    join(f + 1, g + 1);
+    join(f + 2, outer_c);
+    join(g, outer_b);
+    join(g + 2, outer_d);
+    return true;
+  }
+
+  void join(Index h, Index other) {
+    twin_[at(h)] = other;
+    if (other != kNoIndex) twin_[at(other)] = h;
+  }
+
+  DraftMesh& mesh_;
+  std::vector<Index> twin_;
+};
+
+}  // namespace
+
+Index flip_to_delaunay(DraftMesh& mesh) { return Flipper(mesh).run(); }
+
+}  // namespace geotherm::generate

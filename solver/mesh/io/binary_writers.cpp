@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/format_writers.h"
+
+namespace geotherm::io {
+namespace {
+
+void append_little(std::string& bytes, const Vec3& p) {
+  for (int axis = 0; axis < 3; ++axis) io::append_little(bytes, p[axis]);
+}
+
+void append_faces(std::string& bytes, const Face& face) {
+  for (const Index corner : face) io::append_little(bytes, corner);
+}
+
+}  // namespace
+
+std::string npy_bytes(std::span<const double> values) {
+  constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
+  constexpr std::size_t kAlignment = 64;
+  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
+                       std::to_string(values.size()) + ",), }";
+  while ((kPreamble + header.size() + 1) % kAlignment != 0) header += ' ';
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes.reserve(kPreamble + header.size() + sizeof(double) * values.size());
+  append_little(bytes, static_cast<std::uint16_t>(header.size()));
+  bytes += header;
+  for (const double value : values) append_little(bytes, value);
+  return bytes;
+}
+
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.vertex_count()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (!distances.empty()) bytes += "property double distance\n";
+  bytes += "element face " + std::to_string(mesh.face_count()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+  bytes.reserve(bytes.size() + 32 * mesh.positions().size() + 13 * mesh.faces().size());
+  for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
+    append_little(bytes, mesh.positions()[v]);
+    if (!distances.empty()) append_little(bytes, distances[v]);
+  }
+  for (const Face& face : mesh.faces()) {
+    bytes += '\3';
+    append_faces(bytes, face);
+  }
+  return bytes;
+}
+
+std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances) {
+  const std::uint64_t vertices = mesh.positions().size();
+  const std::uint64_t faces = mesh.faces().size();
+  std::uint64_t offset = 0;
+  // Each array is appended as its length in bytes and its values; the XML holds where it starts.
+  const auto array = [&offset](const std::string& attributes, std::uint64_t length) {
+    const std::string start = std::to_string(offset);
+    offset += sizeof(std::uint64_t) + length;
+    return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
+  };
+  const std::uint64_t lengths[] = {8 * vertices, 24 * vertices, 12 * faces, 8 * faces};
+  std::string bytes =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(vertices) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+      std::to_string(faces) + "\">\n<PointData Scalars=\"distance\">\n";
+  bytes += array("type=\"Float64\" Name=\"distance\"", lengths[0]);
+  bytes += "</PointData>\n<Points>\n";
+  bytes += array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", lengths[1]);
+  bytes += "</Points>\n<Polys>\n";
+  bytes += array("type=\"Int32\" Name=\"connectivity\"", lengths[2]);
+  bytes += array("type=\"Int64\" Name=\"offsets\"", lengths[3]);
+  bytes += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  bytes.reserve(bytes.size() + offset + 64);
+  append_little(bytes, lengths[0]);
+  for (const double distance : distances) append_little(bytes, distance);
+  append_little(bytes, lengths[1]);
+  for (const Vec3& p : mesh.positions()) append_little(bytes, p);
+  append_little(bytes, lengths[2]);
+  for (const Face& face : mesh.faces()) append_faces(bytes, face);
+  append_little(bytes, lengths[3]);
+  for (std::uint64_t f = 1; f <= faces; ++f) append_little(bytes, 3 * f);
+  return bytes + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+Result<std::string> stl_bytes(const TriangleMesh& mesh) {
+  constexpr std::size_t kHeader = 80;
+  std::string bytes = "binary STL, geotherm";
+  bytes.resize(kHeader, ' ');
+  bytes.reserve(kHeader + 4 + 50 * mesh.faces().size());
+  append_little(bytes, static_cast<std::uint32_t>(mesh.face_count()));
+  const auto append_floats = [&bytes](const Vec3& p) {
+    for (int axis = 0; axis < 3; ++axis) append_little(bytes, static_cast<float>(p[axis]));
+  };
+  for (const Face& face : mesh.faces()) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return mesh.positions()[static_cast<std::size_t>(face[k])];
+    };
+    const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
+    const bool has_normal = area.norm() > 0 && std::isfinite(area.norm());
+    append_floats(has_normal ? Vec3(area / area.norm()) : Vec3(Vec3::Zero()));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at(k).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()}) {
+        return Error{ErrorCode::kBadInput, "vertex " + std::to_string(face[k]) +
+                                               " is too far away for the 32-bit numbers of STL; "
+                                               "write .ply, .obj or .off"};
+      }
+      append_floats(at(k));
+    }
+    append_little(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+}  // namespace geotherm::io

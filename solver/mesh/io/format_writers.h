@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+// The bytes of a file, one function per format. Numbers in text have the fewest digits that read
+// back as the same double.
+namespace geotherm::io {
+
+std::string csv_bytes(std::span<const double> distances);
+std::string npy_bytes(std::span<const double> values);
+
+/// Binary little endian with the vertex property `double distance`, unless there are none.
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances = {});
+
+/// VTK XML PolyData; the arrays are appended raw, with 64-bit lengths.
+std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances);
+
+std::string obj_bytes(const TriangleMesh& mesh);
+std::string off_bytes(const TriangleMesh& mesh);
+
+/// Binary. Errors (kBadInput): a coordinate beyond the range of the format's 32-bit numbers.
+Result<std::string> stl_bytes(const TriangleMesh& mesh);
+
+}  // namespace geotherm::io

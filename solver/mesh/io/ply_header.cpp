@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/io/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "solver/mesh/io/parse_number.h"
+#include "solver/mesh/io/read_failure.h"
+
+namespace geotherm::io {
+namespace {
+
+constexpr std::array<std::string_view, 8> kOldNames = {"char", "uchar", "short", "ushort",
+                                                       "int",  "uint",  "float", "double"};
+constexpr std::array<std::string_view, 8> kNames = {"int8",  "uint8",  "int16",   "uint16",
+                                                    "int32", "uint32", "float32", "float64"};
+
+std::optional<PlyType> type_named(std::string_view name) {
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (name == kNames[i] || name == kOldNames[i]) return static_cast<PlyType>(i);
+  }
+  return std::nullopt;
+}
+
+/// The header, line by line and word by word.
+class HeaderReader {
+ public:
+  explicit HeaderReader(std::string_view bytes) : bytes_(bytes), next_(bytes.data()) {}
+
+  PlyHeader read() {
+    if (!next_line() || word() != "ply") fail("a PLY file starts with the line \"ply\"");
+    bool has_format = false;
+    while (next_line()) {
+      const std::string_view keyword = word();
+      if (keyword == "format") {
+        read_format();
+        has_format = true;
+      } else if (keyword == "element") {
+        read_element();
+      } else if (keyword == "property") {
+        read_property();
+      } else if (keyword == "end_header") {
+        if (!has_format) fail("the header has no line \"format\"");
+        header_.body = next_;
+        return std::move(header_);
+      } else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info") {
+        fail("unknown word " + quoted(bytes_, keyword.data()) + " in the header");
+      }
+    }
+    fail("the file ends inside the header (no \"end_header\")");
+  }
+
+ private:
+  bool next_line() {
+    const char* const end = bytes_.data() + bytes_.size();
+    if (next_ == end) return false;
+    start_ = next_;
+    const std::string_view rest(start_, static_cast<std::size_t>(end - start_));
+    line_ = rest.substr(0, rest.find('\n'));
+    next_ = start_ + std::min(line_.size() + 1, rest.size());
+    return true;
+  }
+
+  std::string_view word() {
+    constexpr std::string_view kBlanks = " \t\r";
+    line_.remove_prefix(std::min(line_.find_first_not_of(kBlanks), line_.size()));
+    const std::string_view found = line_.substr(0, line_.find_first_of(kBlanks));
+    line_.remove_prefix(found.size());
+    return found;
+  }
+
+  void read_format() {
+    const std::string_view name = word();
+    if (name == "ascii") {
+      header_.format = PlyFormat::kAscii;
+    } else if (name == "binary_little_endian") {
+      header_.format = PlyFormat::kLittleEndian;
+    } else if (name == "binary_big_endian") {
+      header_.format = PlyFormat::kBigEndian;
+    } else {
+      fail("unknown format; there are ascii, binary_little_endian, binary_big_endian");
+    }
+  }
+
+  void read_element() {
+    PlyElement element;
+    element.name = word();
+    const std::string_view count = word();
+    if (count.empty() || parse_integer(count.data(), element.count) != count.end()) {
+      fail("an element needs a name and a count");
+    }
+    if (element.count < 0) fail("the count " + std::to_string(element.count) + " is negative");
+    if (header_.find(element.name) != nullptr) fail("an element is declared twice");
+    header_.elements.push_back(std::move(element));
+  }
+
+  void read_property() {
+    if (header_.elements.empty()) fail("a property stands before the first element");
+    PlyProperty property;
+    std::string_view type = word();
+    if (type == "list") {
+      property.is_list = true;
+      property.count_type = read_type(word());
+      type = word();
+    }
+    property.type = read_type(type);
+    property.name = word();
+    if (property.name.empty()) fail("a property has no name");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  PlyType read_type(std::string_view name) {
+    const std::optional<PlyType> type = type_named(name);
+    if (!type) fail("unknown type " + quoted(name, name.data()) + " of a property");
+    return *type;
+  }
+
+  [[noreturn]] void fail(const std::string& cause) const { fail_at_line(bytes_, start_, cause); }
+
+  std::string_view bytes_;
+  const char* next_;           ///< the next line
+  const char* start_ = next_;  ///< this line
+  std::string_view line_;      ///< what is left of this line
+  PlyHeader header_;
+};
+
+/// The least number of bytes one row takes in the body.
+std::uint64_t least_row_bytes(const PlyElement& element, PlyFormat format) {
+  std::uint64_t bytes = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (format == PlyFormat::kAscii) {
+      bytes += 2;  // one digit, one separator
+    } else {
+      bytes += size_of(property.is_list ? property.count_type : property.type);
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::size_t size_of(PlyType type) {
+  constexpr std::array<std::size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<std::size_t>(type)];
+}
+
+int PlyElement::find(std::string_view property, bool is_list) const {
+  const auto found = std::ranges::find_if(
+      properties, [&](const PlyProperty& p) { return p.name == property && p.is_list == is_list; });
+  return found == properties.end() ? -1 : static_cast<int>(found - properties.begin());
+}
+
+const PlyElement* PlyHeader::find(std::string_view element) const {
+  const auto found = std::ranges::find(elements, element, &PlyElement::name);
+  return found == elements.end() ? nullptr : &*found;
+}
+
+PlyHeader read_ply_header(std::string_view bytes) {
+  PlyHeader header = HeaderReader(bytes).read();
+  const auto left = static_cast<std::uint64_t>(bytes.data() + bytes.size() - header.body);
+  for (const PlyElement& element : header.elements) {
+    const std::uint64_t row = least_row_bytes(element, header.format);
+    if (row > 0 && static_cast<std::uint64_t>(element.count) > (left + 1) / row) {
+      fail_at_byte(bytes, header.body,
+                   "the header announces " + std::to_string(element.count) + " of element " +
+                       quoted(element.name, element.name.data()) + " with at least " +
+                       std::to_string(row) + " bytes each, but only " + std::to_string(left) +
+                       " bytes follow");
+    }
+  }
+  return header;
+}
+
+}  // namespace geotherm::io

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace geotherm::io {
+
+/// Thrown and caught inside the readers only; read_mesh() makes an Error of it, with the path.
+struct ReadFailure {
+  std::string message;  ///< "line N: cause" or "byte N: cause"
+};
+
+/// Throws "line N: cause" for the place `where` inside `text`.
+[[noreturn]] void fail_at_line(std::string_view text, const char* where, const std::string& cause);
+
+/// Throws "byte N: cause", N counted from 0.
+[[noreturn]] void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause);
+
+/// The word at `where` in quotes, shortened, only printable characters: fit for a message.
+std::string quoted(std::string_view text, const char* where);
+
+}  // namespace geotherm::io

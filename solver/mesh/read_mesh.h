@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// A model as read from a file: the mesh and what the reader had to do to get it.
+struct MeshFile {
+  TriangleMesh mesh;
+  Index polygons = 0;              ///< faces with more than three corners that were triangulated
+  Index welded = 0;                ///< STL: corners that were merged into shared vertices
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
+
+/// Reads `.obj`, `.ply` (ASCII, little and big endian), `.off`, `.stl` (ASCII, binary); the
+/// extension decides, in any case. Vertex numbers are 0-based and in the order of the file;
+/// an STL has none: equal corners are welded, numbered by first appearance.
+/// Coordinates are the doubles nearest to what is written. A face of more than three corners
+/// becomes a fan from its first corner, or, where that would fold over, triangles that cover it
+/// once. Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause
+/// (kBadFile); an unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file
+/// announces is held against its size before memory is asked for. Independent of the locale. Cost:
+/// one pass over the mapped file; OBJ on all cores.
+Result<MeshFile> read_mesh(const std::string& path);
+
+}  // namespace geotherm

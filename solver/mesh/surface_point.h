@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/core/types.h"
+
+namespace geotherm {
+
+/// A point on the surface: a vertex, or barycentric weights in a face (weights of 0 put it on an
+/// edge or a corner). Weights are >= 0 and sum to 1.
+struct SurfacePoint {
+  Index vertex = kNoIndex;  ///< set for a vertex; then `face` and `weights` do not matter
+  Index face = kNoIndex;
+  std::array<double, 3> weights{};
+
+  static SurfacePoint at_vertex(Index v) { return {v, kNoIndex, {}}; }
+  static SurfacePoint in_face(Index f, std::array<double, 3> w) { return {kNoIndex, f, w}; }
+  bool is_vertex() const { return vertex != kNoIndex; }
+};
+
+/// Where distance is 0: points, and mesh edges whose every point is a source (a curve).
+/// The ends of each edge are sources as well, whether or not they stand among the points.
+struct SourceSet {
+  std::vector<SurfacePoint> points;
+  std::vector<std::array<Index, 2>> edges;
+
+  static SourceSet of_vertices(const std::vector<Index>& vertices) {
+    SourceSet set;
+    for (const Index v : vertices) set.points.push_back(SurfacePoint::at_vertex(v));
+    return set;
+  }
+  bool empty() const { return points.empty() && edges.empty(); }
+};
+
+}  // namespace geotherm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/triangle_mesh.h"
+
+#include <cmath>
+
+namespace geotherm {
+
+Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
+  constexpr std::size_t kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
+  if (faces.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has no faces (" + std::to_string(positions.size()) +
+                     " vertices); distances need a surface of triangles"};
+  }
+  if (positions.size() > kMost || faces.size() > kMost) {
+    return Error{ErrorCode::kBadInput, "the mesh has " + std::to_string(positions.size()) +
+                                           " vertices and " + std::to_string(faces.size()) +
+                                           " faces; at most " + std::to_string(kMost) +
+                                           " of each are supported"};
+  }
+  const auto vertex_count = static_cast<Index>(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!positions[v].allFinite()) {
+      return Error{ErrorCode::kBadInput,
+                   "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+    }
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Index corner : faces[f]) {
+      if (corner < 0 || corner >= vertex_count) {
+        return Error{ErrorCode::kBadInput, "face " + std::to_string(f) + " uses vertex " +
+                                               std::to_string(corner) + ", but there are " +
+                                               std::to_string(vertex_count) + " vertices"};
+      }
+    }
+  }
+  return TriangleMesh(std::move(positions), std::move(faces));
+}
+
+}  // namespace geotherm

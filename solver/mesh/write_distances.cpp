@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/write_distances.h"
+
+#include <new>
+#include <utility>
+
+#include "solver/mesh/io/file_extension.h"
+#include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/write_file.h"
+
+namespace geotherm {
+namespace {
+
+Error unknown_extension(const std::string& path, const std::string& known) {
+  return {ErrorCode::kNotAvailable, io::printable(path) + ": unknown extension \"" +
+                                        io::printable(io::file_extension(path)) + "\"; there are " +
+                                        known};
+}
+
+/// Makes the bytes and writes them; building them may need more memory than there is.
+template <class MakeBytes>
+Result<void> write_made(const std::string& path, const MakeBytes& make_bytes) {
+  try {
+    const Result<std::string> bytes = make_bytes();
+    if (bytes) return write_file(path, *bytes);
+    return Error{bytes.error().code, io::printable(path) + ": " + bytes.error().message};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
+  }
+}
+
+}  // namespace
+
+Result<void> check_distance_path(const std::string& path) {
+  if (path == "-") return {};
+  const std::string extension = io::file_extension(path);
+  for (const char* const known : {".csv", ".npy", ".ply", ".vtp"}) {
+    if (extension == known) return {};
+  }
+  if (extension == ".obj" || extension == ".off" || extension == ".stl") {
+    return Error{ErrorCode::kNotAvailable,
+                 io::printable(path) + ": " + extension +
+                     " holds no value per vertex; write .ply or .vtp (mesh and distance) or .csv "
+                     "or .npy (distance alone)"};
+  }
+  return unknown_extension(path, ".csv .npy .ply .vtp");
+}
+
+Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
+                             std::span<const double> distances) {
+  if (Result<void> known = check_distance_path(path); !known) return known;
+  if (distances.size() != mesh.positions().size()) {
+    return Error{ErrorCode::kBadInput, io::printable(path) + ": " +
+                                           std::to_string(distances.size()) + " distances for " +
+                                           std::to_string(mesh.vertex_count()) + " vertices"};
+  }
+  return write_made(path, [&]() -> Result<std::string> {
+    const std::string extension = path == "-" ? ".csv" : io::file_extension(path);
+    if (extension == ".npy") return io::npy_bytes(distances);
+    if (extension == ".ply") return io::ply_bytes(mesh, distances);
+    if (extension == ".vtp") return io::vtp_bytes(mesh, distances);
+    return io::csv_bytes(distances);
+  });
+}
+
+Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh) {
+  const std::string extension = io::file_extension(path);
+  if (extension != ".obj" && extension != ".ply" && extension != ".off" && extension != ".stl") {
+    return unknown_extension(path, ".obj .ply .off .stl");
+  }
+  return write_made(path, [&]() -> Result<std::string> {
+    if (extension == ".ply") return io::ply_bytes(mesh);
+    if (extension == ".off") return io::off_bytes(mesh);
+    if (extension == ".stl") return io::stl_bytes(mesh);
+    return io::obj_bytes(mesh);
+  });
+}
+
+}  // namespace geotherm

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// True when write_distances() knows the extension of `path`; otherwise the error says which
+/// extensions there are (and for .obj that the format holds no values).
+Result<void> check_distance_path(const std::string& path);
+
+/// Writes one distance per vertex, in the order of the file, model units, `inf` where unreached.
+/// The format is the extension's: `.csv` (`vertex,distance`, the fewest
+/// digits that read back equal), `.npy` (float64, shape V),
+/// `.ply` (binary little endian mesh with the vertex property `double distance`), `.vtp` (ParaView
+/// PolyData, point data `distance`). The file is written beside its place and renamed: it is there
+/// whole or not at all. `path` "-" writes CSV to standard output.
+/// Precondition: distances.size() == mesh.vertex_count().
+Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
+                             std::span<const double> distances);
+
+/// Writes the mesh alone: `.obj`, `.ply` (binary), `.off` or `.stl` (binary), by extension.
+/// Positions read back exactly, except from .stl: 32-bit numbers, no vertex without a face, and
+/// vertices numbered by first use.
+Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh);
+
+}  // namespace geotherm

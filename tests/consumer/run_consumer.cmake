@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: MIT
+# Installs the build in BUILD_DIR to an empty prefix, builds the consumer against it, runs it.
+set(prefix "${WORK_DIR}/prefix")
+file(REMOVE_RECURSE "${WORK_DIR}")
+
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${prefix}")
+
+# The package must not lead back to where it was built.
+file(GLOB_RECURSE files "${prefix}/*.cmake")
+foreach(file ${files})
+  file(READ "${file}" text)
+  foreach(place "${SOURCE_DIR}" "${BUILD_DIR}")
+    string(FIND "${text}" "${place}" position)
+    if(NOT position EQUAL -1)
+      message(FATAL_ERROR "${file} names ${place}")
+    endif()
+  endforeach()
+endforeach()
+
+run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK_DIR}/build"
+    -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_PREFIX_PATH=${prefix}"
+    -DCMAKE_BUILD_TYPE=Release)
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
+run("${WORK_DIR}/build/consumer")
+
+if(PROGRAM)
+  run("${prefix}/bin/${PROGRAM}" backends)
+endif()
+if(NOT EXISTS "${prefix}/share/doc/geotherm/LICENSE")
+  message(FATAL_ERROR "the licence was not installed")
+endif()

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/mesh/read_mesh.h"
+
+namespace geotherm::test {
+
+/// A new directory, removed with all that is in it.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory();
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory();
+
+  std::string path(std::string_view name) const { return path_ + '/' + std::string(name); }
+
+  /// Writes a file here and returns its path.
+  std::string write(std::string_view name, std::string_view bytes) const;
+
+  /// The names of the files here, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::string path_;
+};
+
+std::string bytes_of(const std::string& path);
+
+/// Writes `bytes` into a file of this name and reads it as a mesh.
+Result<MeshFile> read_bytes(std::string_view name, std::string_view bytes);
+
+/// A pyramid over a square: 5 vertices, 4 triangles and a quad, in every format.
+struct Sample {
+  std::string name;  ///< of the test
+  std::string file;  ///< with its extension
+  std::string bytes;
+};
+std::vector<Sample> pyramid_samples();
+
+/// Its vertices, and its faces with the quad as two triangles.
+std::vector<Vec3> pyramid_positions();
+std::vector<Face> pyramid_faces();
+
+}  // namespace geotherm::test

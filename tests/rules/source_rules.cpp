@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "tests/rules/source_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace geotherm::rules {
+namespace {
+
+constexpr int kLongestFile = 400;
+constexpr std::array kHouse = {"solver", "engine", "shaders", "app",    "ui",
+                               "tests",  "bench",  "cmake",   "scripts"};
+
+/// Headers that one backend keeps to itself; they are not installed (solver/CMakeLists.txt).
+constexpr std::string_view kOwnHeaders = "solver/linear/cholmod_";
+
+using Names = std::set<std::string, std::less<>>;
+
+/// What a folder may include. "any" among the libraries stands for every library.
+struct Permission {
+  std::string_view folder;  ///< of the including file, or the file itself
+  Names house;              ///< folders of the project
+  Names libraries;          ///< in headers and sources
+  Names private_libraries;  ///< in .cpp and .inl only
+};
+
+/// The first entry that fits a path counts.
+const std::vector<Permission>& permissions() {
+  static const std::vector<Permission> kPermissions = {
+      {"app/main.cpp", {"solver", "engine", "shaders", "app", "ui"}, {"any"}, {}},
+      {"solver/core", {"solver/core"}, {"std", "eigen"}, {"posix"}},
+      {"solver/mesh", {"solver/core", "solver/mesh"}, {"std", "eigen"}, {"posix"}},
+      {"solver/linear", {"solver/core", "solver/linear"}, {"std", "eigen"}, {"posix", "algebra"}},
+      {"solver/geometry",
+       {"solver/core", "solver/mesh", "solver/linear", "solver/geometry"},
+       {"std", "eigen"},
+       {}},
+      {"solver", {"solver"}, {"std", "eigen"}, {}},
+      {"engine",
+       {"engine", "shaders"},
+       {"std", "vulkan", "glm"},
+       {"glfw", "imgui", "imgui backend"}},
+      {"shaders", {"shaders"}, {"std"}, {}},
+      {"app", {"app", "solver"}, {"std", "cli11", "json"}, {"posix"}},
+      {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
+      {"bench", {"solver", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
+      {"tests", {"solver", "engine", "shaders", "app", "ui", "tests", "bench"}, {"any"}, {}},
+  };
+  return kPermissions;
+}
+
+bool starts_with_folder(std::string_view path, std::string_view folder) {
+  return path.starts_with(folder) && (path.size() == folder.size() || path[folder.size()] == '/');
+}
+
+bool is_public_header(std::string_view path) {
+  return (path.ends_with(".h") || path.ends_with(".hpp")) && !path.starts_with(kOwnHeaders);
+}
+
+/// The library a header belongs to; "?" for one that is not known here.
+std::string library_of(const std::string& header) {
+  static const std::vector<std::pair<std::regex, std::string>> kLibraries = [] {
+    const std::pair<const char*, const char*> table[] = {
+        {"[a-z_]+", "std"},
+        {"(unsupported/)?Eigen/.*", "eigen"},
+        {"(sys|netinet)/.*|(unistd|fcntl|dirent|errno|pthread|sched|poll|signal|termios)\\.h",
+         "posix"},
+        {"(suitesparse/"
+         ")?(cholmod|amd|colamd|camd|ccolamd|SuiteSparse|umfpack|ldl|klu|cs).*\\.hp?p?",
+         "algebra"},
+        {"(metis|cblas|lapacke|openblas_config|f77blas|omp|[a-z]*intrin)\\.h", "algebra"},
+        {"vulkan/.*|vk_.*", "vulkan"},
+        {"GLFW/.*", "glfw"},
+        {"glm/.*", "glm"},
+        {"(.*/)?imgui_impl_.*", "imgui backend"},
+        {"(.*/)?imgui(_internal|_stdlib)?\\.h", "imgui"},
+        {"CLI/.*", "cli11"},
+        {"nlohmann/.*", "json"},
+    };
+    std::vector<std::pair<std::regex, std::string>> libraries;
+    for (const auto& [pattern, name] : table) libraries.emplace_back(std::regex(pattern), name);
+    return libraries;
+  }();
+  for (const auto& [pattern, name] : kLibraries) {
+    if (std::regex_match(header, pattern)) return name;
+  }
+  return "?";
+}
+
+template <class Body>
+void for_each_line(const std::string& text, Body&& body) {
+  std::istringstream stream(text);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) body(++number, line);
+}
+
+/// Calls body(line, header, quoted) for each include.
+template <class Body>
+void for_each_include(const std::string& text, Body&& body) {
+  static const std::regex kInclude(R"re(\s*#\s*include\s*(<([^>]+)>|"([^"]+)").*)re");
+  for_each_line(text, [&](int number, const std::string& line) {
+    std::smatch match;
+    if (line.find("include") == std::string::npos || !std::regex_match(line, match, kInclude)) {
+      return;
+    }
+    const bool quoted = match[3].matched;
+    body(number, match[quoted ? 3 : 2].str(), quoted);
+  });
+}
+
+const Permission* permission_of(std::string_view path) {
+  for (const Permission& permission : permissions()) {
+    if (starts_with_folder(path, permission.folder)) return &permission;
+  }
+  return nullptr;
+}
+
+/// Why `path` may not include `header`; empty when it may.
+std::string refusal(std::string_view path, const Permission& permission, const std::string& header,
+                    bool quoted) {
+  const bool in_house = std::any_of(kHouse.begin(), kHouse.end(), [&](const char* folder) {
+    return header.starts_with(std::string(folder) + "/");
+  });
+  const std::string from(permission.folder);
+  if (in_house) {
+    const bool allowed =
+        std::any_of(permission.house.begin(), permission.house.end(),
+                    [&](const std::string& folder) { return starts_with_folder(header, folder); });
+    const bool owned = !header.starts_with(kOwnHeaders) || path.starts_with(kOwnHeaders);
+    return allowed && owned ? "" : from + " must not use " + header;
+  }
+  const std::string library = library_of(header);
+  if (quoted && library == "?") return "\"" + header + "\" is not written from the root";
+  const Names& open = permission.libraries;
+  if (open.contains("any") || open.contains(library)) return {};
+  if (permission.private_libraries.contains(library)) {
+    if (!is_public_header(path)) return {};
+    return from + " may use " + header + " (" + library + ") in a .cpp only";
+  }
+  return from + " must not use " + header + " (" + library + ")";
+}
+
+}  // namespace
+
+bool is_code(std::string_view path) {
+  static const std::set<std::string> kExtensions = {".h",    ".hpp",  ".cpp",  ".inl",
+                                                    ".glsl", ".vert", ".frag", ".comp"};
+  return kExtensions.contains(std::filesystem::path(path).extension().string());
+}
+
+std::vector<Violation> check_includes(const SourceFile& file) {
+  std::vector<Violation> found;
+  if (!is_code(file.path)) return found;
+  const Permission* permission = permission_of(file.path);
+  if (!permission) return {{file.path, 0, "lies in a folder that has no rule"}};
+  for_each_include(file.text, [&](int line, const std::string& header, bool quoted) {
+    std::string why = refusal(file.path, *permission, header, quoted);
+    if (!why.empty()) found.push_back({file.path, line, std::move(why)});
+  });
+  return found;
+}
+
+std::vector<Violation> check_lone_users(std::span<const SourceFile> files) {
+  std::map<std::string, std::string> first_user;
+  std::vector<Violation> found;
+  for (const SourceFile& file : files) {
+    if (!starts_with_folder(file.path, "engine")) continue;
+    for_each_include(file.text, [&](int line, const std::string& header, bool) {
+      const std::string library = library_of(header);
+      if (library != "glfw" && library != "imgui backend") return;
+      const auto [user, is_first] = first_user.emplace(library, file.path);
+      if (is_first || user->second == file.path) return;
+      found.push_back({file.path, line, library + " is already used by " + user->second});
+    });
+  }
+  return found;
+}
+
+std::vector<Violation> check_licence(const SourceFile& file) {
+  bool said = false;
+  for_each_line(file.text, [&](int number, const std::string& line) {
+    said |= number <= 2 && line.find("SPDX-License-Identifier: MIT") != std::string::npos;
+  });
+  if (said) return {};
+  return {{file.path, 1, "has no line SPDX-License-Identifier: MIT"}};
+}
+
+std::vector<Violation> check_length(const SourceFile& file) {
+  int lines = 0;
+  for_each_line(file.text, [&](int number, const std::string&) { lines = number; });
+  if (lines <= kLongestFile) return {};
+  return {{file.path, 0,
+           std::to_string(lines) + " lines; at most " + std::to_string(kLongestFile) +
+               " are allowed: split it by idea"}};
+}
+
+std::vector<Violation> check_backend_conditions(const SourceFile& file) {
+  static const std::regex kCondition(
+      R"(\s*#\s*(if|ifdef|ifndef|elif|elifdef|elifndef)\b.*(GEOTHERM_(WITH|HAS|HAVE|USE)_|cholmod|suitesparse|eigen_ldlt|backend).*)",
+      std::regex::icase);
+  std::vector<Violation> found;
+  if (!is_code(file.path) || file.path == "solver/linear/backend_registry.cpp") return found;
+  for_each_line(file.text, [&](int number, const std::string& line) {
+    if (line.find('#') == std::string::npos || !std::regex_match(line, kCondition)) return;
+    found.push_back({file.path, number, "a condition on a backend belongs in the registry"});
+  });
+  return found;
+}
+
+std::vector<SourceFile> read_tree(const std::filesystem::path& root) {
+  namespace fs = std::filesystem;
+  static const std::set<std::string> kOthers = {".cmake", ".in", ".sh"};
+  std::vector<fs::path> paths = {root / "CMakeLists.txt"};
+  for (const char* folder : kHouse) {
+    if (!fs::is_directory(root / folder)) continue;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      const fs::path& path = entry.path();
+      if (entry.is_regular_file() &&
+          (is_code(path.string()) || kOthers.contains(path.extension().string()) ||
+           path.filename() == "CMakeLists.txt")) {
+        paths.push_back(path);
+      }
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  std::vector<SourceFile> files;
+  for (const fs::path& path : paths) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    files.push_back({fs::relative(path, root).generic_string(), text.str()});
+  }
+  return files;
+}
+
+}  // namespace geotherm::rules
