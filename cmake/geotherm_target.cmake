@@ -7,7 +7,12 @@ if(GEOTHERM_SANITIZE)
   list(JOIN GEOTHERM_SANITIZE "," _sanitizers)
   add_compile_options(-fsanitize=${_sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${_sanitizers})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-Wno-maybe-uninitialized)  # false alarms in instrumented code
+  endif()
 endif()
+
+option(GEOTHERM_PCH "Precompile the headers of Eigen and the standard library" ON)
 
 # What every target of the project has in common.
 function(geotherm_target name)
@@ -17,6 +22,19 @@ function(geotherm_target name)
                          -Wno-sign-conversion)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # False alarms on "text" + std::string (GCC bug 105651).
-    target_compile_options(${name} PRIVATE -Wno-restrict)
+    target_compile_options(${name} PRIVATE -Wno-restrict -Wno-stringop-overflow)
+  endif()
+endfunction()
+
+# geotherm_precompile(TARGET HEADERS...): saves about half of the time that compiling takes. Off in
+# the presets dev and tidy, where a missing include must be noticed.
+function(geotherm_precompile name)
+  if(NOT GEOTHERM_PCH)
+    return()
+  endif()
+  target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <functional> <memory> <span> <string>
+                            <vector> ${ARGN})
+  if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${name} PRIVATE -fpch-preprocess)
   endif()
 endfunction()

@@ -25,6 +25,7 @@ build() {
   local preset=$1 target=${2:-all} log
   if command -v ccache >/dev/null; then
     export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_SLOPPINESS=pch_defines,time_macros  # what precompiled headers ask for
   fi
   say "building $preset${2:+ ($2)} in build/$preset"
   mkdir -p "$root/build"

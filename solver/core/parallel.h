@@ -51,9 +51,8 @@ void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& bo
   std::vector<std::jthread> helpers;
   helpers.reserve(static_cast<std::size_t>(pieces - 1));
   for (std::int64_t p = 1; p < pieces; ++p) {
-    helpers.emplace_back([&body, p, pieces, count] {
-      body(count * p / pieces, count * (p + 1) / pieces);
-    });
+    helpers.emplace_back(
+        [&body, p, pieces, count] { body(count * p / pieces, count * (p + 1) / pieces); });
   }
   body(std::int64_t{0}, count / pieces);
 }

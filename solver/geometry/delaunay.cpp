@@ -53,7 +53,10 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
   const Index d = mesh.faces[g][previous_corner(j)];
   const auto& lf = mesh.lengths[f];
   const auto& lg = mesh.lengths[g];
-  Flip out{f, g, static_cast<std::int8_t>(i), static_cast<std::int8_t>(j),
+  Flip out{f,
+           g,
+           static_cast<std::int8_t>(i),
+           static_cast<std::int8_t>(j),
            {lf[i], lf[next_corner(i)], lf[previous_corner(i)], lg[next_corner(j)],
             lg[previous_corner(j)]}};
   const Diamond diamond = unfold(out.lengths);
@@ -135,8 +138,8 @@ SurfacePoint carry_through_flips(const std::vector<Flip>& flips, SurfacePoint po
     const double w0 = point.weights[start];
     const double w1 = point.weights[next_corner(start)];
     const double w2 = point.weights[previous_corner(start)];
-    const Point2 p = in_f ? Point2(w0 * q.a + w1 * q.b + w2 * q.c)
-                          : Point2(w0 * q.b + w1 * q.a + w2 * q.d);
+    const Point2 p =
+        in_f ? Point2(w0 * q.a + w1 * q.b + w2 * q.c) : Point2(w0 * q.b + w1 * q.a + w2 * q.d);
     const Point2 along = q.c - q.d;
     const Point2 from_d = p - q.d;
     const bool side_of_a = along.x() * from_d.y() - along.y() * from_d.x() >= 0;

@@ -12,18 +12,17 @@ constexpr double kMostOfStiffness = 0.5;
 }  // namespace
 
 FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-                         double stiffness_factor, std::vector<Index> held, Mass mass)
+                         double stiffness_factor, std::vector<Index> held, double consistent_share)
     : mesh_(std::move(mesh)),
       mass_factor_(mass_factor),
       stiffness_factor_(stiffness_factor),
-      mass_(mass),
+      consistent_share_(consistent_share),
       held_(std::move(held)) {
   diagonal_.resize(static_cast<std::size_t>(size()));
   for (Index i = 0; i < size(); ++i) {
-    diagonal_[i] =
-        mass_factor_ * mesh_->mass[i] + stiffness_factor_ * mesh_->stiffness_diagonal[i];
+    diagonal_[i] = mass_factor_ * mesh_->mass[i] + stiffness_factor_ * mesh_->stiffness_diagonal[i];
   }
-  if (mass_ == Mass::kHalfLumped) {
+  if (consistent_share_ > 0) {
     for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
       const auto coupled = weights(mesh_->layout[f]);
       const auto plain = stiffness(mesh_->layout[f]);
@@ -48,11 +47,11 @@ FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_f
 std::array<double, 3> FemOperator::weights(const FaceLayout& p) const {
   std::array<double, 3> w = stiffness(p);
   for (double& weight : w) weight *= -stiffness_factor_;
-  if (mass_ == Mass::kLumped) return w;
-  // The consistent mass couples each pair by area / 12. Half of that, and never more than half of
-  // what the stiffness couples: M keeps the signs that make u positive.
-  const double half = mass_factor_ * p.base * p.height / 48;
-  for (double& weight : w) weight -= std::min(half, kMostOfStiffness * std::max(weight, 0.0));
+  if (!(consistent_share_ > 0)) return w;
+  // The consistent mass couples each pair by area / 12; no more of it than half of what the
+  // stiffness couples, so that M keeps the signs that make u positive.
+  const double mass = consistent_share_ * mass_factor_ * p.base * p.height / 24;
+  for (double& weight : w) weight -= std::min(mass, kMostOfStiffness * std::max(weight, 0.0));
   return w;
 }
 

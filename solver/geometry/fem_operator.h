@@ -9,21 +9,17 @@
 
 namespace geotherm {
 
-/// How the mass matrix A is lumped.
-enum class Mass {
-  kLumped,      ///< diagonal: a third of the incident areas
-  kHalfLumped,  ///< mean of the lumped and the consistent mass, of fourth order in wave number on
-                ///< regular meshes (Goudreau, Taylor 1973); no entry of M changes its sign for it
-};
-
 /// M = a A + s L on a surface: A the mass (rows sum to the lumped masses), L the cotan stiffness
-/// (positive semidefinite, rows sum to 0). Rows and columns of held vertices are those of the identity, which keeps M
-/// symmetric and its pattern unchanged: the caller moves known values to the right side.
+/// (positive semidefinite, rows sum to 0). A = (1 - c) lumped + c consistent mass; c = 0 is the
+/// usual lumped mass, c = 1/2 is of fourth order in the wave number on regular meshes (Goudreau,
+/// Taylor 1973). No off-diagonal entry of M changes its sign for c. Rows and columns of held
+/// vertices are those of the identity, which keeps M symmetric and its pattern unchanged: the
+/// caller moves known values to the right side.
 class FemOperator final : public SymmetricOperator {
  public:
   /// `held`: vertices in elimination numbering, in any order; empty for none.
-  FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-              double stiffness_factor, std::vector<Index> held = {}, Mass mass = Mass::kLumped);
+  FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor, double stiffness_factor,
+              std::vector<Index> held = {}, double consistent_share = 0.0);
 
   Index size() const override { return mesh_->size(); }
   void apply(std::span<const double> x, std::span<double> y) const override;
@@ -46,7 +42,7 @@ class FemOperator final : public SymmetricOperator {
 
   std::shared_ptr<const OperatorMesh> mesh_;
   double mass_factor_, stiffness_factor_;
-  Mass mass_;
+  double consistent_share_;
   std::vector<Index> held_;
   std::vector<char> is_held_;  ///< n, or empty when nothing is held
   std::vector<double> diagonal_;

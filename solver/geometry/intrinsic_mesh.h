@@ -20,7 +20,7 @@ struct IntrinsicMesh {
   std::vector<Face> faces;                     ///< F x 3 vertices
   std::vector<std::array<double, 3>> lengths;  ///< F x 3, in units of `unit`
   std::vector<Side> twin;                      ///< 3F: the other side of the edge, or kNoSide
-  double unit = 1.0;        ///< length of 1 in model units: the mean edge length
+  double unit = 1.0;                           ///< length of 1 in model units: the mean edge length
   double mollified_by = 0;  ///< what was added to every length, in units of `unit`
 
   Index face_count() const { return static_cast<Index>(faces.size()); }

@@ -13,13 +13,13 @@ namespace geotherm {
 /// The surface as the solvers walk it: vertices in elimination order, faces sorted to follow them,
 /// each face laid out in its own plane. Lengths are in units of IntrinsicMesh::unit.
 struct OperatorMesh {
-  std::vector<Face> faces;             ///< F x 3, elimination numbers
-  std::vector<FaceLayout> layout;      ///< F
-  std::vector<Index> intrinsic_face;   ///< F: number of the face in the IntrinsicMesh
-  std::vector<double> mass;            ///< n: a third of the incident areas, > 0
+  std::vector<Face> faces;                 ///< F x 3, elimination numbers
+  std::vector<FaceLayout> layout;          ///< F
+  std::vector<Index> intrinsic_face;       ///< F: number of the face in the IntrinsicMesh
+  std::vector<double> mass;                ///< n: a third of the incident areas, > 0
   std::vector<double> stiffness_diagonal;  ///< n: diagonal of L
-  Components components;               ///< of the vertices
-  std::uint64_t pattern = 0;           ///< pattern_hash of the elimination-ordered graph
+  Components components;                   ///< of the vertices
+  std::uint64_t pattern = 0;               ///< pattern_hash of the elimination-ordered graph
 
   /// Pattern of the lower triangle (values empty), and for face f the entries of its pairs of
   /// corners (0,1), (1,2), (2,0); -1 for a pair that is one vertex.

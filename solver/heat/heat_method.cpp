@@ -64,12 +64,18 @@ double diffusion_time(const Surface& surface, const TimeStep& step) {
   return step.absolute;
 }
 
+/// Half of the mass is consistent where the mesh resolves the diffusion length, t >= 0.8 h^2; the
+/// expansion behind it fails below, and at t = 0.2 h^2 the lumped mass is better (measured).
+double consistent_share(Variant variant, double unit_t) {
+  return variant == Variant::kClassic ? 0.0 : 0.5 * std::clamp((unit_t - 0.2) / 0.6, 0.0, 1.0);
+}
+
 }  // namespace
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
                                      const HeatOptions& options, const Progress& progress) {
-  const auto backend = find_backend(options.backend.empty() ? backend_names().front()
-                                                            : options.backend);
+  const auto backend =
+      find_backend(options.backend.empty() ? backend_names().front() : options.backend);
   if (!backend) return backend.error();
   if (const auto valid = check(options); !valid) return valid.error();
   if (!report(progress, "operators", 0.0)) return cancelled();
@@ -94,8 +100,8 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   if (const auto valid = check(options); !valid) return valid.error();
   const std::string name = options.backend.empty() ? backend_names().front() : options.backend;
   const bool fresh = state_->heat == nullptr;
-  if (!fresh && (name != state_->backend->name() ||
-                 options.laplacian != state_->options.laplacian)) {
+  if (!fresh &&
+      (name != state_->backend->name() || options.laplacian != state_->options.laplacian)) {
     return build(state_->surface->mesh, options, progress);
   }
   if (!report(progress, "factorize", 0.5)) return cancelled();
@@ -114,11 +120,9 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   run_both(
       threads,
       [&] {
-        const Mass mass =
-            options.variant == Variant::kClassic ? Mass::kLumped : Mass::kHalfLumped;
-        auto built = HeatStep::build(next->surface, unit_t, options.boundary, mass, iterative,
-                                     state_->heat.get(),
-                                     std::max(1, threads / 2));
+        auto built = HeatStep::build(next->surface, unit_t, options.boundary,
+                                     consistent_share(options.variant, unit_t), iterative,
+                                     state_->heat.get(), std::max(1, threads / 2));
         if (built) {
           next->heat = std::move(*built);
         } else {
@@ -207,8 +211,7 @@ Result<void> solve_group(const Pipeline& p, std::span<const SourceSet> sets,
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     DistanceResult& result = results[first + c];
     const auto column = static_cast<Eigen::Index>(c);
-    result.timing = {diffuse_ms / share, gradient_ms / share, poisson_ms / share,
-                     query_ms / share};
+    result.timing = {diffuse_ms / share, gradient_ms / share, poisson_ms / share, query_ms / share};
     result.warnings = heat->warnings;
     result.quality.iterations_heat = heat->field.iterations;
     result.quality.iterations_poisson = answer->iterations;

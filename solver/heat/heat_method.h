@@ -49,11 +49,11 @@ class HeatMethod {
                                                  const Progress& progress = {}) const;
 
   const HeatOptions& options() const;
-  double t() const;                   ///< diffusion time, model units squared
-  LaplacianKind laplacian() const;    ///< what kAuto became
-  Index flips() const;                ///< Delaunay edge flips made
-  const SetupTiming& timing() const;  ///< of build() or of the with() that made this
-  double factor_mb() const;           ///< memory of all factors, in 2^20 bytes
+  double t() const;                                  ///< diffusion time, model units squared
+  LaplacianKind laplacian() const;                   ///< what kAuto became
+  Index flips() const;                               ///< Delaunay edge flips made
+  const SetupTiming& timing() const;                 ///< of build() or of the with() that made this
+  double factor_mb() const;                          ///< memory of all factors, in 2^20 bytes
   const std::vector<std::string>& warnings() const;  ///< about mesh and options, one sentence each
 
  private:

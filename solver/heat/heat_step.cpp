@@ -12,22 +12,22 @@ namespace geotherm {
 
 Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
                                                         double t, BoundaryRule boundary,
-                                                        Mass mass, bool iterative, const HeatStep* previous,
-                                                        int threads) {
+                                                        double consistent_share, bool iterative,
+                                                        const HeatStep* previous, int threads) {
   std::shared_ptr<HeatStep> out(new HeatStep);
   out->surface_ = std::move(surface);
   out->t_ = t;
-  out->mass_ = mass;
+  out->consistent_share_ = consistent_share;
   out->boundary_ = boundary;
   out->iterative_ = iterative;
   out->threads_ = threads;
-  if (previous != nullptr && previous->t_ == t && previous->mass_ == mass) {
+  if (previous != nullptr && previous->t_ == t && previous->consistent_share_ == consistent_share) {
     out->neumann_ = previous->neumann_;
     out->dirichlet_ = previous->dirichlet_;
   }
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, t,
-                                     std::move(held), threads, mass);
+                                     std::move(held), threads, consistent_share);
     if (!built) return Result<void>(built.error());
     target = std::move(*built);
     return Result<void>();
@@ -79,7 +79,7 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
     for (const auto& anchor : anchors.anchors) b(anchor.row, 0) = held_value(anchor);
   }
   return LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
-                             threads_, mass_);
+                             threads_, consistent_share_);
 }
 
 /// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set.
@@ -102,8 +102,8 @@ Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
 }
 
 Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
-                                              std::span<const SourceAnchors> anchors,
-                                              HeatMode mode, bool residuals) const {
+                                              std::span<const SourceAnchors> anchors, HeatMode mode,
+                                              bool residuals) const {
   const OperatorMesh& mesh = *surface_->operators;
   Block b = Block::Zero(mesh.size(), static_cast<Eigen::Index>(anchors.size()));
   std::vector<Index> support;

@@ -24,11 +24,11 @@ class HeatStep {
   };
 
   /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it
-  /// has them with this t and mass. Errors: the backend's.
+  /// has them with this t and share. Errors: the backend's.
   static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
-                                                       double t, BoundaryRule boundary, Mass mass,
-                                                       bool iterative, const HeatStep* previous,
-                                                       int threads);
+                                                       double t, BoundaryRule boundary,
+                                                       double consistent_share, bool iterative,
+                                                       const HeatStep* previous, int threads);
 
   /// True when these sources change the matrix, so that they cannot share a block with others:
   /// sources on a Dirichlet border, and u held on many vertices.
@@ -58,7 +58,7 @@ class HeatStep {
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> neumann_, dirichlet_;  ///< those the rule needs
   double t_ = 0;
-  Mass mass_ = Mass::kLumped;
+  double consistent_share_ = 0;
   BoundaryRule boundary_ = BoundaryRule::kNeumann;
   bool iterative_ = false;
   int threads_ = 1;

@@ -7,16 +7,17 @@ namespace geotherm {
 
 Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
     const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-    double stiffness_factor, std::vector<Index> held, int threads, Mass mass) {
+    double stiffness_factor, std::vector<Index> held, int threads, double consistent_share) {
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
-  auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held, mass);
+  auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held,
+                                                      consistent_share);
   auto factor = analysis.factorize(factored, threads);
   if (!factor) return factor.error();
   std::shared_ptr<LinearSystem> out(new LinearSystem);
   out->factor_ = std::move(*factor);
-  out->matrix_ = std::make_shared<const FemOperator>(std::move(mesh), mass_factor,
-                                                     stiffness_factor, std::move(held), mass);
+  out->matrix_ = std::make_shared<const FemOperator>(std::move(mesh), mass_factor, stiffness_factor,
+                                                     std::move(held), consistent_share);
   return std::shared_ptr<const LinearSystem>(std::move(out));
 }
 

@@ -28,9 +28,9 @@ std::vector<double> shifts(const Surface& surface, const Block& phi, Eigen::Inde
 
 }  // namespace
 
-Result<std::vector<double>> normalize(const Surface& surface, const Block& phi,
-                                      Eigen::Index column, const SourceAnchors& anchors,
-                                      ConstraintMode mode, DistanceResult& result) {
+Result<std::vector<double>> normalize(const Surface& surface, const Block& phi, Eigen::Index column,
+                                      const SourceAnchors& anchors, ConstraintMode mode,
+                                      DistanceResult& result) {
   const Components& components = surface.operators->components;
   std::vector<double> value(static_cast<std::size_t>(phi.rows()));
   const bool pinned = mode == ConstraintMode::kPinSources;
@@ -58,8 +58,7 @@ Result<std::vector<double>> normalize(const Surface& surface, const Block& phi,
                        "--laplacian intrinsic-delaunay"};
     }
     if (value[i] < 0) ++result.quality.clamped_vertices;
-    result.distances[surface.vertex_of_row[i]] =
-        std::max(value[i], 0.0) * surface.intrinsic.unit;
+    result.distances[surface.vertex_of_row[i]] = std::max(value[i], 0.0) * surface.intrinsic.unit;
   }
   return value;
 }
@@ -69,8 +68,8 @@ std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& 
   std::vector<double> out(static_cast<std::size_t>(surface.mesh->vertex_count()), 0.0);
   const double largest = heat.u.col(column).cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
-    const bool far = !heat.level.empty() &&
-                     heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)] > 0;
+    const bool far =
+        !heat.level.empty() && heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)] > 0;
     if (!far && largest > 0) out[surface.vertex_of_row[i]] = heat.u(i, column) / largest;
   }
   return out;

@@ -50,8 +50,8 @@ Result<Enum> value_of(const Names<Enum, N>& names, std::string_view what, std::s
     if (name == text) return value;
     known += (known.empty() ? "" : ", ") + std::string(name);
   }
-  return Error{ErrorCode::kBadInput, "'" + std::string(text) + "' is no " + std::string(what) +
-                                         "; there are " + known};
+  return Error{ErrorCode::kBadInput,
+               "'" + std::string(text) + "' is no " + std::string(what) + "; there are " + known};
 }
 
 std::string shortest(double value) {
@@ -107,9 +107,9 @@ Result<TimeStep> parse_time_step(std::string_view text, double factor) {
   if (!rule) return rule.error();
   TimeStep step{*rule, factor, 0.0};
   if ((*rule == TimeRule::kAbsolute) != has_value) {
-    return Error{ErrorCode::kBadInput,
-                 "'" + std::string(text) + "' is no time step; write mean-edge, mean-face-area or "
-                 "absolute:T, with T in model units squared"};
+    return Error{ErrorCode::kBadInput, "'" + std::string(text) +
+                                           "' is no time step; write mean-edge, mean-face-area or "
+                                           "absolute:T, with T in model units squared"};
   }
   if (!has_value) return step;
   const auto value = number<double>("the time step", tail);
@@ -146,9 +146,9 @@ Result<Constraint> parse_constraint(std::string_view text) {
     constraint.pin_vertex = *vertex;
     return constraint;
   }
-  return Error{ErrorCode::kBadInput, "the constraint mode " + std::string(name) +
-                                         " takes no value; write it without ':" +
-                                         std::string(tail) + "'"};
+  return Error{ErrorCode::kBadInput,
+               "the constraint mode " + std::string(name) +
+                   " takes no value; write it without ':" + std::string(tail) + "'"};
 }
 
 Result<HeatMode> parse_heat_mode(std::string_view text) {

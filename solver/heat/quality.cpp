@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace geotherm {
 
 double heat_residual(const FemOperator& matrix, const HeatField& heat, const Block& b,
@@ -12,9 +11,10 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
   const auto n = static_cast<std::size_t>(matrix.size());
   std::vector<double> u(n), product(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const bool far = !heat.level.empty() &&
-                     heat.level[i * static_cast<std::size_t>(heat.u.cols()) +
-                                static_cast<std::size_t>(column)] > 0;
+    const bool far =
+        !heat.level.empty() &&
+        heat.level[i * static_cast<std::size_t>(heat.u.cols()) + static_cast<std::size_t>(column)] >
+            0;
     u[i] = far ? 0.0 : heat.u(static_cast<Eigen::Index>(i), column);
   }
   matrix.apply_free(u, product);

@@ -104,9 +104,8 @@ class Placer {
     }
     if (!valid || std::abs(sum - 1) > kWeightSum) {
       return Error{ErrorCode::kBadInput,
-                   "the weights of the source in face " + std::to_string(point.face) +
-                       " sum to " + std::to_string(sum) +
-                       "; barycentric weights are not negative and sum to 1"};
+                   "the weights of the source in face " + std::to_string(point.face) + " sum to " +
+                       std::to_string(sum) + "; barycentric weights are not negative and sum to 1"};
     }
     const Face& face = surface_.mesh->faces()[point.face];
     for (int k = 0; k < 3; ++k) {
@@ -175,10 +174,9 @@ class Placer {
       add_carried(carry_through_flips(surface_.flips, middle));
       return {};
     }
-    return Error{ErrorCode::kBadInput, "the source curve goes from vertex " +
-                                           std::to_string(edge[0]) + " to " +
-                                           std::to_string(edge[1]) +
-                                           ", which share no edge; name vertices along edges"};
+    return Error{ErrorCode::kBadInput,
+                 "the source curve goes from vertex " + std::to_string(edge[0]) + " to " +
+                     std::to_string(edge[1]) + ", which share no edge; name vertices along edges"};
   }
 
   /// Straight distances to the sources within the faces that touch one.

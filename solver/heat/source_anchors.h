@@ -22,9 +22,9 @@ struct SourceAnchors {
     std::array<double, 2> field;  ///< gradient of the interpolated straight distance
   };
 
-  std::vector<Anchor> anchors;        ///< ascending rows, each once
-  std::vector<NearFace> near_faces;   ///< each face once
-  std::vector<Index> components;      ///< that hold a source, ascending
+  std::vector<Anchor> anchors;       ///< ascending rows, each once
+  std::vector<NearFace> near_faces;  ///< each face once
+  std::vector<Index> components;     ///< that hold a source, ascending
 
   std::vector<Index> rows() const;
 };

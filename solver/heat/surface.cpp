@@ -71,14 +71,13 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
 
   std::vector<Index> used;
   const std::vector<Index> local = number_used(out->mesh->vertex_count(), clean.faces, used);
-  const SymmetricPattern pattern =
-      pattern_of_faces(static_cast<Index>(used.size()), [&] {
-        std::vector<Face> faces = out->intrinsic.faces;
-        for (Face& face : faces) {
-          for (Index& corner : face) corner = local[corner];
-        }
-        return faces;
-      }());
+  const SymmetricPattern pattern = pattern_of_faces(static_cast<Index>(used.size()), [&] {
+    std::vector<Face> faces = out->intrinsic.faces;
+    for (Face& face : faces) {
+      for (Index& corner : face) corner = local[corner];
+    }
+    return faces;
+  }());
   std::vector<Vec3> used_positions(used.size());
   for (std::size_t i = 0; i < used.size(); ++i) used_positions[i] = positions[used[i]];
   out->operators_ms = watch.lap();

@@ -6,9 +6,9 @@
 
 #include "solver/core/result.h"
 #include "solver/geometry/delaunay.h"
+#include "solver/geometry/operator_mesh.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/backend.h"
-#include "solver/geometry/operator_mesh.h"
 #include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
@@ -18,15 +18,15 @@ namespace geotherm {
 /// same mesh, backend and Laplacian.
 struct Surface {
   std::shared_ptr<const TriangleMesh> mesh;
-  std::vector<Face> clean_faces;       ///< before flips, as CleanFaces
-  std::vector<Index> clean_of_face;    ///< F of the mesh: number in clean_faces, or kNoIndex
-  IntrinsicMesh intrinsic;             ///< after flips
+  std::vector<Face> clean_faces;     ///< before flips, as CleanFaces
+  std::vector<Index> clean_of_face;  ///< F of the mesh: number in clean_faces, or kNoIndex
+  IntrinsicMesh intrinsic;           ///< after flips
   std::vector<Flip> flips;
   LaplacianKind laplacian = LaplacianKind::kCotan;
 
-  std::vector<Index> row_of_vertex;    ///< V: elimination number, kNoIndex when in no face
-  std::vector<Index> vertex_of_row;    ///< n
-  std::vector<char> on_boundary;       ///< n: the vertex is an end of an edge with one face
+  std::vector<Index> row_of_vertex;  ///< V: elimination number, kNoIndex when in no face
+  std::vector<Index> vertex_of_row;  ///< n
+  std::vector<char> on_boundary;     ///< n: the vertex is an end of an edge with one face
   std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<const OperatorMesh> operators;
 

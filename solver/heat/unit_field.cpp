@@ -17,6 +17,9 @@ constexpr double kSafeHigh = 1e280;
 /// one front: the rest is the scatter of the discretisation, some 5 %.
 constexpr double kFront = 0.95;
 
+/// Faces longer than this many diffusion lengths say nothing reliable about the slope.
+constexpr double kResolved = 1.6;
+
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
   Field g = gradient(p, u0, u1, u2);
@@ -63,14 +66,15 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t)
 
 double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index column) const {
   if (!(root_t_ > 0)) return 1;
-  const Field g = gradient(p, log_u_(face[0], column), log_u_(face[1], column),
-                           log_u_(face[2], column));
+  const Field g =
+      gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
   const double norm = std::sqrt(g[0] * g[0] + g[1] * g[1]);
   const double slope = root_t_ * norm;
   if (!(slope < kFront) || !(norm > 0)) return 1;  // one front, or no logarithm (u <= 0)
   const double along1 = p.base * g[0] / norm;
   const double along2 = (p.x * g[0] + p.height * g[1]) / norm;
   const double extent = std::max({0.0, along1, along2}) - std::min({0.0, along1, along2});
+  if (extent > kResolved * root_t_) return 1;
   return std::min(1.0, slope / (kFront * front_slope(extent, root_t_)));
 }
 

@@ -13,8 +13,8 @@ Result<Eigen::MatrixXd> Factorization::inverse_entries(std::span<const Index> ro
     const Eigen::Index columns = std::min(kColumnsAtOnce, count - first);
     Block x = Block::Zero(size(), columns);
     for (Eigen::Index c = 0; c < columns; ++c) x(rows[first + c], c) = 1;
-    const auto solved = solve(x, rows.subspan(static_cast<std::size_t>(first),
-                                              static_cast<std::size_t>(columns)));
+    const auto solved =
+        solve(x, rows.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(columns)));
     if (!solved) return solved.error();
     for (Eigen::Index r = 0; r < count; ++r) {
       entries.block(r, first, 1, columns) = x.row(rows[static_cast<std::size_t>(r)]);

@@ -33,8 +33,8 @@ Result<const Backend*> find_backend(std::string_view name) {
     if (backend->name() == name) return backend;
     known += (known.empty() ? "" : ", ") + std::string(backend->name());
   }
-  return Error{ErrorCode::kNotAvailable, "there is no backend '" + std::string(name) +
-                                             "' in this build; there are " + known};
+  return Error{ErrorCode::kNotAvailable,
+               "there is no backend '" + std::string(name) + "' in this build; there are " + known};
 }
 
 }  // namespace geotherm

@@ -16,8 +16,8 @@ std::mutex& guard() {
   static std::mutex mutex;
   return mutex;
 }
-int users = 0;       // guarded
-int before_us = 1;   // guarded
+int users = 0;      // guarded
+int before_us = 1;  // guarded
 
 bool adjustable() {
   return openblas_set_num_threads != nullptr && openblas_get_num_threads != nullptr;

@@ -72,11 +72,10 @@ class ConjugateGradient final : public Factorization {
     SolveReport report;
     while (rho > kTolerance * kTolerance * start) {
       if (report.iterations == budget) {
-        return Error{ErrorCode::kBudgetEnded,
-                     "cg: the budget of " + std::to_string(budget) +
-                         " iterations ended at a relative residual of " +
-                         std::to_string(std::sqrt(rho / start)) +
-                         "; try --backend cholmod or eigen-ldlt"};
+        return Error{ErrorCode::kBudgetEnded, "cg: the budget of " + std::to_string(budget) +
+                                                  " iterations ended at a relative residual of " +
+                                                  std::to_string(std::sqrt(rho / start)) +
+                                                  "; try --backend cholmod or eigen-ldlt"};
       }
       ++report.iterations;
       matrix_->apply(p, q);
@@ -116,8 +115,8 @@ class CgAnalysis final : public Analysis {
 
   std::span<const Index> order() const override { return order_; }
 
-  Result<std::unique_ptr<Factorization>> factorize(
-      std::shared_ptr<const SymmetricOperator> matrix, int /*threads*/) const override {
+  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
+                                                   int /*threads*/) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();

@@ -113,8 +113,8 @@ class CholmodAnalysis final : public Analysis {
 
   std::span<const Index> order() const override { return order_; }
 
-  Result<std::unique_ptr<Factorization>> factorize(
-      std::shared_ptr<const SymmetricOperator> matrix, int threads) const override {
+  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
+                                                   int threads) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();
@@ -132,8 +132,7 @@ class CholmodAnalysis final : public Analysis {
       return Error{ErrorCode::kNumericalFailure,
                    "cholmod: the matrix is not positive definite (pivot of column " +
                        std::to_string(numeric->factor->minor) + " of " +
-                       std::to_string(numeric->factor->n) +
-                       ", status " + std::to_string(status) +
+                       std::to_string(numeric->factor->n) + ", status " + std::to_string(status) +
                        "); try --laplacian intrinsic-delaunay or another backend"};
     }
     if (!structure_) {
@@ -181,8 +180,8 @@ Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
   for (std::size_t k = 0; k < symbolic->factor->n; ++k) permutation[k] = static_cast<Int>(k);
   symbolic->factor->ordering = CHOLMOD_NATURAL;
   const std::uint64_t hash = pattern_hash(permuted(pattern, final_order));
-  return std::shared_ptr<const Analysis>(std::make_shared<CholmodAnalysis<Int>>(
-      std::move(symbolic), hash, std::move(final_order)));
+  return std::shared_ptr<const Analysis>(
+      std::make_shared<CholmodAnalysis<Int>>(std::move(symbolic), hash, std::move(final_order)));
 }
 
 class CholmodBackend final : public Backend {

@@ -13,7 +13,7 @@ struct ColumnFactorData {
   std::vector<std::int64_t> start = {0};  ///< n + 1
   std::vector<Index> row;                 ///< ascending in each column, below the diagonal
   std::vector<double> value;
-  std::vector<double> inverse_pivot;      ///< n: 1 / D
+  std::vector<double> inverse_pivot;  ///< n: 1 / D
 };
 
 std::unique_ptr<TriangularFactor> make_column_factor(ColumnFactorData data);

@@ -23,8 +23,8 @@ class EigenAnalysis final : public Analysis {
 
   std::span<const Index> order() const override { return order_; }
 
-  Result<std::unique_ptr<Factorization>> factorize(
-      std::shared_ptr<const SymmetricOperator> matrix, int /*threads*/) const override {
+  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
+                                                   int /*threads*/) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();
@@ -38,9 +38,9 @@ class EigenAnalysis final : public Analysis {
     try {
       ldlt.compute(view);
     } catch (const std::bad_alloc&) {
-      return Error{ErrorCode::kOutOfMemory,
-                   "eigen-ldlt ran out of memory on a matrix of size " +
-                       std::to_string(matrix->size()) + "; try --backend cg"};
+      return Error{ErrorCode::kOutOfMemory, "eigen-ldlt ran out of memory on a matrix of size " +
+                                                std::to_string(matrix->size()) +
+                                                "; try --backend cg"};
     }
     const auto pivots = ldlt.vectorD();
     for (Index j = 0; j < lower.size(); ++j) {
@@ -76,8 +76,7 @@ class EigenBackend final : public Backend {
                                                   int threads) const override {
     std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
     const std::uint64_t hash = pattern_hash(permuted(pattern, order));
-    return std::shared_ptr<const Analysis>(
-        std::make_shared<EigenAnalysis>(std::move(order), hash));
+    return std::shared_ptr<const Analysis>(std::make_shared<EigenAnalysis>(std::move(order), hash));
   }
 };
 

@@ -15,8 +15,8 @@ constexpr int kMostBins = 512;
 
 struct Plane {
   int axis = -1;
-  int bin = 0;         ///< vertices in bins up to this one are left of the plane
-  Half from = kLeft;   ///< the half that gives its border vertices to the separator
+  int bin = 0;        ///< vertices in bins up to this one are left of the plane
+  Half from = kLeft;  ///< the half that gives its border vertices to the separator
   double cost = std::numeric_limits<double>::max();
 };
 
@@ -73,9 +73,9 @@ void sweep(const GraphPart& part, int axis, int bins, const std::vector<std::uin
 std::vector<std::int8_t> split(const GraphPart& part, Half& from) {
   std::array<float, 3> extent{};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = std::minmax_element(
-        part.position.begin(), part.position.end(),
-        [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+    const auto [low, high] =
+        std::minmax_element(part.position.begin(), part.position.end(),
+                            [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
     extent[axis] = (*high)[axis] - (*low)[axis];
   }
   const float longest = *std::max_element(extent.begin(), extent.end());

@@ -12,17 +12,17 @@ namespace geotherm {
 /// from the diagonal down, at values[c * height + r]; the first `width` rows are the columns'
 /// own, the others are listed in `rows`.
 struct Panel {
-  Index first;         ///< its first column
+  Index first;  ///< its first column
   Index width;
-  Index height;        ///< width + rows below
-  const Index* rows;   ///< height - width row numbers
+  Index height;       ///< width + rows below
+  const Index* rows;  ///< height - width row numbers
   const double* values;
 };
 
 /// One column of a unit lower triangular factor with a diagonal, M = L D L^T.
 struct Column {
   Index index;
-  Index count;         ///< entries below the diagonal
+  Index count;  ///< entries below the diagonal
   const Index* rows;
   const double* values;
   double inverse_pivot;
