@@ -32,7 +32,7 @@ function(geotherm_discover_tests target)
     set(filter TEST_FILTER "${GEOTHERM_TEST_FILTER}")
   endif()
   gtest_discover_tests(${target} TEST_PREFIX "${GEOTHERM_TEST_PREFIX}" ${filter}
-    TEST_LIST ${target}_names DISCOVERY_TIMEOUT 60
+    NO_PRETTY_VALUES TEST_LIST ${target}_names DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL})
   # gtest_discover_tests cannot pass on a property that is a list: it is set when ctest starts.
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_environment.cmake")

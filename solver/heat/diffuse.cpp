@@ -98,6 +98,25 @@ class FarField {
   HeatField& field_;
 };
 
+/// Columns with an entry below `floor` times their largest: one pass along memory.
+std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor) {
+  const auto columns = static_cast<std::size_t>(u.cols());
+  std::vector<double> largest(columns, 0.0), smallest(columns, kUnreached);
+  for (Eigen::Index i = 0; i < u.rows(); ++i) {
+    const double* row = u.data() + i * u.cols();
+    for (std::size_t c = 0; c < columns; ++c) {
+      const double size = std::abs(row[c]);
+      largest[c] = size > largest[c] ? size : largest[c];
+      smallest[c] = size < smallest[c] ? size : smallest[c];
+    }
+  }
+  std::vector<Eigen::Index> found;
+  for (std::size_t c = 0; c < columns; ++c) {
+    if (smallest[c] < floor * largest[c]) found.push_back(static_cast<Eigen::Index>(c));
+  }
+  return found;
+}
+
 }  // namespace
 
 Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
@@ -109,7 +128,7 @@ Result<HeatField> diffuse(const LinearSystem& system, const Components& componen
   const auto solved = system.solve(field.u, support);
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
-  for (Eigen::Index c = 0; c < field.u.cols(); ++c) {
+  for (const Eigen::Index c : columns_with_small_values(field.u, floor)) {
     FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field);
     if (const auto extended = far.extend(floor); !extended) return extended.error();
   }

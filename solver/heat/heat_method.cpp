@@ -5,14 +5,13 @@
 #include <cmath>
 #include <new>
 
+#include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_step.h"
-#include "solver/heat/normalize.h"
 #include "solver/heat/option_text.h"
 #include "solver/heat/poisson.h"
-#include "solver/heat/quality.h"
-#include "solver/heat/unit_field.h"
+#include "solver/heat/query.h"
 
 namespace geotherm {
 
@@ -29,9 +28,6 @@ struct HeatMethod::State {
 
 namespace {
 
-/// Source sets solved together: one stream through each factor serves them all.
-constexpr std::size_t kSetsAtOnce = 16;
-
 Error cancelled() { return {ErrorCode::kCancelled, "the work was cancelled"}; }
 
 Result<void> check(const HeatOptions& options) {
@@ -40,13 +36,13 @@ Result<void> check(const HeatOptions& options) {
   const double value = absolute ? step.absolute : step.factor;
   if (!(value > 0) || !std::isfinite(value)) {
     return Error{ErrorCode::kBadInput, std::string(absolute ? "the time step" : "the time factor") +
-                                           " is " + std::to_string(value) +
+                                           " is " + rounded_text(value) +
                                            "; it must be a positive number"};
   }
   if (options.constraint.mode == ConstraintMode::kPenalty &&
       !(options.constraint.penalty > 0 && std::isfinite(options.constraint.penalty))) {
     return Error{ErrorCode::kBadInput, "the penalty is " +
-                                           std::to_string(options.constraint.penalty) +
+                                           rounded_text(options.constraint.penalty) +
                                            "; it must be a positive number"};
   }
   return {};
@@ -154,96 +150,13 @@ Result<DistanceResult> HeatMethod::solve(const SourceSet& sources,
   return std::move(results->front());
 }
 
-namespace {
-
-struct Pipeline {
-  const Surface& surface;
-  const HeatStep& heat;
-  const PoissonSolver& poisson;
-  const HeatOptions& options;
-  double unit_t;  ///< t in units of the intrinsic mesh squared
-};
-
-/// Places as many of the source sets as can be solved in one block.
-Result<std::vector<SourceAnchors>> next_group(const Pipeline& p, std::span<const SourceSet> sets) {
-  std::vector<SourceAnchors> group;
-  for (const SourceSet& set : sets.first(std::min(sets.size(), kSetsAtOnce))) {
-    auto placed = place_sources(p.surface, set);
-    if (!placed) return placed.error();
-    const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
-    if (alone && !group.empty()) break;
-    group.push_back(std::move(*placed));
-    if (alone) break;
-  }
-  return group;
-}
-
-Result<void> solve_group(const Pipeline& p, std::span<const SourceSet> sets,
-                         const QueryOptions& query, std::vector<DistanceResult>& results) {
-  Stopwatch whole, watch;
-  auto placed = next_group(p, sets);
-  if (!placed) return placed.error();
-  const std::vector<SourceAnchors>& anchors = *placed;
-  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality);
-  if (!heat) return heat.error();
-  const double diffuse_ms = watch.lap();
-  const UnitField field(*p.surface.operators, heat->field,
-                        p.options.variant == Variant::kClassic ? 0.0 : p.unit_t);
-  const Block b = field.divergence(anchors);
-  const double gradient_ms = watch.lap();
-  auto answer = p.poisson.solve(b, anchors);
-  if (!answer) return answer.error();
-
-  const auto share = static_cast<double>(anchors.size());
-  const std::size_t first = results.size();
-  std::vector<std::vector<double>> phi(anchors.size());
-  for (std::size_t c = 0; c < anchors.size(); ++c) {
-    DistanceResult result;
-    auto normalized = normalize(p.surface, answer->phi, static_cast<Eigen::Index>(c), anchors[c],
-                                p.options.constraint.mode, result);
-    if (!normalized) return normalized.error();
-    phi[c] = std::move(*normalized);
-    results.push_back(std::move(result));
-  }
-  const double poisson_ms = watch.lap();
-  const double query_ms = whole.milliseconds();
-
-  for (std::size_t c = 0; c < anchors.size(); ++c) {
-    DistanceResult& result = results[first + c];
-    const auto column = static_cast<Eigen::Index>(c);
-    result.timing = {diffuse_ms / share, gradient_ms / share, poisson_ms / share, query_ms / share};
-    result.warnings = heat->warnings;
-    result.quality.iterations_heat = heat->field.iterations;
-    result.quality.iterations_poisson = answer->iterations;
-    if (query.quality) {
-      result.quality.heat_residual = heat->residual[c];
-      result.quality.poisson_residual =
-          poisson_residual(*p.surface.operators, phi[c], b, column, anchors[c],
-                           p.options.constraint.mode == ConstraintMode::kPinSources);
-      inspect_faces(*p.surface.operators, field, phi[c], column, anchors[c], result.quality);
-      add_quality_warnings(result);
-    }
-    if (query.fields) result.heat = heat_in_file_order(p.surface, heat->field, column);
-  }
-  return {};
-}
-
-}  // namespace
-
 Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
                                                            const QueryOptions& query,
                                                            const Progress& progress) const {
-  std::vector<DistanceResult> results;
-  results.reserve(sets.size());
-  const Pipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
-                          state_->t / std::pow(state_->surface->mean_edge, 2)};
-  while (results.size() < sets.size()) {
-    const double done = static_cast<double>(results.size()) / static_cast<double>(sets.size());
-    if (!report(progress, "solve", done)) return cancelled();
-    const auto solved = solve_group(pipeline, sets.subspan(results.size()), query, results);
-    if (!solved) return solved.error();
-  }
-  return results;
+  const double edge = state_->surface->mean_edge;
+  const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
+                               state_->t / (edge * edge)};
+  return run_queries(pipeline, sets, query, progress);
 }
 
 const HeatOptions& HeatMethod::options() const { return state_->options; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/core/stopwatch.h"
 #include "solver/heat/quality.h"
 
 namespace geotherm {
@@ -131,10 +132,12 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   auto field = geotherm::diffuse(*system, mesh.components, b, support, reached,
                                  iterative_ ? kIterativeFloor : kDirectFloor);
   if (!field) return field.error();
-  Answer answer{std::move(*field), {}, {}};
+  Answer answer{std::move(*field), {}, 0.0, {}};
+  const Stopwatch watch;
   for (Eigen::Index c = 0; residuals && c < b.cols(); ++c) {
     answer.residual.push_back(heat_residual(system->matrix(), answer.field, b, c));
   }
+  answer.residual_ms = watch.milliseconds();
   if (dirichlet && on_border(anchors.front())) {
     answer.warnings.emplace_back(
         "sources on the border are left free under the Dirichlet rule; the rest of the border is "
@@ -154,6 +157,7 @@ Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchor
   if (!dirichlet) return dirichlet;
   neumann->field = average(std::move(neumann->field), dirichlet->field);
   neumann->warnings = dirichlet->warnings;
+  neumann->residual_ms += dirichlet->residual_ms;
   for (std::size_t c = 0; c < neumann->residual.size(); ++c) {
     neumann->residual[c] = std::max(neumann->residual[c], dirichlet->residual[c]);
   }

@@ -20,6 +20,7 @@ class HeatStep {
   struct Answer {
     HeatField field;
     std::vector<double> residual;  ///< |M u - b| / |b| of each column; empty unless asked for
+    double residual_ms = 0;        ///< what that took: no part of the query
     std::vector<std::string> warnings;
   };
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/core/number_text.h"
+
 namespace geotherm {
 namespace {
 
@@ -11,13 +13,13 @@ namespace {
 constexpr double kSuspiciousResidual = 1e-6;
 
 /// What must be added to phi on every component: 0 where no source is.
-std::vector<double> shifts(const Surface& surface, const Block& phi, Eigen::Index column,
+std::vector<double> shifts(const Surface& surface, std::span<const double> phi,
                            const SourceAnchors& anchors) {
   const Components& components = surface.operators->components;
   std::vector<double> sum(static_cast<std::size_t>(components.count), 0.0);
   std::vector<Index> count(sum.size(), 0);
   for (const auto& anchor : anchors.anchors) {
-    sum[components.of[anchor.row]] += anchor.offset - phi(anchor.row, column);
+    sum[components.of[anchor.row]] += anchor.offset - phi[anchor.row];
     ++count[components.of[anchor.row]];
   }
   for (std::size_t c = 0; c < sum.size(); ++c) {
@@ -28,39 +30,35 @@ std::vector<double> shifts(const Surface& surface, const Block& phi, Eigen::Inde
 
 }  // namespace
 
-Result<std::vector<double>> normalize(const Surface& surface, const Block& phi, Eigen::Index column,
-                                      const SourceAnchors& anchors, ConstraintMode mode,
-                                      DistanceResult& result) {
+Result<void> normalize(const Surface& surface, std::span<double> phi, const SourceAnchors& anchors,
+                       ConstraintMode mode, DistanceResult& result) {
   const Components& components = surface.operators->components;
-  std::vector<double> value(static_cast<std::size_t>(phi.rows()));
+  const double unit = surface.intrinsic.unit;
   const bool pinned = mode == ConstraintMode::kPinSources;
-  const std::vector<double> shift =
-      pinned ? std::vector<double>(static_cast<std::size_t>(components.count), 0.0)
-             : shifts(surface, phi, column, anchors);
-  for (Eigen::Index i = 0; i < phi.rows(); ++i) {
-    value[i] = phi(i, column) + shift[components.of[i]];
+  if (!pinned) {
+    const std::vector<double> shift = shifts(surface, phi, anchors);
+    for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += shift[components.of[i]];
   }
   for (const auto& anchor : anchors.anchors) {
-    if (pinned) value[anchor.row] = anchor.offset;  // held: what is left is the solve's round-off
-    result.quality.max_source_distance =
-        std::max(result.quality.max_source_distance,
-                 std::abs(value[anchor.row] - anchor.offset) * surface.intrinsic.unit);
+    if (pinned) phi[anchor.row] = anchor.offset;  // held: what is left is the solve's round-off
+    result.quality.max_source_distance = std::max(
+        result.quality.max_source_distance, std::abs(phi[anchor.row] - anchor.offset) * unit);
   }
   std::vector<char> holds(static_cast<std::size_t>(components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;
   result.distances.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kUnreached);
-  for (std::size_t i = 0; i < value.size(); ++i) {
+  for (std::size_t i = 0; i < phi.size(); ++i) {
     if (!holds[components.of[i]]) continue;
-    if (!std::isfinite(value[i])) {
+    if (!std::isfinite(phi[i])) {
       return Error{ErrorCode::kNumericalFailure,
                    "the distance of vertex " + std::to_string(surface.vertex_of_row[i]) +
                        " is not finite; try another backend, a larger --time-factor or "
                        "--laplacian intrinsic-delaunay"};
     }
-    if (value[i] < 0) ++result.quality.clamped_vertices;
-    result.distances[surface.vertex_of_row[i]] = std::max(value[i], 0.0) * surface.intrinsic.unit;
+    result.quality.clamped_vertices += phi[i] < 0;
+    result.distances[surface.vertex_of_row[i]] = std::max(phi[i], 0.0) * unit;
   }
-  return value;
+  return {};
 }
 
 std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
@@ -87,7 +85,7 @@ void add_quality_warnings(DistanceResult& result) {
        {std::pair{"heat", q.heat_residual}, std::pair{"Poisson", q.poisson_residual}}) {
     if (!(residual > kSuspiciousResidual)) continue;
     result.warnings.push_back(std::string("the ") + name + " system was solved to a residual of " +
-                              std::to_string(residual) + " only");
+                              rounded_text(residual) + " only");
   }
 }
 

@@ -9,14 +9,14 @@
 
 namespace geotherm {
 
-/// Makes distances of one column of phi. Under kPinSources the anchors have their value exactly;
-/// otherwise each component is shifted so that phi agrees with the anchors in the mean. Values
-/// below 0 become 0 and are counted. Fills `distances` (file order, model units, kUnreached
-/// elsewhere), `max_source_distance` and `clamped_vertices`; returns the shifted phi in elimination
-/// order and units of the intrinsic mesh. Errors: kNumericalFailure when a value is not finite.
-Result<std::vector<double>> normalize(const Surface& surface, const Block& phi, Eigen::Index column,
-                                      const SourceAnchors& anchors, ConstraintMode mode,
-                                      DistanceResult& result);
+/// Makes distances of phi (n values, elimination order, units of the intrinsic mesh), which is
+/// shifted in place. Under kPinSources the anchors have their value exactly; otherwise each
+/// component is shifted so that phi agrees with the anchors in the mean. Distances below 0 become 0
+/// and are counted. Fills `distances` (file order, model units, kUnreached elsewhere),
+/// `max_source_distance` and `clamped_vertices`. Errors: kNumericalFailure when a value is not
+/// finite.
+Result<void> normalize(const Surface& surface, std::span<double> phi, const SourceAnchors& anchors,
+                       ConstraintMode mode, DistanceResult& result);
 
 /// u of one column, file order, scaled so that the largest value is 1; 0 where out of range.
 std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,

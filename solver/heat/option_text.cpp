@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/core/number_text.h"
+
 namespace geotherm {
 namespace {
 
@@ -54,12 +56,6 @@ Result<Enum> value_of(const Names<Enum, N>& names, std::string_view what, std::s
                "'" + std::string(text) + "' is no " + std::string(what) + "; there are " + known};
 }
 
-std::string shortest(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 template <class Number>
 Result<Number> number(std::string_view what, std::string_view text) {
   Number value{};
@@ -83,12 +79,12 @@ std::pair<std::string_view, std::string_view> cut(std::string_view text, bool& h
 
 std::string to_text(const TimeStep& step) {
   const std::string name = name_of(kTimeRules, step.rule);
-  return step.rule == TimeRule::kAbsolute ? name + ":" + shortest(step.absolute) : name;
+  return step.rule == TimeRule::kAbsolute ? name + ":" + number_text(step.absolute) : name;
 }
 
 std::string to_text(const Constraint& constraint) {
   const std::string name = name_of(kConstraints, constraint.mode);
-  if (constraint.mode == ConstraintMode::kPenalty) return name + ":" + shortest(constraint.penalty);
+  if (constraint.mode == ConstraintMode::kPenalty) return name + ":" + number_text(constraint.penalty);
   if (constraint.mode == ConstraintMode::kPinVertex && constraint.pin_vertex != kNoIndex) {
     return name + ":" + std::to_string(constraint.pin_vertex);
   }

@@ -11,11 +11,11 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
   const auto n = static_cast<std::size_t>(matrix.size());
   std::vector<double> u(n), product(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const bool far =
-        !heat.level.empty() &&
-        heat.level[i * static_cast<std::size_t>(heat.u.cols()) + static_cast<std::size_t>(column)] >
-            0;
-    u[i] = far ? 0.0 : heat.u(static_cast<Eigen::Index>(i), column);
+    u[i] = heat.u(static_cast<Eigen::Index>(i), column);
+    if (heat.level.empty()) continue;
+    const int level = heat.level[i * static_cast<std::size_t>(heat.u.cols()) +
+                                 static_cast<std::size_t>(column)];
+    for (int k = 0; k < level && u[i] != 0; ++k) u[i] *= heat.step;
   }
   matrix.apply_free(u, product);
   double error = 0, norm = 0;

@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "solver/core/number_text.h"
+
 namespace geotherm {
 namespace {
 
@@ -105,7 +107,7 @@ class Placer {
     if (!valid || std::abs(sum - 1) > kWeightSum) {
       return Error{ErrorCode::kBadInput,
                    "the weights of the source in face " + std::to_string(point.face) + " sum to " +
-                       std::to_string(sum) + "; barycentric weights are not negative and sum to 1"};
+                       number_text(sum) + "; barycentric weights are not negative and sum to 1"};
     }
     const Face& face = surface_.mesh->faces()[point.face];
     for (int k = 0; k < 3; ++k) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm {
@@ -34,7 +35,7 @@ void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
   }
   if (intrinsic.mollified_by > 0) {
     warnings.push_back("degenerate or nearly degenerate faces: every edge was lengthened by " +
-                       std::to_string(intrinsic.mollified_by) + " mean edge lengths");
+                       rounded_text(intrinsic.mollified_by) + " mean edge lengths");
   }
 }
 
@@ -53,7 +54,7 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
     return Error{ErrorCode::kBadInput,
                  "the mesh has no face with area (" + std::to_string(out->mesh->face_count()) +
                      " faces, " + std::to_string(clean.repeated_corner) +
-                     " repeat a corner, mean edge length " + std::to_string(out->mean_edge) +
+                     " repeat a corner, mean edge length " + rounded_text(out->mean_edge) +
                      "); check how it was exported"};
   }
   out->intrinsic = build_intrinsic_mesh(positions, clean, out->mean_edge);

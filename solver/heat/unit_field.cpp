@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/heat/field_kernels.h"
+
 namespace geotherm {
 namespace {
 
@@ -12,13 +14,6 @@ using Field = std::array<double, 2>;
 /// Squared norms between these can be neither underflowing nor overflowing.
 constexpr double kSafeLow = 1e-280;
 constexpr double kSafeHigh = 1e280;
-
-/// Where sqrt(t) |grad log u| is above this share of what one front gives on this mesh, there is
-/// one front: the rest is the scatter of the discretisation, some 5 %.
-constexpr double kFront = 0.95;
-
-/// Faces longer than this many diffusion lengths say nothing reliable about the slope.
-constexpr double kResolved = 1.6;
 
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
@@ -37,13 +32,6 @@ Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
   return {g[0] * scale, g[1] * scale};
 }
 
-/// sqrt(t) |grad log u| of one plane front on a mesh whose extent along it is `extent`: u falls by
-/// the solution of 2 cosh x = 2 + extent^2 / t from one vertex to the next.
-double front_slope(double extent, double root_t) {
-  const double x = extent / (2 * root_t);
-  return x > 1e-3 ? std::asinh(x) / x : 1.0;
-}
-
 void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block& b,
                     Eigen::Index column) {
   const auto d = divergence(p, x[0], x[1]);
@@ -56,11 +44,14 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t)
     : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)) {
   if (t <= 0 && heat.level.empty()) return;
   log_u_.resize(heat.u.rows(), heat.u.cols());
-  for (Eigen::Index e = 0; e < heat.u.size(); ++e) log_u_.data()[e] = std::log(heat.u.data()[e]);
-  if (heat.level.empty()) return;
+  if (heat.level.empty()) {
+    logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
+    return;
+  }
   const double step = std::log(heat.step);
   for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-    log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+    log_u_.data()[e] =
+        std::log(heat.u.data()[e]) + step * heat.level[static_cast<std::size_t>(e)];
   }
 }
 
@@ -68,14 +59,9 @@ double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index col
   if (!(root_t_ > 0)) return 1;
   const Field g =
       gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
-  const double norm = std::sqrt(g[0] * g[0] + g[1] * g[1]);
-  const double slope = root_t_ * norm;
-  if (!(slope < kFront) || !(norm > 0)) return 1;  // one front, or no logarithm (u <= 0)
-  const double along1 = p.base * g[0] / norm;
-  const double along2 = (p.x * g[0] + p.height * g[1]) / norm;
-  const double extent = std::max({0.0, along1, along2}) - std::min({0.0, along1, along2});
-  if (extent > kResolved * root_t_) return 1;
-  return std::min(1.0, slope / (kFront * front_slope(extent, root_t_)));
+  const double square = g[0] * g[0] + g[1] * g[1];
+  if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
+  return field_length(p.base, p.x, p.height, g[0], g[1], root_t_);
 }
 
 Field UnitField::of_face(Index f, Eigen::Index column) const {
@@ -94,13 +80,44 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   return {x[0] * size, x[1] * size};
 }
 
+void UnitField::add_fast(Eigen::Index first, int group, Block& b) const {
+  struct Context {
+    const UnitField* field;
+    Eigen::Index first;
+  };
+  const Context context{this, first};
+  FieldPass pass{};
+  pass.mesh = &mesh_;
+  pass.u = heat_.u.data() + first;
+  pass.b = b.data() + first;
+  pass.stride = b.cols();
+  pass.context = &context;
+  pass.careful = [](const void* at, Index face, int column) {
+    const auto& c = *static_cast<const Context*>(at);
+    return c.field->of_face(face, c.first + column);
+  };
+  if (root_t_ > 0) {
+    pass.log_u = log_u_.data() + first;
+    pass.root_t = root_t_;
+  }
+  add_unit_divergence(pass, group);
+}
+
 Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
   const Eigen::Index columns = heat_.u.cols();
   Block b = Block::Zero(heat_.u.rows(), columns);
-  for (Index f = 0; f < mesh_.face_count(); ++f) {
-    for (Eigen::Index c = 0; c < columns; ++c) {
-      add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
+  for (Eigen::Index first = 0; first < columns;) {
+    const int group = column_group(columns - first);
+    if (heat_.level.empty()) {
+      add_fast(first, group, b);
+    } else {
+      for (Index f = 0; f < mesh_.face_count(); ++f) {
+        for (Eigen::Index c = first; c < first + group; ++c) {
+          add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
+        }
+      }
     }
+    first += group;
   }
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {

@@ -29,6 +29,7 @@ class UnitField {
   Block divergence(std::span<const SourceAnchors> anchors) const;
 
  private:
+  void add_fast(Eigen::Index first, int group, Block& b) const;
   double length(const FaceLayout& layout, const Face& face, Eigen::Index column) const;
 
   const OperatorMesh& mesh_;

@@ -18,6 +18,14 @@ namespace geotherm {
 /// A block of K vectors of length n; the K values of a row are contiguous.
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// The widest group of columns, 16, 8, 4, 2 or 1, that kernels take at once out of so many.
+inline int column_group(Eigen::Index columns) {
+  for (const int width : {16, 8, 4, 2}) {
+    if (columns >= width) return width;
+  }
+  return 1;
+}
+
 /// What a factorisation cost.
 struct FactorStats {
   std::int64_t nonzeros = 0;  ///< stored entries of the factor (0: no factor)

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "solver/core/number_text.h"
 #include "solver/linear/backends.h"
 
 namespace geotherm {
@@ -74,7 +75,7 @@ class ConjugateGradient final : public Factorization {
       if (report.iterations == budget) {
         return Error{ErrorCode::kBudgetEnded, "cg: the budget of " + std::to_string(budget) +
                                                   " iterations ended at a relative residual of " +
-                                                  std::to_string(std::sqrt(rho / start)) +
+                                                  rounded_text(std::sqrt(rho / start)) +
                                                   "; try --backend cholmod or eigen-ldlt"};
       }
       ++report.iterations;
@@ -83,7 +84,7 @@ class ConjugateGradient final : public Factorization {
       if (!(curvature > 0)) {
         return Error{ErrorCode::kNumericalFailure,
                      "cg: the matrix is not positive definite (curvature " +
-                         std::to_string(curvature) + " in iteration " +
+                         rounded_text(curvature) + " in iteration " +
                          std::to_string(report.iterations) +
                          "); try --laplacian intrinsic-delaunay"};
       }

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <string>
 
+#include "solver/core/number_text.h"
 #include "solver/linear/backends.h"
 #include "solver/linear/column_factor.h"
 #include "solver/linear/fill_order.h"
@@ -47,7 +48,7 @@ class EigenAnalysis final : public Analysis {
       if (ldlt.info() == Eigen::Success && pivots[j] > 0) continue;
       return Error{ErrorCode::kNumericalFailure,
                    "eigen-ldlt: the matrix is not positive definite (pivot " +
-                       std::to_string(pivots[j]) + " in column " + std::to_string(j) + " of " +
+                       rounded_text(pivots[j]) + " in column " + std::to_string(j) + " of " +
                        std::to_string(lower.size()) +
                        "); try --laplacian intrinsic-delaunay or another backend"};
     }

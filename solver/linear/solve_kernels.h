@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "solver/core/instruction_set.h"
 #include "solver/core/types.h"
 
 namespace geotherm {
@@ -36,12 +37,6 @@ struct SolveKernels {
   void (*column_forward)(const Column&, double* x, std::ptrdiff_t stride);
   void (*column_backward)(const Column&, double* x, std::ptrdiff_t stride);
 };
-
-/// An instruction set the kernels are compiled for; all give the same answer to round-off.
-enum class InstructionSet { kPlain, kAvx2, kAvx512 };
-
-/// The best one this processor has.
-InstructionSet best_instruction_set();
 
 /// Kernels for a group of 1, 2, 4, 8 or 16 right sides. Asking for a set that this build or
 /// processor lacks gives the best lower one.

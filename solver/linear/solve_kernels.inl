@@ -7,6 +7,13 @@
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
+#if defined(__AVX512F__)
+constexpr int kLanes = 8;  ///< doubles a register holds
+#elif defined(__AVX2__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
 constexpr Index kTile = 4;  ///< rows or columns of the factor held in registers at a time
 
 /// One right side: rows are the vector dimension.
@@ -94,108 +101,141 @@ void panel_backward_one(const Panel& p, double* x, std::ptrdiff_t stride, double
   }
 }
 
-/// Several right sides: they are the vector dimension.
+/// Several right sides: they are the vector dimension. A group of K doubles is held in registers
+/// of the instruction set's width.
 template <int K>
-void panel_forward(const Panel& p, double* x, std::ptrdiff_t stride, double* scratch) {
-  double* own = scratch;  // the supernode's own rows, packed
-  for (Index c = 0; c < p.width; ++c) {
-    double* row = x + (p.first + c) * stride;
-    const double* column = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
-    const double inverse = 1 / column[c];
-    for (int k = 0; k < K; ++k) own[c * K + k] = row[k] *= inverse;
-    for (Index r = c + 1; r < p.width; ++r) {
-      double* target = x + (p.first + r) * stride;
-      const double factor = column[r];
-      for (int k = 0; k < K; ++k) target[k] -= factor * own[c * K + k];
-    }
+class Group {
+  static constexpr int kWidth = K < kLanes ? K : kLanes;
+  static constexpr int kCount = K / kWidth;
+  typedef double Lane __attribute__((vector_size(8 * kWidth)));
+  typedef double Loose __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
+
+ public:
+  static Group load(const double* from) {
+    Group out;
+    for (int i = 0; i < kCount; ++i) out.lane_[i] = reinterpret_cast<const Loose*>(from)[i];
+    return out;
   }
-  for (Index r = p.width; r < p.height; r += kTile) {
-    const Index tile = p.height - r < kTile ? p.height - r : kTile;
-    double sum[kTile][K] = {};
-    if (tile == kTile) {
-      for (Index c = 0; c < p.width; ++c) {
-        const double* factor = p.values + static_cast<std::ptrdiff_t>(c) * p.height + r;
-        for (Index i = 0; i < kTile; ++i) {
-          for (int k = 0; k < K; ++k) sum[i][k] += factor[i] * own[c * K + k];
-        }
-      }
-    } else {
-      for (Index c = 0; c < p.width; ++c) {
-        const double* factor = p.values + static_cast<std::ptrdiff_t>(c) * p.height + r;
-        for (Index i = 0; i < tile; ++i) {
-          for (int k = 0; k < K; ++k) sum[i][k] += factor[i] * own[c * K + k];
-        }
-      }
-    }
-    for (Index i = 0; i < tile; ++i) {
-      double* target = x + p.rows[r - p.width + i] * stride;
-      for (int k = 0; k < K; ++k) target[k] -= sum[i][k];
-    }
+  static Group zero() {
+    Group out;
+    for (int i = 0; i < kCount; ++i) out.lane_[i] = Lane{};
+    return out;
+  }
+  void store(double* to) const {
+    for (int i = 0; i < kCount; ++i) reinterpret_cast<Loose*>(to)[i] = lane_[i];
+  }
+  void add(double factor, const Group& other) {
+    for (int i = 0; i < kCount; ++i) lane_[i] += factor * other.lane_[i];
+  }
+  void subtract(double factor, const Group& other) {
+    for (int i = 0; i < kCount; ++i) lane_[i] -= factor * other.lane_[i];
+  }
+  void subtract(const Group& other) {
+    for (int i = 0; i < kCount; ++i) lane_[i] -= other.lane_[i];
+  }
+  void scale(double factor) {
+    for (int i = 0; i < kCount; ++i) lane_[i] *= factor;
+  }
+
+ private:
+  Lane lane_[kCount];
+};
+
+/// Rows r .. r + T below the supernode: what its columns subtract from them.
+template <int K, int T>
+inline void subtract_rows(const Panel& p, const double* own, Index r, double* x,
+                          std::ptrdiff_t stride) {
+  Group<K> sum[T];
+  for (int i = 0; i < T; ++i) sum[i] = Group<K>::zero();
+  const double* factor = p.values + r;
+  for (Index c = 0; c < p.width; ++c, factor += p.height) {
+    const Group<K> v = Group<K>::load(own + c * K);
+    for (int i = 0; i < T; ++i) sum[i].add(factor[i], v);
+  }
+  for (int i = 0; i < T; ++i) {
+    double* target = x + p.rows[r - p.width + i] * stride;
+    Group<K> value = Group<K>::load(target);
+    value.subtract(sum[i]);
+    value.store(target);
   }
 }
 
 template <int K>
-void panel_backward(const Panel& p, double* x, std::ptrdiff_t stride, double* scratch) {
+void panel_forward(const Panel& p, double* x, std::ptrdiff_t stride, double* own) {
+  for (Index c = 0; c < p.width; ++c) {  // `own`: the supernode's own rows, packed
+    Group<K>::load(x + (p.first + c) * stride).store(own + c * K);
+  }
+  for (Index c = 0; c < p.width; ++c) {
+    const double* column = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
+    Group<K> v = Group<K>::load(own + c * K);
+    v.scale(1 / column[c]);
+    v.store(own + c * K);
+    v.store(x + (p.first + c) * stride);
+    for (Index r = c + 1; r < p.width; ++r) {
+      Group<K> target = Group<K>::load(own + r * K);
+      target.subtract(column[r], v);
+      target.store(own + r * K);
+    }
+  }
+  Index r = p.width;
+  for (; r + kTile <= p.height; r += kTile) subtract_rows<K, kTile>(p, own, r, x, stride);
+  for (; r < p.height; ++r) subtract_rows<K, 1>(p, own, r, x, stride);
+}
+
+/// Columns c .. c + T of the supernode, given the rows after them.
+template <int K, int T>
+inline void solve_columns(const Panel& p, Index c, double* rows, double* x, std::ptrdiff_t stride) {
+  const double* factor = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
+  Group<K> sum[T];
+  for (int i = 0; i < T; ++i) sum[i] = Group<K>::zero();
+  for (Index r = c + T; r < p.height; ++r) {
+    const Group<K> v = Group<K>::load(rows + r * K);
+    for (int i = 0; i < T; ++i)
+      sum[i].add(factor[i * static_cast<std::ptrdiff_t>(p.height) + r], v);
+  }
+  for (int i = T; i-- > 0;) {
+    const double* column = factor + i * static_cast<std::ptrdiff_t>(p.height);
+    Group<K> value = Group<K>::load(rows + (c + i) * K);
+    value.subtract(sum[i]);
+    for (int j = i + 1; j < T; ++j) {
+      value.subtract(column[c + j], Group<K>::load(rows + (c + j) * K));
+    }
+    value.scale(1 / column[c + i]);
+    value.store(rows + (c + i) * K);
+    value.store(x + (p.first + c + i) * stride);
+  }
+}
+
+template <int K>
+void panel_backward(const Panel& p, double* x, std::ptrdiff_t stride, double* rows) {
   for (Index r = 0; r < p.height; ++r) {
-    const double* row = x + (r < p.width ? p.first + r : p.rows[r - p.width]) * stride;
-    for (int k = 0; k < K; ++k) scratch[r * K + k] = row[k];
+    const Index row = r < p.width ? p.first + r : p.rows[r - p.width];
+    Group<K>::load(x + row * stride).store(rows + r * K);
   }
-  for (Index c = p.width; c > 0;) {
-    const Index tile = c >= kTile ? kTile : c;
-    c -= tile;
-    double sum[kTile][K] = {};
-    const double* factor = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
-    if (tile == kTile) {
-      for (Index r = c + tile; r < p.height; ++r) {
-        for (Index i = 0; i < kTile; ++i) {
-          const double f = factor[static_cast<std::ptrdiff_t>(i) * p.height + r];
-          for (int k = 0; k < K; ++k) sum[i][k] += f * scratch[r * K + k];
-        }
-      }
-    } else {
-      for (Index r = c + tile; r < p.height; ++r) {
-        for (Index i = 0; i < tile; ++i) {
-          const double f = factor[static_cast<std::ptrdiff_t>(i) * p.height + r];
-          for (int k = 0; k < K; ++k) sum[i][k] += f * scratch[r * K + k];
-        }
-      }
-    }
-    for (Index i = tile; i-- > 0;) {
-      const double* column = factor + static_cast<std::ptrdiff_t>(i) * p.height;
-      double* own = scratch + (c + i) * K;
-      for (int k = 0; k < K; ++k) own[k] -= sum[i][k];
-      for (Index j = i + 1; j < tile; ++j) {
-        for (int k = 0; k < K; ++k) own[k] -= column[c + j] * scratch[(c + j) * K + k];
-      }
-      const double inverse = 1 / column[c + i];
-      double* row = x + (p.first + c + i) * stride;
-      for (int k = 0; k < K; ++k) row[k] = own[k] *= inverse;
-    }
-  }
+  Index c = p.width;
+  for (; c >= kTile; c -= kTile) solve_columns<K, kTile>(p, c - kTile, rows, x, stride);
+  for (; c > 0; --c) solve_columns<K, 1>(p, c - 1, rows, x, stride);
 }
 
 template <int K>
 void column_forward(const Column& column, double* x, std::ptrdiff_t stride) {
-  double own[K];
-  for (int k = 0; k < K; ++k) own[k] = x[column.index * stride + k];
+  const Group<K> own = Group<K>::load(x + column.index * stride);
   for (Index e = 0; e < column.count; ++e) {
     double* target = x + column.rows[e] * stride;
-    const double factor = column.values[e];
-    for (int k = 0; k < K; ++k) target[k] -= factor * own[k];
+    Group<K> value = Group<K>::load(target);
+    value.subtract(column.values[e], own);
+    value.store(target);
   }
 }
 
 template <int K>
 void column_backward(const Column& column, double* x, std::ptrdiff_t stride) {
-  double own[K];
-  double* row = x + column.index * stride;
-  for (int k = 0; k < K; ++k) own[k] = row[k] * column.inverse_pivot;
+  Group<K> own = Group<K>::load(x + column.index * stride);
+  own.scale(column.inverse_pivot);
   for (Index e = 0; e < column.count; ++e) {
-    const double* source = x + column.rows[e] * stride;
-    const double factor = column.values[e];
-    for (int k = 0; k < K; ++k) own[k] -= factor * source[k];
+    own.subtract(column.values[e], Group<K>::load(x + column.rows[e] * stride));
   }
-  for (int k = 0; k < K; ++k) row[k] = own[k];
+  own.store(x + column.index * stride);
 }
 
 template <int K>

@@ -6,13 +6,6 @@
 namespace geotherm {
 namespace {
 
-int group_of(Eigen::Index columns) {
-  for (const int width : {16, 8, 4, 2}) {
-    if (columns >= width) return width;
-  }
-  return 1;
-}
-
 class DirectFactorization final : public Factorization {
  public:
   explicit DirectFactorization(std::unique_ptr<TriangularFactor> factor)
@@ -21,7 +14,7 @@ class DirectFactorization final : public Factorization {
   Result<SolveReport> solve(Block& x, std::span<const Index> support) const override {
     const std::vector<Index> path = factor_->tree().path(support);
     for (Eigen::Index first = 0; first < x.cols();) {
-      const int width = group_of(x.cols() - first);
+      const int width = column_group(x.cols() - first);
       factor_->forward(x.data() + first, x.cols(), width, path);
       factor_->backward(x.data() + first, x.cols(), width, {});
       first += width;
@@ -34,7 +27,7 @@ class DirectFactorization final : public Factorization {
     const auto count = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd entries(count, count);
     for (Eigen::Index first = 0; first < count;) {
-      const int width = group_of(count - first);
+      const int width = column_group(count - first);
       Block x = Block::Zero(factor_->size(), width);
       for (int c = 0; c < width; ++c) x(rows[static_cast<std::size_t>(first + c)], c) = 1;
       factor_->forward(x.data(), width, width, path);

@@ -63,11 +63,18 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
   });
 }
 
-Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh) {
+Result<void> check_mesh_path(const std::string& path) {
+  if (path == "-") return {};
   const std::string extension = io::file_extension(path);
-  if (extension != ".obj" && extension != ".ply" && extension != ".off" && extension != ".stl") {
-    return unknown_extension(path, ".obj .ply .off .stl");
+  for (const char* const known : {".obj", ".ply", ".off", ".stl"}) {
+    if (extension == known) return {};
   }
+  return unknown_extension(path, ".obj .ply .off .stl");
+}
+
+Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh) {
+  if (Result<void> known = check_mesh_path(path); !known) return known;
+  const std::string extension = io::file_extension(path);
   return write_made(path, [&]() -> Result<std::string> {
     if (extension == ".ply") return io::ply_bytes(mesh);
     if (extension == ".off") return io::off_bytes(mesh);

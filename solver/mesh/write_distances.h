@@ -23,9 +23,12 @@ Result<void> check_distance_path(const std::string& path);
 Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
                              std::span<const double> distances);
 
+/// The same for write_mesh().
+Result<void> check_mesh_path(const std::string& path);
+
 /// Writes the mesh alone: `.obj`, `.ply` (binary), `.off` or `.stl` (binary), by extension.
 /// Positions read back exactly, except from .stl: 32-bit numbers, no vertex without a face, and
-/// vertices numbered by first use.
+/// vertices numbered by first use. `path` "-" writes OBJ to standard output.
 Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh);
 
 }  // namespace geotherm

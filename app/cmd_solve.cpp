@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "app/cmd_solve.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/machine.h"
+#include "app/outputs.h"
+#include "app/report_json.h"
+#include "app/report_table.h"
+#include "app/resolve_sources.h"
+#include "app/text.h"
+#include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/write_distances.h"
+#include "solver/mesh/write_file.h"
+
+namespace geotherm::app {
+namespace {
+
+Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
+  const std::string model = is_bundled(arguments.model) ? "" : arguments.model;
+  for (const std::string& path : arguments.outputs) {
+    if (auto known = check_distance_path(path); !known) return known;
+    if (auto expected = outputs.expect(path, "--output", model); !expected) return expected;
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json", model);
+}
+
+/// What the library finds wrong with a mesh is a failure of the work, not of the command line.
+Error about_model(const std::string& name, const Error& error) {
+  const ErrorCode code = error.code == ErrorCode::kBadInput ? ErrorCode::kBadFile : error.code;
+  return {code, one_line(name) + ": " + error.message};
+}
+
+Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
+  if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
+  const Source pin{VertexList{{constraint.pin_vertex}},
+                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
+                   ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&pin, 1}, mesh);
+  if (!placed) return placed.error();
+  return {};
+}
+
+void note_unreached(SolveFigures& figures) {
+  const Index loose = figures.mesh.unreferenced_vertices;
+  if (loose > 0) {
+    figures.warnings.push_back(counted(loose, "vertex belongs", "vertices belong") +
+                               " to no face; their distance is infinite");
+  }
+  const Index lost = figures.distance.unreached - loose;
+  if (lost > 0) {
+    figures.warnings.push_back(counted(lost, "vertex lies", "vertices lie") +
+                               " in components without a source (there are " +
+                               counted(figures.mesh.components, "component", "components") +
+                               "); their distance is infinite");
+  }
+}
+
+Result<SolveFigures> compute(const SolveArguments& arguments, const HeatOptions& options,
+                             const std::vector<Source>& named, const Progress& progress) {
+  auto model = load_model(arguments.model, progress);
+  if (!model) return model.error();
+  if (auto pin = check_pin(options.constraint, *model->mesh); !pin) return pin.error();
+  auto sources = resolve_sources(named, *model->mesh);
+  if (!sources) return sources.error();
+  auto method = HeatMethod::build(model->mesh, options, progress);
+  if (!method) return about_model(model->name, method.error());
+  if (!report(progress, "solve", 0.9)) return Error{ErrorCode::kCancelled, "the work was cancelled"};
+  auto result = method->solve(sources->set);
+  if (!result) return about_model(model->name, result.error());
+
+  SolveFigures figures{*std::move(model),  inspect_mesh(*model->mesh), *std::move(method),
+                       std::move(sources->set), *std::move(result),        {},
+                       peak_rss_mb(),      {}};
+  figures.distance = summarize(figures.result.distances);
+  for (const auto* warnings : {&figures.model.notes, &figures.method.warnings(), &sources->warnings,
+                               &figures.result.warnings}) {
+    figures.warnings.insert(figures.warnings.end(), warnings->begin(), warnings->end());
+  }
+  note_unreached(figures);
+  return figures;
+}
+
+}  // namespace
+
+void add_solve_options(CLI::App& command, SolveArguments& arguments) {
+  command
+      .add_option("MODEL", arguments.model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  add_source_options(command, arguments.sources);
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "where the distances go: .csv .npy .ply .vtp, or - for CSV on standard output; "
+                  "may be repeated")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  add_backend_option(command, arguments.heat);
+  add_heat_options(command, arguments.heat);
+  command.footer(
+      "Examples:\n"
+      "  geotherm solve model.obj -s 17 -o distances.ply --json figures.json\n"
+      "  geotherm solve terrain -s boundary --time-factor 2 -o - | head");
+}
+
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress) {
+  const auto options = heat_options(arguments.heat);
+  if (!options) return options.error();
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  const auto named = sources_of(arguments.sources);
+  if (!named) return named.error();
+  if (named->empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
+  }
+  const auto figures = compute(arguments, *options, *named, progress);
+  if (!figures) return figures.error();
+
+  CommandOutput out{"", figures->warnings};
+  const std::vector<double>& distances = figures->result.distances;
+  for (const std::string& path : arguments.outputs) {
+    if (!report(progress, "writing " + path, 1.0)) break;
+    const auto written = outputs.write(path, [&]() -> Result<void> {
+      if (path != "-") return write_distances(path, *figures->model.mesh, distances);
+      out.text = io::csv_bytes(distances);
+      return {};
+    });
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    std::string text = to_text(solve_json(*figures));
+    const auto written = outputs.write(arguments.json, [&]() -> Result<void> {
+      if (arguments.json != "-") return write_file(arguments.json, text);
+      out.text = std::move(text);
+      return {};
+    });
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = solve_table(*figures);
+  return out;
+}
+
+}  // namespace geotherm::app

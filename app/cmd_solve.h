@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command_output.h"
+#include "app/options.h"
+#include "solver/core/progress.h"
+
+namespace geotherm::app {
+
+struct SolveArguments {
+  std::string model;
+  SourceArguments sources;
+  HeatArguments heat;
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_solve_options(CLI::App& command, SolveArguments& arguments);
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {});
+
+}  // namespace geotherm::app

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "app/mesh_words.h"
+
+#include "app/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A needle below this angle (degrees) costs accuracy nearby even after edge flips.
+constexpr double kNeedle = 0.01;
+
+}  // namespace
+
+std::string mesh_in_words(const MeshReport& mesh) {
+  return counted(mesh.vertices, "vertex", "vertices") + ", " +
+         counted(mesh.faces, "face", "faces") + ", " +
+         counted(mesh.components, "component", "components") + ", " +
+         (mesh.boundary_edges == 0 ? "no boundary"
+                                   : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
+}
+
+std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
+  std::vector<std::string> out;
+  if (mesh.components == 0) out.emplace_back("no face can carry distances; check how the file was exported");
+  if (mesh.components > 1) {
+    out.push_back(grouped(mesh.components) +
+                  " components: distances are infinite on those without a source");
+  }
+  if (mesh.unreferenced_vertices > 0) {
+    out.push_back(counted(mesh.unreferenced_vertices, "vertex belongs", "vertices belong") +
+                  " to no face; their distance is infinite");
+  }
+  if (mesh.nonmanifold_edges > 0) {
+    out.push_back(counted(mesh.nonmanifold_edges, "edge has", "edges have") +
+                  " more than two faces; distances pass through all of them");
+  }
+  if (mesh.nonmanifold_vertices > 0) {
+    out.push_back(counted(mesh.nonmanifold_vertices, "vertex joins", "vertices join") +
+                  " parts of the surface that share no edge there");
+  }
+  if (mesh.repeated_corner_faces > 0) {
+    out.push_back(counted(mesh.repeated_corner_faces, "face repeats", "faces repeat") +
+                  " a corner and will be left out");
+  }
+  const Index flat = mesh.degenerate_faces - mesh.repeated_corner_faces;
+  if (flat > 0) {
+    out.push_back(counted(flat, "face has", "faces have") +
+                  " no area; edges are lengthened slightly to make up for it");
+  } else if (mesh.components > 0 && mesh.smallest_angle < kNeedle) {
+    out.push_back("there are needles: the smallest angle is " + significant(mesh.smallest_angle, 2) +
+                  " degrees");
+  }
+  if (mesh.duplicate_faces > 0) {
+    out.push_back(counted(mesh.duplicate_faces, "duplicate face", "duplicate faces") +
+                  " will be left out");
+  }
+  if (mesh.inconsistent_faces > 0) {
+    out.push_back(counted(mesh.inconsistent_faces, "face is", "faces are") +
+                  " turned against the neighbours; distances do not depend on it");
+  }
+  if (!mesh.orientable) out.emplace_back("the surface cannot be oriented; distances are right all the same");
+  if (mesh.duplicate_positions > 0) {
+    out.push_back(counted(mesh.duplicate_positions, "vertex lies", "vertices lie") +
+                  " exactly where another one does; where they should be one, the surface is cut");
+  }
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "app/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "app/text.h"
+#include "solver/heat/option_text.h"
+#include "solver/linear/backend.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+/// Stores the value of a parsed option, or says which option was wrong.
+template <class Value>
+Result<void> take(Result<Value> parsed, std::string_view option, Value& into) {
+  if (!parsed) {
+    return Error{parsed.error().code, std::string(option) + ": " + parsed.error().message};
+  }
+  into = *std::move(parsed);
+  return {};
+}
+
+Result<double> time_factor_in(const std::string& text) {
+  const auto factor = number_in<double>(text);
+  if (factor && *factor > 0 && std::isfinite(*factor)) return *factor;
+  return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no time factor; it must be a " +
+                                         "positive number, such as 1"};
+}
+
+Result<int> threads_in(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto threads = number_in<int>(text);
+  if (threads && *threads >= 1 && *threads <= kMostThreads) return *threads;
+  return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no number of threads; give 1 to " +
+                                         std::to_string(kMostThreads)};
+}
+
+Result<std::string> backend_in(const std::string& text) {
+  if (text.empty()) return backend_names().front();
+  const auto backend = find_backend(text);
+  if (!backend) return backend.error();
+  return text;
+}
+
+Result<std::string> method_in(const std::string& text) {
+  if (text == "heat") return text;
+  return Error{ErrorCode::kNotAvailable,
+               "there is no method '" + one_line(text) + "' in this version; there is heat"};
+}
+
+Result<LaplacianKind> laplacian_in(const std::string& text) {
+  auto kind = parse_laplacian(text);
+  if (!kind || *kind != LaplacianKind::kTufted) return kind;
+  return Error{ErrorCode::kNotAvailable,
+               "tufted is not available in this version; there are auto, cotan, "
+               "intrinsic-delaunay, and auto flips every edge that has two faces"};
+}
+
+}  // namespace
+
+void add_backend_option(CLI::App& command, HeatArguments& arguments) {
+  command.add_option("--backend", arguments.backend, "linear solver: " + joined(backend_names()))
+      ->type_name("NAME")
+      ->group("Method");
+}
+
+void add_heat_options(CLI::App& command, HeatArguments& a) {
+  const auto add = [&command](const char* names, std::string& value, const char* type,
+                              const char* help) {
+    command.add_option(names, value, help)->type_name(type)->group("Method");
+  };
+  add("--time-step", a.time_step, "RULE",
+      "diffusion time: mean-edge (t = m h^2, default), mean-face-area (t = m A/F), absolute:T");
+  add("-m,--time-factor", a.time_factor, "M", "m of the time step, default 1");
+  add("--constraint", a.constraint, "MODE",
+      "pin-sources (default), pin-vertex[:V], penalty[:VALUE], conserve-energy, pseudo-inverse");
+  add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
+  add("--method", a.method, "NAME", "heat");
+  add("--boundary", a.boundary, "RULE", "neumann (default), dirichlet, average");
+  add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay");
+  add("--variant", a.variant, "NAME", "corrected (default), classic: as first published");
+  add_threads_option(command, a.threads);
+}
+
+void add_threads_option(CLI::App& command, std::string& threads) {
+  command.add_option("--threads", threads, "default: all cores")->type_name("N")->group("Method");
+}
+
+void add_quiet_option(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet", quiet, "no progress bar");
+}
+
+void add_source_options(CLI::App& command, SourceArguments& arguments) {
+  command
+      .add_option("-s,--source", arguments.sources,
+                  "17 or 3,99,512 (vertex ids from 0), random:K[:SEED], boundary, "
+                  "face:ID:b0:b1:b2, xyz:x:y:z; may be repeated, all are one source set")
+      ->type_name("SOURCES")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Sources");
+  command
+      .add_option("--source-file", arguments.file,
+                  "one source a line: a vertex id, face:..., xyz:..., or x y z; # begins a comment")
+      ->type_name("FILE")
+      ->group("Sources");
+  command
+      .add_flag("--curve", arguments.curve,
+                "the ids of the source file are a polyline; all of it is a source")
+      ->group("Sources");
+}
+
+Result<HeatOptions> heat_options(const HeatArguments& a) {
+  HeatOptions options;
+  std::string method;
+  double factor = 1;
+  const auto check = [](std::initializer_list<Result<void>> all) -> Result<void> {
+    for (const Result<void>& each : all) {
+      if (!each) return each;
+    }
+    return {};
+  };
+  if (auto taken = take(time_factor_in(a.time_factor), "--time-factor", factor); !taken) {
+    return taken.error();
+  }
+  const Result<void> all = check({
+      take(method_in(a.method), "--method", method),
+      take(backend_in(a.backend), "--backend", options.backend),
+      take(parse_time_step(a.time_step, factor), "--time-step", options.time_step),
+      take(parse_constraint(a.constraint), "--constraint", options.constraint),
+      take(parse_heat_mode(a.heat), "--heat", options.heat),
+      take(parse_boundary_rule(a.boundary), "--boundary", options.boundary),
+      take(laplacian_in(a.laplacian), "--laplacian", options.laplacian),
+      take(parse_variant(a.variant), "--variant", options.variant),
+      take(threads_in(a.threads), "--threads", options.threads),
+  });
+  if (!all) return all.error();
+  return options;
+}
+
+Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
+  if (arguments.curve && arguments.file.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--curve needs the vertex ids of the curve; add --source-file FILE"};
+  }
+  std::vector<Source> sources;
+  for (const std::string& text : arguments.sources) {
+    auto spec = parse_source(text);
+    if (!spec) return Error{ErrorCode::kBadInput, "--source: " + spec.error().message};
+    const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
+    sources.push_back({*std::move(spec), "--source " + one_line(shown), ErrorCode::kBadInput});
+  }
+  if (arguments.file.empty()) return sources;
+  auto listed = read_source_file(arguments.file, arguments.curve);
+  if (!listed) return listed.error();
+  for (Source& source : *listed) sources.push_back(std::move(source));
+  return sources;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/source_spec.h"
+#include "solver/core/result.h"
+#include "solver/heat/heat_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace geotherm::app {
+
+/// The options of the heat method as typed; the same in every command that solves.
+struct HeatArguments {
+  std::string backend;  ///< empty: the default one
+  std::string time_step = "mean-edge";
+  std::string time_factor = "1";
+  std::string constraint = "pin-sources";
+  std::string heat = "unit";
+  std::string method = "heat";
+  std::string boundary = "neumann";
+  std::string laplacian = "auto";
+  std::string variant = "corrected";
+  std::string threads;  ///< empty: all cores
+};
+
+/// Where distance is 0, as typed.
+struct SourceArguments {
+  std::vector<std::string> sources;
+  std::string file;
+  bool curve = false;
+};
+
+void add_heat_options(CLI::App& command, HeatArguments& arguments);
+void add_backend_option(CLI::App& command, HeatArguments& arguments);
+void add_source_options(CLI::App& command, SourceArguments& arguments);
+void add_threads_option(CLI::App& command, std::string& threads);
+void add_quiet_option(CLI::App& command, bool& quiet);
+
+/// Errors: kBadInput or kNotAvailable, with the option's name and the values there are.
+Result<HeatOptions> heat_options(const HeatArguments& arguments);
+
+/// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
+Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
+
+}  // namespace geotherm::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/core/result.h"
+
+namespace geotherm::app {
+
+/// The output files of one command: checked before the work, written after it, and when one of them
+/// fails, those that the command made are removed again.
+class Outputs {
+ public:
+  /// `option`: how the command line calls it, for messages. "-" is standard output.
+  /// Errors: kBadInput (the same path twice, standard output twice, the model itself), kBadFile
+  /// (no such folder, a directory, no permission).
+  Result<void> expect(const std::string& path, std::string_view option,
+                      const std::string& model_path = {});
+
+  /// True when an output goes to standard output, which is then for nothing else.
+  bool uses_stdout() const;
+
+  /// Runs `write`, which writes `path`.
+  Result<void> write(const std::string& path, const std::function<Result<void>()>& write);
+
+ private:
+  struct File {
+    std::string path;
+    bool is_new;
+    bool written = false;
+  };
+  std::vector<File> files_;
+};
+
+}  // namespace geotherm::app

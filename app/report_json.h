@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "app/solve_figures.h"
+
+namespace geotherm::app {
+
+/// Keeps the keys in the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+/// The keys of `model` that every report has.
+Json model_json(const std::string& name, const MeshReport& mesh);
+
+/// Those and all others of the mesh report.
+Json full_model_json(const std::string& name, const MeshReport& mesh);
+
+/// Vertices as ids (ascending, ends of edges included), points in faces as {"face", "weights"}.
+Json sources_json(const SourceSet& sources);
+
+Json solve_json(const SolveFigures& figures);
+
+/// Text with a line end. Objects are indented down to the second level, what is deeper stands on
+/// one line. Numbers have the digits that read back as the same double; what is not finite is null.
+std::string to_text(const Json& json);
+
+}  // namespace geotherm::app

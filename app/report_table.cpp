@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "app/report_table.h"
+
+#include "app/mesh_words.h"
+#include "app/resolve_sources.h"
+#include "app/text.h"
+#include "app/text_table.h"
+#include "solver/core/parallel.h"
+#include "solver/heat/option_text.h"
+
+namespace geotherm::app {
+namespace {
+
+TextTable two_columns() { return TextTable({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}}); }
+
+std::string ms(double value) { return milliseconds(value) + " ms"; }
+std::string mb(double value) { return milliseconds(value) + " MB"; }
+
+std::string time_in_words(const HeatMethod& method, const MeshReport& mesh) {
+  const TimeStep& step = method.options().time_step;
+  const double h2 = mesh.mean_edge_length * mesh.mean_edge_length;
+  const std::string factor = significant(step.factor);
+  switch (step.rule) {
+    case TimeRule::kMeanEdge:
+      return significant(method.t()) + " = " + factor + " h^2, mean edge h = " +
+             significant(mesh.mean_edge_length);
+    case TimeRule::kMeanFaceArea:
+      return significant(method.t()) + " = " + factor + " A/F, mean face area";
+    case TimeRule::kAbsolute:
+      break;
+  }
+  return significant(method.t()) + " as given, which is " + significant(method.t() / h2) + " h^2";
+}
+
+std::string laplacian_in_words(const HeatMethod& method) {
+  const std::string name = to_text(method.laplacian());
+  if (method.laplacian() == LaplacianKind::kCotan) return name;
+  return name + ", " + counted(method.flips(), "edge", "edges") + " flipped";
+}
+
+std::string sources_in_words(const SourceSet& sources) {
+  const std::vector<Index> vertices = vertices_of(sources);
+  std::string text = counted(static_cast<std::int64_t>(vertices.size()), "vertex", "vertices");
+  constexpr std::size_t kShown = 8;
+  if (!vertices.empty() && vertices.size() <= kShown) {
+    std::vector<std::string> ids;
+    for (const Index v : vertices) ids.push_back(std::to_string(v));
+    text = (ids.size() == 1 ? "vertex " : "vertices ") + joined(ids);
+  }
+  std::int64_t inside = 0;
+  for (const SurfacePoint& point : sources.points) inside += !point.is_vertex();
+  if (vertices.empty()) text.clear();
+  if (inside > 0) text += (text.empty() ? "" : ", ") + counted(inside, "point in a face", "points in faces");
+  if (!sources.edges.empty()) {
+    text += ", " + counted(static_cast<std::int64_t>(sources.edges.size()), "edge", "edges");
+  }
+  return text;
+}
+
+std::string distance_in_words(const DistanceSummary& d, Index vertices) {
+  std::string text = significant(d.min) + " to " + significant(d.max) + ", mean " + significant(d.mean);
+  if (d.unreached > 0) text += ", " + grouped(d.unreached) + " of " + counted(vertices, "vertex", "vertices") + " unreached";
+  return text;
+}
+
+std::string residuals_in_words(const Quality& q) {
+  std::string text = "heat " + significant(q.heat_residual, 2) + ", Poisson " + significant(q.poisson_residual, 2);
+  if (q.iterations_heat + q.iterations_poisson > 0) {
+    text += ", after " + grouped(q.iterations_heat) + " and " +
+            counted(q.iterations_poisson, "iteration", "iterations");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string solve_table(const SolveFigures& f) {
+  const SetupTiming& setup = f.method.timing();
+  const QueryTiming& query = f.result.timing;
+  const Quality& q = f.result.quality;
+  const HeatOptions& options = f.method.options();
+  TextTable table = two_columns();
+  table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
+  table.add_row({"backend", options.backend + ", " + counted(thread_count(options.threads), "thread", "threads")});
+  table.add_row({"t", time_in_words(f.method, f.mesh)});
+  table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) + ", boundary " +
+                               to_text(options.boundary) + ", " + to_text(options.variant)});
+  table.add_row({"laplacian", laplacian_in_words(f.method)});
+  table.add_row({"sources", sources_in_words(f.sources)});
+  table.add_row({"load", ms(f.model.load_ms)});
+  table.add_row({"set-up", ms(setup.setup) + " = operators " + milliseconds(setup.operators) + " + analysis " +
+                               milliseconds(setup.analyze) + " + factors " + milliseconds(setup.factorize)});
+  table.add_row({"query", ms(query.query) + " = heat " + milliseconds(query.diffuse) + " + gradient " +
+                              milliseconds(query.gradient) + " + Poisson " + milliseconds(query.poisson)});
+  table.add_row({"memory", mb(f.method.factor_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
+  table.add_row({"distance", distance_in_words(f.distance, f.mesh.vertices)});
+  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) + " on average, " +
+                                 counted(q.zero_gradient_faces, "face", "faces") + " without direction"});
+  table.add_row({"residuals", residuals_in_words(q)});
+  table.add_row({"at sources", "|d| <= " + significant(q.max_source_distance, 2) + " before it was set to 0"});
+  return table.text();
+}
+
+std::string info_table(const Model& model, const MeshReport& mesh) {
+  TextTable table = two_columns();
+  const auto row = [&table](const char* name, std::string value) {
+    table.add_row({name, std::move(value)});
+  };
+  const auto vector = [](const Vec3& v) {
+    return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
+  };
+  row("model", one_line(model.name));
+  row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) + " in no face, " +
+                      grouped(mesh.duplicate_positions) + " where another one lies)");
+  row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
+                   grouped(mesh.duplicate_faces) + " duplicate, " + grouped(mesh.inconsistent_faces) +
+                   " turned against their neighbours)");
+  row("edges", grouped(mesh.edges) + " (" + grouped(mesh.boundary_edges) + " boundary, " +
+                   grouped(mesh.nonmanifold_edges) + " non-manifold, " + grouped(mesh.non_delaunay_edges) +
+                   " not Delaunay)");
+  row("components", grouped(mesh.components));
+  row("boundary loops", grouped(mesh.boundary_loops));
+  row("non-manifold vertices", grouped(mesh.nonmanifold_vertices));
+  row("Euler characteristic", grouped(mesh.euler_characteristic) + (mesh.orientable ? ", orientable" : ", not orientable"));
+  row("edge length", "mean " + significant(mesh.mean_edge_length) + ", from " +
+                         significant(mesh.shortest_edge) + " to " + significant(mesh.longest_edge));
+  row("area", significant(mesh.area));
+  row("box", vector(mesh.box_min) + " to " + vector(mesh.box_max));
+  row("smallest angle", significant(mesh.smallest_angle) + " degrees");
+  row("mean quality", significant(mesh.mean_quality) + " (1: all equilateral)");
+  row("load", ms(model.load_ms));
+  return table.text();
+}
+
+}  // namespace geotherm::app

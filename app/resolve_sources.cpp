@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "app/resolve_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "app/text.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/mesh/closest_point.h"
+#include "solver/mesh/edge_path.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A point farther from the surface than this share of the model's size is worth a word.
+constexpr double kFar = 0.01;
+
+std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
+  std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (const Face& face : mesh.faces()) {
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    for (const Index corner : face) used[corner] = 1;
+  }
+  return used;
+}
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t below(std::uint64_t bound) {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return (z ^ (z >> 31)) % bound;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+
+class Resolver {
+ public:
+  explicit Resolver(const TriangleMesh& mesh) : mesh_(mesh), used_(vertices_in_faces(mesh)) {}
+
+  Result<void> operator()(const VertexList& list) {
+    for (const Index v : list.vertices) {
+      if (auto added = add_vertex(v); !added) return added;
+    }
+    return {};
+  }
+
+  Result<void> operator()(const RandomVertices& random) {
+    auto vertices = random_vertices(mesh_, random.count, random.seed);
+    if (!vertices) return vertices.error();
+    return (*this)(VertexList{*std::move(vertices)});
+  }
+
+  Result<void> operator()(const WholeBoundary&) {
+    const EdgeTable& edges = clean().edges;
+    bool found = false;
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      if (edges.sides(e).size() != 1) continue;
+      add_edge(edges.low(e), edges.high(e));
+      found = true;
+    }
+    if (found) return {};
+    return bad("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
+               " edges has two faces or more); choose vertices instead");
+  }
+
+  Result<void> operator()(const FacePoint& point) {
+    if (point.face >= mesh_.face_count()) {
+      return bad("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
+                 std::to_string(mesh_.face_count() - 1));
+    }
+    const Face& face = mesh_.faces()[point.face];
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+      return bad("face " + std::to_string(point.face) +
+                 " repeats a corner and has no inside; choose another");
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (point.weights[k] == 1.0) return add_vertex(face[k]);
+    }
+    out_.set.points.push_back(SurfacePoint::in_face(point.face, point.weights));
+    return {};
+  }
+
+  Result<void> operator()(const SpacePoint& point) {
+    const auto found = closest_point(mesh_, point.position);
+    if (!found) return found.error();
+    if (found->distance > kFar * model_size()) {
+      out_.warnings.push_back(where_ + ": the closest point of the surface is " +
+                              significant(found->distance) + " away (the model's size is " +
+                              significant(model_size()) + ")");
+    }
+    if (found->point.is_vertex()) return add_vertex(found->point.vertex);
+    out_.set.points.push_back(found->point);
+    return {};
+  }
+
+  Result<void> operator()(const VertexCurve& curve) {
+    for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
+      if (auto added = add_vertex(curve.vertices[i]); !added) {
+        return bad("line " + std::to_string(curve.lines[i]) + ": " + added.error().message);
+      }
+    }
+    const EdgeGraph graph(mesh_.positions(), clean().edges);
+    Index gaps = 0;
+    std::size_t first_gap = 0;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+      const Index a = curve.vertices[i - 1];
+      const Index b = curve.vertices[i];
+      if (a == b) continue;
+      if (graph.adjacent(a, b)) {
+        add_edge(a, b);
+        continue;
+      }
+      const auto path = graph.shortest_path(a, b);
+      if (!path) {
+        return bad("line " + std::to_string(curve.lines[i]) + ": " + path.error().message);
+      }
+      if (gaps++ == 0) first_gap = i;
+      for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
+    }
+    if (gaps > 0) note_gaps(curve, gaps, first_gap);
+    return {};
+  }
+
+  Result<void> add(const Source& source) {
+    where_ = source.where;
+    const auto placed = std::visit(*this, source.spec);
+    if (placed) return {};
+    return Error{source.blame, where_ + ": " + placed.error().message};
+  }
+
+  ResolvedSources finish() {
+    out_.set.edges.assign(edges_.begin(), edges_.end());
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> add_vertex(Index v) {
+    if (v >= mesh_.vertex_count()) {
+      return bad("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
+                 std::to_string(mesh_.vertex_count() - 1));
+    }
+    if (!used_[v]) {
+      return bad("vertex " + std::to_string(v) +
+                 " belongs to no face, so that no distance starts there; choose another");
+    }
+    if (vertices_.insert(v).second) out_.set.points.push_back(SurfacePoint::at_vertex(v));
+    return {};
+  }
+
+  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
+
+  void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
+    out_.warnings.push_back(where_ + ": " + grouped(gaps) + " of " +
+                            counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
+                            " of the curve " + (gaps == 1 ? "is" : "are") +
+                            " no mesh edge and became the shortest path along edges (" +
+                            (gaps == 1 ? "" : "the first: ") + "vertex " +
+                            std::to_string(curve.vertices[first - 1]) + " to " +
+                            std::to_string(curve.vertices[first]) + ", line " +
+                            std::to_string(curve.lines[first]) + ")");
+  }
+
+  const CleanFaces& clean() {
+    if (!clean_) clean_ = clean_faces(mesh_);
+    return *clean_;
+  }
+
+  double model_size() {
+    if (size_ >= 0) return size_;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+      if (!used_[v]) continue;
+      low = low.cwiseMin(mesh_.positions()[v]);
+      high = high.cwiseMax(mesh_.positions()[v]);
+    }
+    return size_ = (high - low).stableNorm();
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<char> used_;
+  std::optional<CleanFaces> clean_;
+  double size_ = -1;
+  std::string where_;
+  std::set<Index> vertices_;
+  std::set<std::array<Index, 2>> edges_;
+  ResolvedSources out_;
+};
+
+}  // namespace
+
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh) {
+  Resolver resolver(mesh);
+  for (const Source& source : sources) {
+    if (auto added = resolver.add(source); !added) return added.error();
+  }
+  return resolver.finish();
+}
+
+Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
+                                           std::uint64_t seed) {
+  const std::vector<char> used = vertices_in_faces(mesh);
+  std::vector<Index> pool;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) pool.push_back(static_cast<Index>(v));
+  }
+  if (static_cast<std::size_t>(count) > pool.size()) {
+    return bad(grouped(count) + " different vertices were asked for; " + grouped(static_cast<std::int64_t>(pool.size())) +
+               " belong to a face");
+  }
+  Random random(seed);
+  for (Index i = 0; i < count; ++i) {
+    std::swap(pool[i], pool[i + random.below(pool.size() - i)]);
+  }
+  pool.resize(static_cast<std::size_t>(count));
+  return pool;
+}
+
+std::vector<Index> vertices_of(const SourceSet& set) {
+  std::set<Index> vertices;
+  for (const SurfacePoint& point : set.points) {
+    if (point.is_vertex()) vertices.insert(point.vertex);
+  }
+  for (const auto& edge : set.edges) vertices.insert(edge.begin(), edge.end());
+  return {vertices.begin(), vertices.end()};
+}
+
+}  // namespace geotherm::app

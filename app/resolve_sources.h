@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/source_spec.h"
+#include "solver/mesh/surface_point.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm::app {
+
+struct ResolvedSources {
+  SourceSet set;  ///< no vertex and no edge twice
+  std::vector<std::string> warnings;
+};
+
+/// Places sources on a mesh, all in one set. Errors: the blame of the source, its `where`, and what
+/// does not fit (a vertex or face out of range, a vertex in no face, no boundary).
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh);
+
+/// `count` different vertices that belong to a face; the same on every platform for a seed.
+/// Errors: kBadInput (fewer such vertices).
+Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
+                                           std::uint64_t seed);
+
+/// All vertices of a set, ends of edges included, ascending, each once.
+std::vector<Index> vertices_of(const SourceSet& set);
+
+}  // namespace geotherm::app

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/core/types.h"
+
+namespace geotherm::app {
+
+// What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
+// `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`.
+
+struct VertexList {
+  std::vector<Index> vertices;
+};
+
+/// A polyline of vertices, with the line of the file that each came from.
+struct VertexCurve {
+  std::vector<Index> vertices;
+  std::vector<int> lines;
+};
+
+struct RandomVertices {
+  Index count = 1;
+  std::uint64_t seed = 1;
+};
+
+struct WholeBoundary {};
+
+struct FacePoint {
+  Index face = 0;
+  std::array<double, 3> weights{};
+};
+
+struct SpacePoint {
+  Vec3 position = Vec3::Zero();
+};
+
+using SourceSpec =
+    std::variant<VertexList, VertexCurve, RandomVertices, WholeBoundary, FacePoint, SpacePoint>;
+
+/// A source as the user wrote it.
+struct Source {
+  SourceSpec spec;
+  std::string where;                         ///< "-s 3,99", "ids.txt: line 4": begins messages
+  ErrorCode blame = ErrorCode::kBadInput;    ///< kBadFile when it came from a file
+};
+
+/// Errors: kBadInput, one sentence with the text and what is expected. A vertex id must fit the
+/// mesh, which is checked when the source is placed on one.
+Result<SourceSpec> parse_source(std::string_view text);
+
+/// x, y, z as three numbers. Errors: kBadInput.
+Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numbers);
+
+/// Reads one source a line: a vertex id, `face:...`, `xyz:...` or `x y z`; blank lines and what
+/// follows a # are skipped. `curve`: only ids, which form one polyline.
+/// Errors: kBadFile with the number of the line.
+Result<std::vector<Source>> read_source_file(const std::string& path, bool curve);
+
+}  // namespace geotherm::app

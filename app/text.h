@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+// Numbers to text and back, the same in every locale.
+namespace geotherm::app {
+
+/// 1234567 -> "1,234,567".
+std::string grouped(std::int64_t number);
+
+/// 4 significant digits unless said otherwise: "0.01235", "1.5", "3.2e-17", "inf".
+std::string significant(double value, int digits = 4);
+
+/// Three digits where they mean something: "0.412", "8.31", "34.5", "2,330".
+std::string milliseconds(double value);
+
+/// "1 vertex", "2,002 vertices".
+std::string counted(std::int64_t number, std::string_view one, std::string_view many);
+
+/// "a, b, c".
+template <class Range>
+std::string joined(const Range& parts, std::string_view between = ", ") {
+  std::string text;
+  for (const auto& part : parts) {
+    if (!text.empty()) text += between;
+    text += part;
+  }
+  return text;
+}
+
+std::string_view trimmed(std::string_view text);
+
+/// The whole of `text` as a number, or nothing.
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Fit for one line: control characters become '?'.
+std::string one_line(std::string text);
+
+}  // namespace geotherm::app

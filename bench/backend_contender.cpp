@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <optional>
+#include <utility>
+
+#include "bench/contender.h"
+#include "solver/heat/heat_method.h"
+
+namespace geotherm::bench {
+namespace {
+
+class BackendContender final : public Contender {
+ public:
+  BackendContender(std::string backend, int threads) {
+    options_.backend = std::move(backend);
+    options_.threads = threads;
+  }
+
+  std::string name() const override { return options_.backend; }
+
+  Result<void> set_up(std::shared_ptr<const TriangleMesh> mesh) override {
+    method_.reset();
+    auto built = HeatMethod::build(std::move(mesh), options_);
+    if (!built) return built.error();
+    method_ = std::move(*built);
+    return {};
+  }
+
+  void drop() override { method_.reset(); }
+
+  Result<std::vector<double>> query(Index source) override {
+    auto answer = method_->solve(SourceSet::of_vertices({source}), kDistancesOnly);
+    if (!answer) return answer.error();
+    return std::move(answer->distances);
+  }
+
+  Result<void> batch(std::span<const Index> sources) override {
+    std::vector<SourceSet> sets;
+    for (const Index source : sources) sets.push_back(SourceSet::of_vertices({source}));
+    const auto answers = method_->solve_each(sets, kDistancesOnly);
+    if (!answers) return answers.error();
+    return {};
+  }
+
+  double factor_mb() const override { return method_->factor_mb(); }
+
+ private:
+  /// Other libraries compute no quality figures.
+  static constexpr QueryOptions kDistancesOnly{.quality = false, .fields = false};
+
+  HeatOptions options_;
+  std::optional<HeatMethod> method_;
+};
+
+}  // namespace
+
+std::unique_ptr<Contender> make_backend_contender(std::string backend, int threads) {
+  return std::make_unique<BackendContender>(std::move(backend), threads);
+}
+
+}  // namespace geotherm::bench

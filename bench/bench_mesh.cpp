@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "bench/bench_mesh.h"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <random>
+#include <utility>
+
+#include "solver/mesh/generate.h"
+
+namespace geotherm::bench {
+namespace {
+
+/// Numbers in [0, 1), the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  double next() { return engine_() / 4294967296.0; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A torus with bumps on a regular grid whose vertices are moved about and whose squares are cut
+/// along either diagonal: every vertex has about six neighbours, as after a scan or remeshing.
+Result<TriangleMesh> make_torus(Index faces) {
+  constexpr double kTwoPi = 2 * std::numbers::pi;
+  constexpr double kJitter = 0.4;  // of a cell
+  const auto across = static_cast<Index>(std::lround(std::sqrt(faces / 2 / 2.5)));
+  const auto along = static_cast<Index>(std::lround(faces / 2.0 / across));
+  Random random(1);
+  std::vector<Vec3> positions;
+  for (Index i = 0; i < along; ++i) {
+    for (Index j = 0; j < across; ++j) {
+      const double u = kTwoPi * (i + kJitter * (random.next() - 0.5)) / along;
+      const double v = kTwoPi * (j + kJitter * (random.next() - 0.5)) / across;
+      const double bump = std::sin(7 * u + 2 * v) + 0.7 * std::sin(13 * u - 5 * v);
+      const double tube = 0.4 * (1 + 0.06 * bump);
+      const double ring = 1 + tube * std::cos(v);
+      positions.emplace_back(ring * std::cos(u), tube * std::sin(v), ring * std::sin(u));
+    }
+  }
+  std::vector<Face> triangles;
+  for (Index i = 0; i < along; ++i) {
+    for (Index j = 0; j < across; ++j) {
+      const Index i1 = (i + 1) % along, j1 = (j + 1) % across;
+      const Index a = i * across + j, b = i1 * across + j;
+      const Index c = i1 * across + j1, d = i * across + j1;
+      if (random.next() < 0.5) {
+        triangles.push_back({a, c, b});
+        triangles.push_back({a, d, c});
+      } else {
+        triangles.push_back({a, d, b});
+        triangles.push_back({b, d, c});
+      }
+    }
+  }
+  return TriangleMesh::build(std::move(positions), std::move(triangles));
+}
+
+/// An icosahedron, each face cut into four, and again, until it has at least `faces` of them.
+Result<TriangleMesh> make_sphere(Index faces) {
+  const double g = std::numbers::phi;
+  std::vector<Vec3> positions = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                 {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                 {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<Face> triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                 {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                 {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                 {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  while (static_cast<Index>(triangles.size()) < faces) {
+    std::map<std::pair<Index, Index>, Index> middles;
+    const auto middle = [&](Index a, Index b) {
+      const auto [entry, is_new] =
+          middles.emplace(std::minmax(a, b), static_cast<Index>(positions.size()));
+      if (is_new) positions.emplace_back((positions[a] + positions[b]) / 2);
+      return entry->second;
+    };
+    std::vector<Face> finer;
+    for (const auto& [a, b, c] : triangles) {
+      const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    triangles = std::move(finer);
+  }
+  for (Vec3& p : positions) p.normalize();
+  return TriangleMesh::build(std::move(positions), std::move(triangles));
+}
+
+}  // namespace
+
+Result<TriangleMesh> make_mesh(std::string_view name, Index faces) {
+  if (name == "torus") return make_torus(faces);
+  if (name == "sphere") return make_sphere(faces);
+  return generate_model(name, faces);
+}
+
+std::vector<Index> pick_sources(Index vertex_count, std::size_t count) {
+  Random random(2);
+  std::vector<Index> sources;
+  for (std::size_t k = 0; k < count; ++k) {
+    sources.push_back(static_cast<Index>(random.next() * vertex_count));
+  }
+  return sources;
+}
+
+}  // namespace geotherm::bench

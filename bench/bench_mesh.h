@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm::bench {
+
+/// A surface to measure on, by name: `torus`, `sphere` or a bundled model. Vertices are numbered as
+/// the generator makes them. Errors: generate_model()'s.
+Result<TriangleMesh> make_mesh(std::string_view name, Index faces);
+
+/// `count` vertices spread at random, the same on every run.
+std::vector<Index> pick_sources(Index vertex_count, std::size_t count);
+
+}  // namespace geotherm::bench

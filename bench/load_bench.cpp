@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "bench/load_bench.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/read_mesh.h"
+
+namespace geotherm::bench {
+namespace {
+
+/// A file that is gone when this is.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& ending)
+      : path_(std::filesystem::temp_directory_path() /
+              ("geotherm_bench_" + std::to_string(getpid()) + ending)) {}
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+bool write_obj(const std::string& path, const TriangleMesh& mesh) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (file == nullptr) return false;
+  for (const Vec3& p : mesh.positions()) {
+    std::fprintf(file, "v %.6f %.6f %.6f\n", p.x(), p.y(), p.z());
+  }
+  for (const auto& [a, b, c] : mesh.faces()) {
+    std::fprintf(file, "f %d %d %d\n", a + 1, b + 1, c + 1);
+  }
+  const bool whole = std::ferror(file) == 0;
+  return std::fclose(file) == 0 && whole;
+}
+
+}  // namespace
+
+LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs) {
+  LoadRow row{.mesh = name, .faces = mesh.face_count()};
+  const TemporaryFile file(".obj");
+  if (!write_obj(file.path(), mesh)) {
+    row.failure = file.path() + ": cannot be written";
+    return row;
+  }
+  for (int run = 0; run < runs; ++run) {
+    Stopwatch watch;
+    const auto ours = read_mesh(file.path());
+    row.ms = std::fmin(row.ms, watch.lap());  // fmin passes over what is not measured
+    if (!ours) {
+      row.failure = ours.error().message;
+      return row;
+    }
+    watch.lap();
+    const Result<bool> theirs = read_with_tinyobjloader(file.path());
+    if (theirs && *theirs) row.tinyobjloader_ms = std::fmin(row.tinyobjloader_ms, watch.lap());
+    if (!theirs) {
+      row.failure = theirs.error().message;
+      return row;
+    }
+  }
+  return row;
+}
+
+}  // namespace geotherm::bench

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "bench/resident_memory.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace geotherm::bench {
+namespace {
+
+/// A line of /proc/self/status that holds kilobytes, in 2^20 bytes; 0 where there is none.
+double status_megabytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (!line.starts_with(key)) continue;
+    std::istringstream rest(line.substr(key.size()));
+    double kilobytes = 0;
+    rest >> kilobytes;
+    return kilobytes / 1024;
+  }
+  return 0;
+}
+
+}  // namespace
+
+PeakMemory::PeakMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);  // what was freed must not serve what is measured
+#endif
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak starts anew
+  before_ = status_megabytes("VmRSS:");
+}
+
+double PeakMemory::megabytes() const { return std::max(0.0, status_megabytes("VmHWM:") - before_); }
+
+}  // namespace geotherm::bench

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/mesh_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "solver/geometry/clean_faces.h"
+#include "solver/geometry/delaunay.h"
+#include "solver/geometry/intrinsic_mesh.h"
+
+namespace geotherm {
+namespace {
+
+/// Height over longest side below which a face has no usable area.
+constexpr double kFlat = 1e-10;
+
+/// Disjoint sets with path halving.
+class Sets {
+ public:
+  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  Index root(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(Index a, Index b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+/// Counts the different roots of the vertices that `marked` holds.
+Index count_sets(Sets& sets, const std::vector<char>& marked) {
+  Index count = 0;
+  for (std::size_t v = 0; v < marked.size(); ++v) {
+    count += marked[v] && sets.root(static_cast<Index>(v)) == static_cast<Index>(v);
+  }
+  return count;
+}
+
+/// Fills in vertices in use, components and what follows from the edges.
+void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
+  const auto n = static_cast<std::size_t>(mesh.vertex_count());
+  std::vector<char> used(n, 0), on_boundary(n, 0);
+  Sets pieces(n), borders(n);
+  for (const Face& face : clean.faces) {
+    for (const Index corner : face) used[corner] = 1;
+    pieces.join(face[0], face[1]);
+    pieces.join(face[1], face[2]);
+  }
+  const EdgeTable& edges = clean.edges;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const auto sides = edges.sides(e);
+    report.nonmanifold_edges += sides.size() > 2;
+    if (sides.size() == 2) {
+      const Face& f = clean.faces[face_of(sides[0])];
+      const Face& g = clean.faces[face_of(sides[1])];
+      report.orientable &= f[corner_of(sides[0])] != g[corner_of(sides[1])];
+    }
+    if (sides.size() != 1) continue;
+    ++report.boundary_edges;
+    borders.join(edges.low(e), edges.high(e));
+    on_boundary[edges.low(e)] = on_boundary[edges.high(e)] = 1;
+  }
+  const auto in_use = static_cast<Index>(std::count(used.begin(), used.end(), 1));
+  report.edges = edges.edge_count();
+  report.components = count_sets(pieces, used);
+  report.boundary_loops = count_sets(borders, on_boundary);
+  report.unreferenced_vertices = report.vertices - in_use;
+  report.euler_characteristic =
+      std::int64_t{in_use} - edges.edge_count() + static_cast<std::int64_t>(clean.faces.size());
+}
+
+/// Vertices at which the corners of the faces, joined across shared edges, are not one set.
+Index count_split_vertices(const TriangleMesh& mesh, const CleanFaces& clean) {
+  Sets corners(3 * clean.faces.size());
+  const auto corner_at = [&clean](Side side, Index vertex) {
+    const bool first = clean.faces[face_of(side)][corner_of(side)] == vertex;
+    return first ? side : 3 * face_of(side) + next_corner(corner_of(side));
+  };
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    const auto sides = clean.edges.sides(e);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      for (const Index end : {clean.edges.low(e), clean.edges.high(e)}) {
+        corners.join(corner_at(sides[0], end), corner_at(sides[i], end));
+      }
+    }
+  }
+  std::vector<Index> fans(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (Side c = 0; c < static_cast<Side>(3 * clean.faces.size()); ++c) {
+    if (corners.root(c) == c) ++fans[clean.faces[face_of(c)][corner_of(c)]];
+  }
+  return static_cast<Index>(std::count_if(fans.begin(), fans.end(), [](Index n) { return n > 1; }));
+}
+
+Index count_duplicate_positions(std::span<const Vec3> positions) {
+  std::vector<Index> order(positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto coordinates = [&](Index v) {
+    return std::array{positions[v][0], positions[v][1], positions[v][2]};
+  };
+  std::sort(order.begin(), order.end(),
+            [&](Index a, Index b) { return coordinates(a) < coordinates(b); });
+  Index count = 0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    count += positions[order[i]] == positions[order[i - 1]];
+  }
+  return count;
+}
+
+/// Lengths, areas and angles. Squares are taken of sides over the longest one of the face.
+void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
+  double quality = 0, angle = std::numbers::pi;
+  report.box_min.setConstant(std::numeric_limits<double>::infinity());
+  report.box_max = -report.box_min;
+  for (const Face& face : clean.faces) {
+    std::array<Vec3, 3> side;
+    double longest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3& from = mesh.positions()[face[k]];
+      side[k] = mesh.positions()[face[next_corner(k)]] - from;
+      longest = std::max(longest, side[k].stableNorm());
+      report.box_min = report.box_min.cwiseMin(from);
+      report.box_max = report.box_max.cwiseMax(from);
+    }
+    if (!(longest > 0)) {
+      ++report.degenerate_faces;
+      angle = 0;
+      continue;
+    }
+    double squares = 0;
+    for (Vec3& s : side) squares += (s /= longest).squaredNorm();
+    const double doubled = side[0].cross(side[1]).norm();  // area times two, in longest^2
+    report.degenerate_faces += doubled < kFlat;
+    report.area += 0.5 * doubled * longest * longest;
+    quality += 2 * std::numbers::sqrt3 * doubled / squares;
+    for (int k = 0; k < 3; ++k) {
+      angle = std::min(angle, std::atan2(doubled, -side[k].dot(side[previous_corner(k)])));
+    }
+  }
+  report.smallest_angle = angle * 180 / std::numbers::pi;
+  report.mean_quality = quality / static_cast<double>(clean.faces.size());
+}
+
+void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, MeshReport& report) {
+  report.mean_edge_length = mean_edge_length(positions, clean.edges);
+  report.shortest_edge = std::numeric_limits<double>::infinity();
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    const double length =
+        (positions[clean.edges.low(e)] - positions[clean.edges.high(e)]).stableNorm();
+    report.shortest_edge = std::min(report.shortest_edge, length);
+    report.longest_edge = std::max(report.longest_edge, length);
+  }
+  if (!(report.mean_edge_length > 0)) return;
+  report.non_delaunay_edges =
+      count_non_delaunay(build_intrinsic_mesh(positions, clean, report.mean_edge_length));
+}
+
+}  // namespace
+
+MeshReport inspect_mesh(const TriangleMesh& mesh) {
+  const CleanFaces clean = clean_faces(mesh);
+  MeshReport report;
+  report.vertices = mesh.vertex_count();
+  report.faces = mesh.face_count();
+  report.repeated_corner_faces = report.degenerate_faces = clean.repeated_corner;
+  report.duplicate_faces = clean.duplicate;
+  report.inconsistent_faces = clean.reoriented;
+  report.duplicate_positions = count_duplicate_positions(mesh.positions());
+  inspect_connections(mesh, clean, report);
+  if (clean.faces.empty()) return report;
+  report.nonmanifold_vertices = count_split_vertices(mesh, clean);
+  inspect_shapes(mesh, clean, report);
+  inspect_edges(mesh.positions(), clean, report);
+  return report;
+}
+
+}  // namespace geotherm

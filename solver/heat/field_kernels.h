@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "solver/core/instruction_set.h"
+#include "solver/geometry/operator_mesh.h"
+
+namespace geotherm {
+
+/// What a pass over the faces reads and writes, for one group of source sets: row i of u, log_u
+/// and b starts at i * stride.
+struct FieldPass {
+  const OperatorMesh* mesh;
+  const double* u;
+  const double* log_u;  ///< null: X keeps length 1
+  double* b;
+  std::ptrdiff_t stride;
+  double root_t;        ///< sqrt(t), for field_length()
+
+  /// X of one face and column, for the lanes that the fast path cannot do: gradients that underflow
+  /// and logarithms that do not exist.
+  const void* context;
+  std::array<double, 2> (*careful)(const void* context, Index face, int column);
+};
+
+/// Where sqrt(t) |grad log u| is above this share of what one front gives on this mesh, there is
+/// one front: the rest is the scatter of the discretisation, some 5 %.
+inline constexpr double kFront = 0.95;
+/// Faces longer than this many diffusion lengths say nothing reliable about the slope.
+inline constexpr double kResolved = 1.6;
+
+/// Length of X on a face whose gradient of log u is (gx, gy): the slope sqrt(t) |grad log u|,
+/// relative to that of one front, at most 1. One front falls by 2 asinh(e / (2 sqrt(t))) over an
+/// extent e of the mesh, where exp(-d / sqrt(t)) falls by e / sqrt(t); 1 / sqrt(1 + x^2 / 3) is
+/// asinh(x) / x to 1 % for x < 0.8.
+inline double field_length(double base, double x, double height, double gx, double gy,
+                           double root_t) {
+  const double norm = std::sqrt(gx * gx + gy * gy);
+  const double a = base * gx / norm;
+  const double b = (x * gx + height * gy) / norm;
+  const double high = a > b ? a : b;
+  const double low = a < b ? a : b;
+  const double extent = (high > 0 ? high : 0) - (low < 0 ? low : 0);
+  const double ratio = extent / (2 * root_t);
+  const double length = root_t * norm * std::sqrt(1 + ratio * ratio / 3) / kFront;
+  return extent > kResolved * root_t || length > 1 ? 1.0 : length;
+}
+
+/// out[i] = log(u[i]) to 1e-8; NaN where u <= 0.
+void logarithms(const double* u, double* out, std::size_t count,
+                InstructionSet set = best_instruction_set());
+
+/// Adds to b the integrated divergence of X = -grad u / |grad u| over all faces, for a group of 1,
+/// 2, 4, 8 or 16 source sets.
+void add_unit_divergence(const FieldPass& pass, int group,
+                         InstructionSet set = best_instruction_set());
+
+}  // namespace geotherm

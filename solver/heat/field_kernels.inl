@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// The pass of field_kernels.h, compiled once for each instruction set. A lane is one face of one
+// source set; with few sets several faces go side by side, so that registers are always full.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "solver/heat/field_kernels.h"
+
+namespace geotherm {
+using FieldKernel = void (*)(const FieldPass&);
+}
+
+namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
+namespace {
+
+/// Squared gradients outside this range go the careful way: a square root of something that
+/// underflowed has no direction left.
+constexpr double kSafeLow = 1e-280;
+constexpr double kSafeHigh = 1e280;
+
+template <int K>
+struct Lanes {
+  // Sixteen lanes, not eight: the compiler unrolls shorter loops before it thinks of vectors.
+  static constexpr int kFaces = 16 / K;
+  static constexpr int kCount = kFaces * K;
+  double du1[kCount], du2[kCount];  ///< differences of u to corner 0
+  double dl1[kCount], dl2[kCount];  ///< of log u
+  double inverse_base[kCount], x[kCount], inverse_height[kCount], base[kCount], height[kCount];
+  double d1[kCount], d2[kCount];
+  double careful[kCount];  ///< 1 where the fast path does not hold
+};
+
+template <int K>
+void load(const FieldPass& pass, Index first, Lanes<K>& s) {
+  for (int i = 0; i < Lanes<K>::kFaces; ++i) {
+    const Face& face = pass.mesh->faces[first + i];
+    const FaceLayout& p = pass.mesh->layout[first + i];
+    const double inverse_base = 1 / p.base;
+    const double inverse_height = 1 / p.height;
+    for (int k = 0; k < K; ++k) {
+      const int lane = i * K + k;
+      const double u0 = pass.u[face[0] * pass.stride + k];
+      s.du1[lane] = pass.u[face[1] * pass.stride + k] - u0;
+      s.du2[lane] = pass.u[face[2] * pass.stride + k] - u0;
+      s.inverse_base[lane] = inverse_base;
+      s.inverse_height[lane] = inverse_height;
+      s.base[lane] = p.base;
+      s.x[lane] = p.x;
+      s.height[lane] = p.height;
+    }
+    if (pass.log_u == nullptr) continue;
+    for (int k = 0; k < K; ++k) {
+      const int lane = i * K + k;
+      const double l0 = pass.log_u[face[0] * pass.stride + k];
+      s.dl1[lane] = pass.log_u[face[1] * pass.stride + k] - l0;
+      s.dl2[lane] = pass.log_u[face[2] * pass.stride + k] - l0;
+    }
+  }
+}
+
+template <int K>
+bool compute(const FieldPass& pass, Lanes<K>& s) {
+  double any = 0;
+  for (int j = 0; j < Lanes<K>::kCount; ++j) {
+    const double gx = s.du1[j] * s.inverse_base[j];
+    const double gy = (s.du2[j] - s.x[j] * gx) * s.inverse_height[j];
+    const double square = gx * gx + gy * gy;
+    const double scale = -0.5 / std::sqrt(square);
+    const double fx = gx * scale;
+    const double fy = gy * scale;
+    s.d1[j] = s.height[j] * fx - s.x[j] * fy;
+    s.d2[j] = s.base[j] * fy;
+    s.careful[j] = square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
+  }
+  if (pass.log_u != nullptr) {
+    for (int j = 0; j < Lanes<K>::kCount; ++j) {
+      const double gx = s.dl1[j] * s.inverse_base[j];
+      const double gy = (s.dl2[j] - s.x[j] * gx) * s.inverse_height[j];
+      const double square = gx * gx + gy * gy;
+      const double length = field_length(s.base[j], s.x[j], s.height[j], gx, gy, pass.root_t);
+      s.d1[j] *= length;
+      s.d2[j] *= length;
+      s.careful[j] += square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
+    }
+  }
+  for (int j = 0; j < Lanes<K>::kCount; ++j) any += s.careful[j];
+  return any > 0;
+}
+
+template <int K>
+void scatter(const FieldPass& pass, Index first, const Lanes<K>& s) {
+  for (int i = 0; i < Lanes<K>::kFaces; ++i) {
+    const Face& face = pass.mesh->faces[first + i];
+    double* b0 = pass.b + face[0] * pass.stride;
+    double* b1 = pass.b + face[1] * pass.stride;
+    double* b2 = pass.b + face[2] * pass.stride;
+    const int lane = i * K;
+    // Three loops, since a face may visit one vertex twice.
+    for (int k = 0; k < K; ++k) b0[k] -= s.d1[lane + k] + s.d2[lane + k];
+    for (int k = 0; k < K; ++k) b1[k] += s.d1[lane + k];
+    for (int k = 0; k < K; ++k) b2[k] += s.d2[lane + k];
+  }
+}
+
+void add_one(const FieldPass& pass, Index f, int column) {
+  const auto x = pass.careful(pass.context, f, column);
+  const auto d = divergence(pass.mesh->layout[f], x[0], x[1]);
+  for (int k = 0; k < 3; ++k) pass.b[pass.mesh->faces[f][k] * pass.stride + column] += d[k];
+}
+
+template <int K>
+void run(const FieldPass& pass) {
+  constexpr int kFaces = Lanes<K>::kFaces;
+  Lanes<K> s;
+  Index f = 0;
+  for (; f + kFaces <= pass.mesh->face_count(); f += kFaces) {
+    load<K>(pass, f, s);
+    if (compute<K>(pass, s)) {
+      for (int j = 0; j < Lanes<K>::kCount; ++j) {
+        if (s.careful[j] == 0) continue;
+        const auto x = pass.careful(pass.context, f + j / K, j % K);
+        const auto d = divergence(pass.mesh->layout[f + j / K], x[0], x[1]);
+        s.d1[j] = d[1];
+        s.d2[j] = d[2];
+      }
+    }
+    scatter<K>(pass, f, s);
+  }
+  for (; f < pass.mesh->face_count(); ++f) {
+    for (int k = 0; k < K; ++k) add_one(pass, f, k);
+  }
+}
+
+/// log of a positive number: its exponent, and 2 atanh((m - 1) / (m + 1)) of its mantissa m, which
+/// is brought to [sqrt(1/2), sqrt(2)) so that five terms suffice.
+inline double logarithm(double u) {
+  constexpr double kLog2 = 0.693147180559945309417;
+  constexpr std::int64_t kHalfRoot = 0x3fe6a09e667f3bcd;  // sqrt(1/2)
+  const auto bits = std::bit_cast<std::int64_t>(u);
+  const std::int64_t exponent = (bits - kHalfRoot) >> 52;
+  const double m = std::bit_cast<double>(bits - (exponent << 52));
+  const double z = (m - 1) / (m + 1);
+  const double q = z * z;
+  const double series = 1 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9))));
+  return static_cast<double>(exponent) * kLog2 + 2 * z * series;
+}
+
+void take_logarithms(const double* u, double* out, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = u[i] > 0 ? logarithm(u[i]) : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace
+
+extern void (*const kLogarithms)(const double*, double*, std::size_t);
+void (*const kLogarithms)(const double*, double*, std::size_t) = take_logarithms;
+extern const FieldKernel kFieldKernels[5];
+const FieldKernel kFieldKernels[5] = {run<1>, run<2>, run<4>, run<8>, run<16>};
+
+}  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE

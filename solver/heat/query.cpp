@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/query.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/heat/normalize.h"
+#include "solver/heat/quality.h"
+#include "solver/heat/unit_field.h"
+
+namespace geotherm {
+namespace {
+
+/// Source sets solved together. Eight fill the widest registers; more would leave threads idle.
+constexpr std::size_t kSetsAtOnce = 8;
+
+struct Group {
+  std::size_t first = 0;
+  std::vector<SourceAnchors> anchors;
+};
+
+/// Cuts the source sets into blocks; a set that changes the matrix is alone in its block.
+Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
+                                           std::span<const SourceSet> sets) {
+  std::vector<Group> groups;
+  bool open = false;
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    auto placed = place_sources(p.surface, sets[i]);
+    if (!placed) return placed.error();
+    const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
+    if (!open || alone || groups.back().anchors.size() == kSetsAtOnce) groups.push_back({i, {}});
+    groups.back().anchors.push_back(std::move(*placed));
+    open = !alone;
+  }
+  return groups;
+}
+
+/// The columns of a block as vectors of their own.
+std::vector<std::vector<double>> split_columns(const Block& block) {
+  std::vector<std::vector<double>> columns(static_cast<std::size_t>(block.cols()));
+  for (auto& column : columns) column.resize(static_cast<std::size_t>(block.rows()));
+  for (Eigen::Index i = 0; i < block.rows(); ++i) {
+    for (Eigen::Index c = 0; c < block.cols(); ++c) columns[c][i] = block(i, c);
+  }
+  return columns;
+}
+
+Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
+                         const QueryOptions& query, std::span<DistanceResult> results) {
+  Stopwatch watch;
+  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality);
+  if (!heat) return heat.error();
+  const double diffuse_ms = watch.lap() - heat->residual_ms;
+  const UnitField field(*p.surface.operators, heat->field,
+                        p.options.variant == Variant::kClassic ? 0.0 : p.unit_t);
+  Block b = field.divergence(anchors);
+  const double gradient_ms = watch.lap();
+  Block right;
+  if (query.quality) right = b;
+  watch.lap();
+  auto answer = p.poisson.solve(std::move(b), anchors);
+  if (!answer) return answer.error();
+  std::vector<std::vector<double>> phi = split_columns(answer->phi);
+  for (std::size_t c = 0; c < anchors.size(); ++c) {
+    const auto normalized =
+        normalize(p.surface, phi[c], anchors[c], p.options.constraint.mode, results[c]);
+    if (!normalized) return normalized.error();
+  }
+  const double poisson_ms = watch.lap();
+
+  const auto share = static_cast<double>(anchors.size());
+  for (std::size_t c = 0; c < anchors.size(); ++c) {
+    DistanceResult& result = results[c];
+    const auto column = static_cast<Eigen::Index>(c);
+    result.timing = {diffuse_ms / share, gradient_ms / share, poisson_ms / share,
+                     (diffuse_ms + gradient_ms + poisson_ms) / share};
+    result.warnings = heat->warnings;
+    result.quality.iterations_heat = heat->field.iterations;
+    result.quality.iterations_poisson = answer->iterations;
+    if (query.quality) {
+      result.quality.heat_residual = heat->residual[c];
+      result.quality.poisson_residual =
+          poisson_residual(*p.surface.operators, phi[c], right, column, anchors[c],
+                           p.options.constraint.mode == ConstraintMode::kPinSources);
+      inspect_faces(*p.surface.operators, field, phi[c], column, anchors[c], result.quality);
+      add_quality_warnings(result);
+    }
+    if (query.fields) result.heat = heat_in_file_order(p.surface, heat->field, column);
+  }
+  return {};
+}
+
+/// Hands out groups to threads until all are done, one has failed or the caller has had enough.
+class GroupRunner {
+ public:
+  GroupRunner(const QueryPipeline& pipeline, const std::vector<Group>& groups,
+              const QueryOptions& query, std::span<DistanceResult> results,
+              const Progress& progress)
+      : pipeline_(pipeline),
+        groups_(groups),
+        query_(query),
+        results_(results),
+        progress_(progress) {}
+
+  std::optional<Error> run(int threads) {
+    const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
+    {
+      std::vector<std::jthread> helpers;
+      for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back([this] { work(); });
+      work();
+    }
+    return failure_;
+  }
+
+ private:
+  void work() {
+    for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
+      if (!announce(g)) return;
+      const Group& group = groups_[g];
+      Result<void> done = Error{ErrorCode::kOutOfMemory, "a query ran out of memory"};
+      try {
+        done = solve_group(pipeline_, group.anchors, query_,
+                           results_.subspan(group.first, group.anchors.size()));
+      } catch (const std::bad_alloc&) {  // `done` says so
+      }
+      if (!done) fail(done.error());
+    }
+  }
+
+  bool announce(std::size_t group) {
+    const std::lock_guard lock(mutex_);
+    if (failure_) return false;
+    const double share = static_cast<double>(group) / static_cast<double>(groups_.size());
+    if (report(progress_, "solve", share)) return true;
+    failure_ = Error{ErrorCode::kCancelled, "the work was cancelled"};
+    return false;
+  }
+
+  void fail(Error error) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = std::move(error);
+  }
+
+  const QueryPipeline& pipeline_;
+  const std::vector<Group>& groups_;
+  const QueryOptions& query_;
+  std::span<DistanceResult> results_;
+  const Progress& progress_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::optional<Error> failure_;
+};
+
+}  // namespace
+
+Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                                std::span<const SourceSet> sets,
+                                                const QueryOptions& query,
+                                                const Progress& progress) {
+  const Stopwatch watch;
+  const auto groups = cut_into_groups(pipeline, sets);
+  if (!groups) return groups.error();
+  std::vector<DistanceResult> results(sets.size());
+  const double placing = watch.milliseconds();
+  GroupRunner runner(pipeline, *groups, query, results, progress);
+  const int threads = std::min<int>(thread_count(pipeline.options.threads),
+                                    static_cast<int>(groups->size()));
+  if (auto failure = runner.run(threads)) return *failure;
+  // Threads work side by side: a set's share of the wall clock is that much smaller.
+  for (DistanceResult& result : results) {
+    for (double* ms : {&result.timing.diffuse, &result.timing.gradient, &result.timing.poisson,
+                       &result.timing.query}) {
+      *ms /= std::max(threads, 1);
+    }
+    const double share = placing / static_cast<double>(results.size());
+    result.timing.diffuse += share;
+    result.timing.query += share;
+  }
+  return results;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/heat/heat_method.h"
+#include "solver/heat/heat_step.h"
+#include "solver/heat/poisson.h"
+
+namespace geotherm {
+
+/// What a query needs of a HeatMethod.
+struct QueryPipeline {
+  const Surface& surface;
+  const HeatStep& heat;
+  const PoissonSolver& poisson;
+  const HeatOptions& options;
+  double unit_t;  ///< t in units of the intrinsic mesh squared
+};
+
+/// Solves every source set, in blocks of up to eight that threads share out: a block streams each
+/// factor once. The cut into blocks does not depend on the number of threads, nor do the results.
+Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                                std::span<const SourceSet> sets,
+                                                const QueryOptions& query,
+                                                const Progress& progress);
+
+}  // namespace geotherm
