@@ -66,18 +66,29 @@ Result<SolveFigures> compute(const SolveArguments& arguments, const HeatOptions&
   if (!sources) return sources.error();
   auto method = HeatMethod::build(model->mesh, options, progress);
   if (!method) return about_model(model->name, method.error());
-  if (!report(progress, "solve", 0.9)) return Error{ErrorCode::kCancelled, "the work was cancelled"};
+  if (!report(progress, "solve", 0.9))
+    return Error{ErrorCode::kCancelled, "the work was cancelled"};
   auto result = method->solve(sources->set);
   if (!result) return about_model(model->name, result.error());
 
-  SolveFigures figures{*std::move(model),  inspect_mesh(*model->mesh), *std::move(method),
-                       std::move(sources->set), *std::move(result),        {},
-                       peak_rss_mb(),      {}};
+  const double peak = peak_rss_mb();  // of the solve, not of the report
+  const MeshReport mesh = inspect_mesh(*model->mesh);
+  SolveFigures figures{*std::move(model),
+                       mesh,
+                       *std::move(method),
+                       std::move(sources->set),
+                       *std::move(result),
+                       {},
+                       peak,
+                       {}};
   figures.distance = summarize(figures.result.distances);
-  for (const auto* warnings : {&figures.model.notes, &figures.method.warnings(), &sources->warnings,
-                               &figures.result.warnings}) {
-    figures.warnings.insert(figures.warnings.end(), warnings->begin(), warnings->end());
-  }
+  const auto add_warnings = [&figures](const std::vector<std::string>& more) {
+    figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
+  };
+  add_warnings(figures.model.notes);
+  add_warnings(figures.method.warnings());
+  add_warnings(sources->warnings);
+  add_warnings(figures.result.warnings);
   note_unreached(figures);
   return figures;
 }
@@ -97,6 +108,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
                   "may be repeated")
       ->type_name("FILE")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");

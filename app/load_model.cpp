@@ -18,8 +18,8 @@ Result<Model> generated(const std::string& name, const Progress& progress) {
   const Stopwatch watch;
   auto mesh = generate_model(name, 0, with_prefix(progress, "making " + name + ": "));
   if (!mesh) return mesh.error();
-  return Model{name, "", std::make_shared<const TriangleMesh>(*std::move(mesh)),
-               watch.milliseconds(), {}};
+  return Model{
+      name, "", std::make_shared<const TriangleMesh>(*std::move(mesh)), watch.milliseconds(), {}};
 }
 
 void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& notes) {
@@ -27,7 +27,8 @@ void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& n
     notes.push_back(counted(file.polygons, "polygon was", "polygons were") + " triangulated");
   }
   if (file.welded > 0) {
-    notes.push_back("the file shares no vertices between faces: " + counted(file.welded, "equal corner was", "equal corners were") +
+    notes.push_back("the file shares no vertices between faces: " +
+                    counted(file.welded, "equal corner was", "equal corners were") +
                     " welded, and vertices are numbered by first appearance");
   }
 }

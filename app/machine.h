@@ -15,8 +15,8 @@ Machine this_machine();
 /// Largest resident memory of the process so far, in 2^20 bytes.
 double peak_rss_mb();
 
-/// Starts a new peak of resident memory, where the system permits it (Linux: /proc/self/clear_refs);
-/// otherwise the peak stays that of the process.
+/// Starts a new peak of resident memory, where the system permits it (Linux:
+/// /proc/self/clear_refs); otherwise the peak stays that of the process.
 void reset_peak_rss();
 
 }  // namespace geotherm::app

@@ -15,13 +15,15 @@ std::string mesh_in_words(const MeshReport& mesh) {
   return counted(mesh.vertices, "vertex", "vertices") + ", " +
          counted(mesh.faces, "face", "faces") + ", " +
          counted(mesh.components, "component", "components") + ", " +
-         (mesh.boundary_edges == 0 ? "no boundary"
-                                   : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
+         (mesh.boundary_edges == 0
+              ? "no boundary"
+              : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
 }
 
 std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
   std::vector<std::string> out;
-  if (mesh.components == 0) out.emplace_back("no face can carry distances; check how the file was exported");
+  if (mesh.components == 0)
+    out.emplace_back("no face can carry distances; check how the file was exported");
   if (mesh.components > 1) {
     out.push_back(grouped(mesh.components) +
                   " components: distances are infinite on those without a source");
@@ -47,8 +49,8 @@ std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
     out.push_back(counted(flat, "face has", "faces have") +
                   " no area; edges are lengthened slightly to make up for it");
   } else if (mesh.components > 0 && mesh.smallest_angle < kNeedle) {
-    out.push_back("there are needles: the smallest angle is " + significant(mesh.smallest_angle, 2) +
-                  " degrees");
+    out.push_back("there are needles: the smallest angle is " +
+                  significant(mesh.smallest_angle, 2) + " degrees");
   }
   if (mesh.duplicate_faces > 0) {
     out.push_back(counted(mesh.duplicate_faces, "duplicate face", "duplicate faces") +
@@ -58,7 +60,8 @@ std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
     out.push_back(counted(mesh.inconsistent_faces, "face is", "faces are") +
                   " turned against the neighbours; distances do not depend on it");
   }
-  if (!mesh.orientable) out.emplace_back("the surface cannot be oriented; distances are right all the same");
+  if (!mesh.orientable)
+    out.emplace_back("the surface cannot be oriented; distances are right all the same");
   if (mesh.duplicate_positions > 0) {
     out.push_back(counted(mesh.duplicate_positions, "vertex lies", "vertices lie") +
                   " exactly where another one does; where they should be one, the surface is cut");

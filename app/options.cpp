@@ -34,7 +34,8 @@ Result<int> threads_in(const std::string& text) {
   if (text.empty()) return 0;
   const auto threads = number_in<int>(text);
   if (threads && *threads >= 1 && *threads <= kMostThreads) return *threads;
-  return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no number of threads; give 1 to " +
+  return Error{ErrorCode::kBadInput, "'" + one_line(text) +
+                                         "' is no number of threads; give 1 to " +
                                          std::to_string(kMostThreads)};
 }
 
@@ -100,6 +101,7 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
                   "face:ID:b0:b1:b2, xyz:x:y:z; may be repeated, all are one source set")
       ->type_name("SOURCES")
       ->expected(1)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Sources");
   command

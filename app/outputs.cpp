@@ -53,10 +53,10 @@ bool same_file(const std::string& a, const std::string& b) {
 Result<void> Outputs::expect(const std::string& path, std::string_view option,
                              const std::string& model_path) {
   for (const File& other : files_) {
-    if (path == "-" ? other.path != "-" : other.path == "-" || !same_file(path, other.path)) continue;
+    if (path == "-" ? other.path != "-" : other.path == "-" || !same_file(path, other.path))
+      continue;
     return Error{ErrorCode::kBadInput,
-                 std::string(option) + ": " +
-                     (path == "-" ? "standard output" : one_line(path)) +
+                 std::string(option) + ": " + (path == "-" ? "standard output" : one_line(path)) +
                      " is asked for twice; give each output a place of its own"};
   }
   if (path != "-") {

@@ -83,6 +83,7 @@ Json model_json(const std::string& name, const MeshReport& mesh) {
 Json full_model_json(const std::string& name, const MeshReport& mesh) {
   Json json = model_json(name, mesh);
   json.update({{"edges", mesh.edges},
+               {"edge_components", mesh.edge_components},
                {"boundary_loops", mesh.boundary_loops},
                {"nonmanifold_vertices", mesh.nonmanifold_vertices},
                {"repeated_corner_faces", mesh.repeated_corner_faces},

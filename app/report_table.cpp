@@ -11,7 +11,9 @@
 namespace geotherm::app {
 namespace {
 
-TextTable two_columns() { return TextTable({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}}); }
+TextTable two_columns() {
+  return TextTable({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+}
 
 std::string ms(double value) { return milliseconds(value) + " ms"; }
 std::string mb(double value) { return milliseconds(value) + " MB"; }
@@ -22,8 +24,8 @@ std::string time_in_words(const HeatMethod& method, const MeshReport& mesh) {
   const std::string factor = significant(step.factor);
   switch (step.rule) {
     case TimeRule::kMeanEdge:
-      return significant(method.t()) + " = " + factor + " h^2, mean edge h = " +
-             significant(mesh.mean_edge_length);
+      return significant(method.t()) + " = " + factor +
+             " h^2, mean edge h = " + significant(mesh.mean_edge_length);
     case TimeRule::kMeanFaceArea:
       return significant(method.t()) + " = " + factor + " A/F, mean face area";
     case TimeRule::kAbsolute:
@@ -50,7 +52,8 @@ std::string sources_in_words(const SourceSet& sources) {
   std::int64_t inside = 0;
   for (const SurfacePoint& point : sources.points) inside += !point.is_vertex();
   if (vertices.empty()) text.clear();
-  if (inside > 0) text += (text.empty() ? "" : ", ") + counted(inside, "point in a face", "points in faces");
+  if (inside > 0)
+    text += (text.empty() ? "" : ", ") + counted(inside, "point in a face", "points in faces");
   if (!sources.edges.empty()) {
     text += ", " + counted(static_cast<std::int64_t>(sources.edges.size()), "edge", "edges");
   }
@@ -58,13 +61,17 @@ std::string sources_in_words(const SourceSet& sources) {
 }
 
 std::string distance_in_words(const DistanceSummary& d, Index vertices) {
-  std::string text = significant(d.min) + " to " + significant(d.max) + ", mean " + significant(d.mean);
-  if (d.unreached > 0) text += ", " + grouped(d.unreached) + " of " + counted(vertices, "vertex", "vertices") + " unreached";
+  std::string text =
+      significant(d.min) + " to " + significant(d.max) + ", mean " + significant(d.mean);
+  if (d.unreached > 0)
+    text += ", " + grouped(d.unreached) + " of " + counted(vertices, "vertex", "vertices") +
+            " unreached";
   return text;
 }
 
 std::string residuals_in_words(const Quality& q) {
-  std::string text = "heat " + significant(q.heat_residual, 2) + ", Poisson " + significant(q.poisson_residual, 2);
+  std::string text =
+      "heat " + significant(q.heat_residual, 2) + ", Poisson " + significant(q.poisson_residual, 2);
   if (q.iterations_heat + q.iterations_poisson > 0) {
     text += ", after " + grouped(q.iterations_heat) + " and " +
             counted(q.iterations_poisson, "iteration", "iterations");
@@ -81,23 +88,31 @@ std::string solve_table(const SolveFigures& f) {
   const HeatOptions& options = f.method.options();
   TextTable table = two_columns();
   table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
-  table.add_row({"backend", options.backend + ", " + counted(thread_count(options.threads), "thread", "threads")});
+  table.add_row({"backend", options.backend + ", " +
+                                counted(thread_count(options.threads), "thread", "threads")});
   table.add_row({"t", time_in_words(f.method, f.mesh)});
-  table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) + ", boundary " +
-                               to_text(options.boundary) + ", " + to_text(options.variant)});
+  table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
+                               ", boundary " + to_text(options.boundary) + ", " +
+                               to_text(options.variant)});
   table.add_row({"laplacian", laplacian_in_words(f.method)});
   table.add_row({"sources", sources_in_words(f.sources)});
   table.add_row({"load", ms(f.model.load_ms)});
-  table.add_row({"set-up", ms(setup.setup) + " = operators " + milliseconds(setup.operators) + " + analysis " +
-                               milliseconds(setup.analyze) + " + factors " + milliseconds(setup.factorize)});
-  table.add_row({"query", ms(query.query) + " = heat " + milliseconds(query.diffuse) + " + gradient " +
-                              milliseconds(query.gradient) + " + Poisson " + milliseconds(query.poisson)});
+  table.add_row({"set-up", ms(setup.setup) + " = operators " + milliseconds(setup.operators) +
+                               " + analysis " + milliseconds(setup.analyze) + " + factors " +
+                               milliseconds(setup.factorize)});
+  table.add_row({"query", ms(query.query) + " = heat " + milliseconds(query.diffuse) +
+                              " + gradient " + milliseconds(query.gradient) + " + Poisson " +
+                              milliseconds(query.poisson)});
   table.add_row({"memory", mb(f.method.factor_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
   table.add_row({"distance", distance_in_words(f.distance, f.mesh.vertices)});
-  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) + " on average, " +
-                                 counted(q.zero_gradient_faces, "face", "faces") + " without direction"});
+  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) +
+                                 " on average, " + counted(q.zero_gradient_faces, "face", "faces") +
+                                 " without direction"});
   table.add_row({"residuals", residuals_in_words(q)});
-  table.add_row({"at sources", "|d| <= " + significant(q.max_source_distance, 2) + " before it was set to 0"});
+  if (q.max_source_distance > 0) {
+    table.add_row({"at sources", "|d| was at most " + significant(q.max_source_distance, 2) +
+                                     " before it was set to 0"});
+  }
   return table.text();
 }
 
@@ -110,18 +125,23 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
     return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
   };
   row("model", one_line(model.name));
-  row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) + " in no face, " +
-                      grouped(mesh.duplicate_positions) + " where another one lies)");
+  row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
+                      " in no face, " + grouped(mesh.duplicate_positions) +
+                      " where another one lies)");
   row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
-                   grouped(mesh.duplicate_faces) + " duplicate, " + grouped(mesh.inconsistent_faces) +
-                   " turned against their neighbours)");
+                   grouped(mesh.duplicate_faces) + " duplicate, " +
+                   grouped(mesh.inconsistent_faces) + " turned against their neighbours)");
   row("edges", grouped(mesh.edges) + " (" + grouped(mesh.boundary_edges) + " boundary, " +
-                   grouped(mesh.nonmanifold_edges) + " non-manifold, " + grouped(mesh.non_delaunay_edges) +
-                   " not Delaunay)");
-  row("components", grouped(mesh.components));
+                   grouped(mesh.nonmanifold_edges) + " non-manifold, " +
+                   grouped(mesh.non_delaunay_edges) + " not Delaunay)");
+  row("components", grouped(mesh.components) + (mesh.edge_components == mesh.components
+                                                    ? ""
+                                                    : " (" + grouped(mesh.edge_components) +
+                                                          " when only shared edges connect)"));
   row("boundary loops", grouped(mesh.boundary_loops));
   row("non-manifold vertices", grouped(mesh.nonmanifold_vertices));
-  row("Euler characteristic", grouped(mesh.euler_characteristic) + (mesh.orientable ? ", orientable" : ", not orientable"));
+  row("Euler characteristic",
+      grouped(mesh.euler_characteristic) + (mesh.orientable ? ", orientable" : ", not orientable"));
   row("edge length", "mean " + significant(mesh.mean_edge_length) + ", from " +
                          significant(mesh.shortest_edge) + " to " + significant(mesh.longest_edge));
   row("area", significant(mesh.area));

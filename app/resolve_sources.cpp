@@ -161,14 +161,13 @@ class Resolver {
   void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
 
   void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
-    out_.warnings.push_back(where_ + ": " + grouped(gaps) + " of " +
-                            counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
-                            " of the curve " + (gaps == 1 ? "is" : "are") +
-                            " no mesh edge and became the shortest path along edges (" +
-                            (gaps == 1 ? "" : "the first: ") + "vertex " +
-                            std::to_string(curve.vertices[first - 1]) + " to " +
-                            std::to_string(curve.vertices[first]) + ", line " +
-                            std::to_string(curve.lines[first]) + ")");
+    out_.warnings.push_back(
+        where_ + ": " + grouped(gaps) + " of " +
+        counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") + " of the curve " +
+        (gaps == 1 ? "is" : "are") + " no mesh edge and became the shortest path along edges (" +
+        (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
+        " to " + std::to_string(curve.vertices[first]) + ", line " +
+        std::to_string(curve.lines[first]) + ")");
   }
 
   const CleanFaces& clean() {
@@ -216,8 +215,8 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
     if (used[v]) pool.push_back(static_cast<Index>(v));
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
-    return bad(grouped(count) + " different vertices were asked for; " + grouped(static_cast<std::int64_t>(pool.size())) +
-               " belong to a face");
+    return bad(grouped(count) + " different vertices were asked for; " +
+               grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
   }
   Random random(seed);
   for (Index i = 0; i < count; ++i) {

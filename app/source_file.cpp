@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <system_error>
+
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "solver/mesh/io/mapped_file.h"
@@ -49,6 +52,11 @@ Result<std::vector<Source>> as_curve(const std::string& shown, std::vector<Sourc
 }  // namespace
 
 Result<std::vector<Source>> read_source_file(const std::string& path, bool curve) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    return Error{ErrorCode::kBadFile,
+                 one_line(path) + ": is a folder; give a file with one vertex id or point a line"};
+  }
   const auto file = io::MappedFile::open(path);
   if (!file) return Error{ErrorCode::kBadFile, file.error().message};
   const std::string shown = one_line(path);
@@ -70,7 +78,8 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
     lines.push_back(number);
   }
   if (sources.empty()) {
-    return Error{ErrorCode::kBadFile, shown + ": holds no source; write one vertex id or point a line"};
+    return Error{ErrorCode::kBadFile,
+                 shown + ": holds no source; write one vertex id or point a line"};
   }
   if (!curve) return sources;
   return as_curve(shown, std::move(sources), lines);

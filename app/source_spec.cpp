@@ -55,10 +55,12 @@ Result<SourceSpec> parse_random(const std::vector<std::string_view>& parts) {
   const auto count = parts.size() > 1 ? number_in<Index>(parts[1]) : std::nullopt;
   const auto seed = parts.size() == 3 ? number_in<std::uint64_t>(parts[2]) : random.seed;
   if (!count || !seed || parts.size() > 3) {
-    return bad("'random' needs a whole number of vertices and may have a seed: random:K or "
-               "random:K:SEED");
+    return bad(
+        "'random' needs a whole number of vertices and may have a seed: random:K or "
+        "random:K:SEED");
   }
-  if (*count < 1) return bad("random:" + std::to_string(*count) + " asks for no vertex; give 1 or more");
+  if (*count < 1)
+    return bad("random:" + std::to_string(*count) + " asks for no vertex; give 1 or more");
   return SourceSpec(RandomVertices{*count, *seed});
 }
 
@@ -71,12 +73,14 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   auto weights = three_numbers(std::span(parts).subspan(2));
   if (!weights) return bad(quoted(text) + ": " + weights.error().message);
   double sum = 0;
-  bool negative = false;
   for (const double w : *weights) {
+    if (w < 0) {
+      return bad(quoted(text) + ": the weight " + significant(w) +
+                 " is negative; barycentric weights are not, and sum to 1");
+    }
     sum += w;
-    negative |= w < 0;
   }
-  if (negative || std::abs(sum - 1) > kWeightSum) {
+  if (std::abs(sum - 1) > kWeightSum) {
     return bad(quoted(text) + ": the weights sum to " + significant(sum) +
                "; barycentric weights are not negative and sum to 1");
   }

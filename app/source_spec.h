@@ -47,8 +47,8 @@ using SourceSpec =
 /// A source as the user wrote it.
 struct Source {
   SourceSpec spec;
-  std::string where;                         ///< "-s 3,99", "ids.txt: line 4": begins messages
-  ErrorCode blame = ErrorCode::kBadInput;    ///< kBadFile when it came from a file
+  std::string where;                       ///< "-s 3,99", "ids.txt: line 4": begins messages
+  ErrorCode blame = ErrorCode::kBadInput;  ///< kBadFile when it came from a file
 };
 
 /// Errors: kBadInput, one sentence with the text and what is expected. A vertex id must fit the

@@ -34,7 +34,7 @@ std::string significant(double value, int digits) {
 
 std::string milliseconds(double value) {
   if (!std::isfinite(value)) return significant(value);
-  if (value >= 99.95) return grouped(std::llround(value));
+  if (value == 0 || value >= 99.95) return grouped(std::llround(value));
   return with_decimals(value, value < 0.9995 ? 3 : value < 9.995 ? 2 : 1);
 }
 
@@ -47,6 +47,19 @@ std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kBlank);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+std::string wrapped(const std::string& text, std::size_t width) {
+  std::string out = text;
+  std::size_t line = 0;   // where the current one begins
+  std::size_t blank = 0;  // the last one seen in it
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (out[i] == ' ') blank = i;
+    if (i - line < width || blank <= line) continue;
+    out[blank] = '\n';
+    line = blank + 1;
+  }
+  return out;
 }
 
 std::string one_line(std::string text) {

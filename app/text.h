@@ -46,6 +46,9 @@ std::optional<Number> number_in(std::string_view text) {
   return value;
 }
 
+/// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
+std::string wrapped(const std::string& text, std::size_t width);
+
 /// Fit for one line: control characters become '?'.
 std::string one_line(std::string text);
 

@@ -25,7 +25,8 @@ std::string TextTable::text() const {
 
   std::vector<std::size_t> widths(columns_.size(), 0);
   for (const auto& cells : lines) {
-    for (std::size_t c = 0; c < columns_.size(); ++c) widths[c] = std::max(widths[c], width(cells[c]));
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      widths[c] = std::max(widths[c], width(cells[c]));
   }
   std::string out;
   for (const auto& cells : lines) {

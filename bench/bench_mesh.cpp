@@ -17,7 +17,7 @@ namespace {
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double next() { return engine_() / 4294967296.0; }
+  double next() { return static_cast<double>(engine_()) / 4294967296.0; }
 
  private:
   std::mt19937 engine_;

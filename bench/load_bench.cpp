@@ -48,7 +48,9 @@ bool write_obj(const std::string& path, const TriangleMesh& mesh) {
 }  // namespace
 
 LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs) {
-  LoadRow row{.mesh = name, .faces = mesh.face_count()};
+  LoadRow row;
+  row.mesh = name;
+  row.faces = mesh.face_count();
   const TemporaryFile file(".obj");
   if (!write_obj(file.path(), mesh)) {
     row.failure = file.path() + ": cannot be written";

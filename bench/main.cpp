@@ -70,6 +70,7 @@ int run(const Arguments& arguments) {
     for (const LoadRow& row : loads) print(load_text(row), out);
   }
 
+  if (groups.empty() && loads.empty()) print("Nothing fits --only " + arguments.only + "\n", stderr);
   if (arguments.json.empty()) return 0;
   const auto written = write_file(arguments.json, to_json(machine, threads, groups, growth, loads));
   if (written) return 0;

@@ -76,7 +76,8 @@ double disagreement(Contender& baseline, std::shared_ptr<const TriangleMesh> mes
 
 SolveGroup measure_case(const Case& c, const std::vector<std::string>& backends,
                         const SolvePlan& plan, const Say& say) {
-  SolveGroup group{.mesh = c.mesh};
+  SolveGroup group;
+  group.mesh = c.mesh;
   say("making the mesh");
   auto made = make_mesh(c.mesh, c.faces);
   if (!made) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/mesh_report.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -43,7 +44,7 @@ Index count_sets(Sets& sets, const std::vector<char>& marked) {
 void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   const auto n = static_cast<std::size_t>(mesh.vertex_count());
   std::vector<char> used(n, 0), on_boundary(n, 0);
-  Sets pieces(n), borders(n);
+  Sets pieces(n), borders(n), patches(clean.faces.size());
   for (const Face& face : clean.faces) {
     for (const Index corner : face) used[corner] = 1;
     pieces.join(face[0], face[1]);
@@ -53,6 +54,7 @@ void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, Mesh
   for (Index e = 0; e < edges.edge_count(); ++e) {
     const auto sides = edges.sides(e);
     report.nonmanifold_edges += sides.size() > 2;
+    for (const Side side : sides) patches.join(face_of(sides[0]), face_of(side));
     if (sides.size() == 2) {
       const Face& f = clean.faces[face_of(sides[0])];
       const Face& g = clean.faces[face_of(sides[1])];
@@ -66,6 +68,7 @@ void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, Mesh
   const auto in_use = static_cast<Index>(std::count(used.begin(), used.end(), 1));
   report.edges = edges.edge_count();
   report.components = count_sets(pieces, used);
+  report.edge_components = count_sets(patches, std::vector<char>(clean.faces.size(), 1));
   report.boundary_loops = count_sets(borders, on_boundary);
   report.unreferenced_vertices = report.vertices - in_use;
   report.euler_characteristic =

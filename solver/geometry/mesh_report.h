@@ -11,28 +11,29 @@ namespace geotherm {
 struct MeshReport {
   Index vertices = 0, faces = 0;  ///< as in the file
   Index edges = 0;
-  Index components = 0;  ///< sets of faces connected through shared vertices
+  Index components = 0;       ///< sets of faces connected through shared vertices
+  Index edge_components = 0;  ///< the same through shared edges
 
-  Index boundary_edges = 0;  ///< edges with one face
-  Index boundary_loops = 0;  ///< connected pieces of the boundary; holes that touch are one
+  Index boundary_edges = 0;        ///< edges with one face
+  Index boundary_loops = 0;        ///< connected pieces of the boundary; holes that touch are one
   Index nonmanifold_edges = 0;     ///< edges with three faces or more
   Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan
 
-  Index degenerate_faces = 0;        ///< repeated corner, or height below 1e-10 of the longest side
-  Index repeated_corner_faces = 0;   ///< those of them with a repeated corner
-  Index duplicate_faces = 0;         ///< the same three vertices as an earlier face
-  Index unreferenced_vertices = 0;   ///< in none of the faces
-  Index duplicate_positions = 0;     ///< vertices that lie exactly where an earlier one does
-  Index inconsistent_faces = 0;      ///< faces to be turned so that neighbours agree
-  bool orientable = true;            ///< after turning them, all neighbours agree
-  Index non_delaunay_edges = 0;      ///< edges with a negative cotangent weight
+  Index degenerate_faces = 0;       ///< repeated corner, or height below 1e-10 of the longest side
+  Index repeated_corner_faces = 0;  ///< those of them with a repeated corner
+  Index duplicate_faces = 0;        ///< the same three vertices as an earlier face
+  Index unreferenced_vertices = 0;  ///< in none of the faces
+  Index duplicate_positions = 0;    ///< vertices that lie exactly where an earlier one does
+  Index inconsistent_faces = 0;     ///< faces to be turned so that neighbours agree
+  bool orientable = true;           ///< after turning them, all neighbours agree
+  Index non_delaunay_edges = 0;     ///< edges with a negative cotangent weight
   std::int64_t euler_characteristic = 0;  ///< V - E + F, of what the faces use
 
   double mean_edge_length = 0, shortest_edge = 0, longest_edge = 0;  ///< model units
   double area = 0;                                                   ///< model units squared
   Vec3 box_min = Vec3::Zero(), box_max = Vec3::Zero();               ///< of the faces' vertices
-  double smallest_angle = 0;  ///< degrees
-  double mean_quality = 0;    ///< mean of 4 sqrt(3) area / (sum of squared sides); 1: equilateral
+  double smallest_angle = 0;                                         ///< degrees
+  double mean_quality = 0;  ///< mean of 4 sqrt(3) area / (sum of squared sides); 1: equilateral
 };
 
 /// Cost: O(F), and sorting the positions.

@@ -7,7 +7,7 @@
 namespace geotherm {
 namespace {
 
-/// More levels than this many floors: 255 * 200 decades for direct solvers.
+/// More levels than this many floors: 255 * 280 decades for direct solvers.
 constexpr int kMostLevels = 255;
 
 class FarField {

@@ -11,16 +11,16 @@ using FieldKernel = void (*)(const FieldPass&);
 namespace kernels_plain {
 extern const FieldKernel kFieldKernels[5];
 extern void (*const kLogarithms)(const double*, double*, std::size_t);
-}
+}  // namespace kernels_plain
 #ifdef GEOTHERM_X86_KERNELS
 namespace kernels_avx2 {
 extern const FieldKernel kFieldKernels[5];
 extern void (*const kLogarithms)(const double*, double*, std::size_t);
-}
+}  // namespace kernels_avx2
 namespace kernels_avx512 {
 extern const FieldKernel kFieldKernels[5];
 extern void (*const kLogarithms)(const double*, double*, std::size_t);
-}
+}  // namespace kernels_avx512
 #endif
 
 void add_unit_divergence(const FieldPass& pass, int group, InstructionSet set) {

@@ -4,24 +4,26 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "solver/core/instruction_set.h"
 #include "solver/geometry/operator_mesh.h"
 
 namespace geotherm {
 
-/// What a pass over the faces reads and writes, for one group of source sets: row i of u, log_u
-/// and b starts at i * stride.
+/// What a pass over the faces reads and writes, for one group of source sets: row i of u, log_u,
+/// level and b starts at i * stride.
 struct FieldPass {
   const OperatorMesh* mesh;
   const double* u;
-  const double* log_u;  ///< null: X keeps length 1
+  const double* log_u;        ///< null: X keeps length 1
+  const std::uint8_t* level;  ///< null, or exponents of u: faces with one are done carefully
   double* b;
   std::ptrdiff_t stride;
-  double root_t;        ///< sqrt(t), for field_length()
+  double root_t;  ///< sqrt(t), for field_length()
 
-  /// X of one face and column, for the lanes that the fast path cannot do: gradients that underflow
-  /// and logarithms that do not exist.
+  /// X of one face and column, for the lanes that the fast path cannot do: gradients that
+  /// underflow, logarithms that do not exist, exponents.
   const void* context;
   std::array<double, 2> (*careful)(const void* context, Index face, int column);
 };
@@ -33,19 +35,21 @@ inline constexpr double kFront = 0.95;
 inline constexpr double kResolved = 1.6;
 
 /// Length of X on a face whose gradient of log u is (gx, gy): the slope sqrt(t) |grad log u|,
-/// relative to that of one front, at most 1. One front falls by 2 asinh(e / (2 sqrt(t))) over an
-/// extent e of the mesh, where exp(-d / sqrt(t)) falls by e / sqrt(t); 1 / sqrt(1 + x^2 / 3) is
-/// asinh(x) / x to 1 % for x < 0.8.
+/// relative to that of one front, at most 1. Over an extent e of the mesh one front falls by
+/// 2 asinh(x), x = e / (2 sqrt(t)), where exp(-d / sqrt(t)) falls by 2 x; 1 + x^2/6 - x^4/72 is
+/// x / asinh(x) to 2 % for x < 0.8.
 inline double field_length(double base, double x, double height, double gx, double gy,
                            double root_t) {
-  const double norm = std::sqrt(gx * gx + gy * gy);
-  const double a = base * gx / norm;
-  const double b = (x * gx + height * gy) / norm;
+  const double square = gx * gx + gy * gy;
+  const double inverse = 1 / std::sqrt(square);
+  const double a = base * gx * inverse;
+  const double b = (x * gx + height * gy) * inverse;
   const double high = a > b ? a : b;
   const double low = a < b ? a : b;
   const double extent = (high > 0 ? high : 0) - (low < 0 ? low : 0);
-  const double ratio = extent / (2 * root_t);
-  const double length = root_t * norm * std::sqrt(1 + ratio * ratio / 3) / kFront;
+  const double half = 0.5 / root_t * extent;
+  const double q = half * half / 6;
+  const double length = root_t / kFront * (square * inverse) * (1 + q - 0.5 * q * q);
   return extent > kResolved * root_t || length > 1 ? 1.0 : length;
 }
 

@@ -29,7 +29,8 @@ struct Lanes {
   double dl1[kCount], dl2[kCount];  ///< of log u
   double inverse_base[kCount], x[kCount], inverse_height[kCount], base[kCount], height[kCount];
   double d1[kCount], d2[kCount];
-  double careful[kCount];  ///< 1 where the fast path does not hold
+  double far[kCount];      ///< not 0 where a corner has an exponent of its own
+  double careful[kCount];  ///< not 0 where the fast path does not hold
 };
 
 template <int K>
@@ -49,6 +50,14 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
       s.base[lane] = p.base;
       s.x[lane] = p.x;
       s.height[lane] = p.height;
+    }
+    for (int k = 0; k < K; ++k) s.far[i * K + k] = 0;
+    if (pass.level != nullptr) {
+      for (int k = 0; k < K; ++k) {
+        s.far[i * K + k] = pass.level[face[0] * pass.stride + k] |
+                           pass.level[face[1] * pass.stride + k] |
+                           pass.level[face[2] * pass.stride + k];
+      }
     }
     if (pass.log_u == nullptr) continue;
     for (int k = 0; k < K; ++k) {
@@ -72,7 +81,7 @@ bool compute(const FieldPass& pass, Lanes<K>& s) {
     const double fy = gy * scale;
     s.d1[j] = s.height[j] * fx - s.x[j] * fy;
     s.d2[j] = s.base[j] * fy;
-    s.careful[j] = square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
+    s.careful[j] = square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
   }
   if (pass.log_u != nullptr) {
     for (int j = 0; j < Lanes<K>::kCount; ++j) {

@@ -21,6 +21,7 @@ struct HeatMethod::State {
   std::shared_ptr<const Surface> surface;
   std::shared_ptr<const HeatStep> heat;
   std::shared_ptr<const PoissonSolver> poisson;
+  std::shared_ptr<BlockPool> pool = std::make_shared<BlockPool>();
   double t = 0;
   SetupTiming timing;
   std::vector<std::string> warnings;
@@ -154,8 +155,9 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
                                                            const QueryOptions& query,
                                                            const Progress& progress) const {
   const double edge = state_->surface->mean_edge;
-  const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
-                               state_->t / (edge * edge)};
+  const QueryPipeline pipeline{*state_->surface,          *state_->heat,
+                               *state_->poisson,          state_->options,
+                               state_->t / (edge * edge), *state_->pool};
   return run_queries(pipeline, sets, query, progress);
 }
 

@@ -104,9 +104,10 @@ Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
 
 Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                                               std::span<const SourceAnchors> anchors, HeatMode mode,
-                                              bool residuals) const {
+                                              bool residuals, BlockPool& pool) const {
   const OperatorMesh& mesh = *surface_->operators;
-  Block b = Block::Zero(mesh.size(), static_cast<Eigen::Index>(anchors.size()));
+  const auto columns = static_cast<Eigen::Index>(anchors.size());
+  Block b = pool.take_zero(mesh.size(), columns);
   std::vector<Index> support;
   std::vector<std::vector<char>> reached;
   for (std::size_t c = 0; c < anchors.size(); ++c) {
@@ -129,13 +130,15 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   } else if (mode == HeatMode::kHold) {
     if (const auto held = hold_by_schur(*system, anchors, b); !held) return held.error();
   }
-  auto field = geotherm::diffuse(*system, mesh.components, b, support, reached,
+  Block right;  // kept only where it is looked at again
+  if (residuals) right = b;
+  auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
                                  iterative_ ? kIterativeFloor : kDirectFloor);
   if (!field) return field.error();
   Answer answer{std::move(*field), {}, 0.0, {}};
   const Stopwatch watch;
-  for (Eigen::Index c = 0; residuals && c < b.cols(); ++c) {
-    answer.residual.push_back(heat_residual(system->matrix(), answer.field, b, c));
+  for (Eigen::Index c = 0; residuals && c < columns; ++c) {
+    answer.residual.push_back(heat_residual(system->matrix(), answer.field, right, c));
   }
   answer.residual_ms = watch.milliseconds();
   if (dirichlet && on_border(anchors.front())) {
@@ -147,15 +150,16 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
 }
 
 Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
-                                           bool residuals) const {
+                                           bool residuals, BlockPool& pool) const {
   if (boundary_ != BoundaryRule::kAverage) {
-    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals);
+    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, pool);
   }
-  auto neumann = solve_rule(false, anchors, mode, residuals);
+  auto neumann = solve_rule(false, anchors, mode, residuals, pool);
   if (!neumann) return neumann;
-  auto dirichlet = solve_rule(true, anchors, mode, residuals);
+  auto dirichlet = solve_rule(true, anchors, mode, residuals, pool);
   if (!dirichlet) return dirichlet;
   neumann->field = average(std::move(neumann->field), dirichlet->field);
+  pool.give(std::move(dirichlet->field.u));
   neumann->warnings = dirichlet->warnings;
   neumann->residual_ms += dirichlet->residual_ms;
   for (std::size_t c = 0; c < neumann->residual.size(); ++c) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/heat/block_pool.h"
 #include "solver/heat/diffuse.h"
 #include "solver/heat/source_anchors.h"
 
@@ -37,8 +38,8 @@ class HeatStep {
 
   /// u for every source set. Precondition: one set only, where it needs its own system.
   /// Errors: the backend's.
-  Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
-                         bool residuals) const;
+  Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode, bool residuals,
+                         BlockPool& pool) const;
 
   FactorStats stats() const;
 
@@ -47,7 +48,7 @@ class HeatStep {
   std::vector<Index> border_without(const SourceAnchors* anchors) const;
   bool on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
-                            bool residuals) const;
+                            bool residuals, BlockPool& pool) const;
   /// The system of this rule for one source set, and its right side with held values in place.
   Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
                                                          const SourceAnchors& anchors,

@@ -41,8 +41,8 @@ Result<void> normalize(const Surface& surface, std::span<double> phi, const Sour
   }
   for (const auto& anchor : anchors.anchors) {
     if (pinned) phi[anchor.row] = anchor.offset;  // held: what is left is the solve's round-off
-    result.quality.max_source_distance = std::max(
-        result.quality.max_source_distance, std::abs(phi[anchor.row] - anchor.offset) * unit);
+    result.quality.max_source_distance = std::max(result.quality.max_source_distance,
+                                                  std::abs(phi[anchor.row] - anchor.offset) * unit);
   }
   std::vector<char> holds(static_cast<std::size_t>(components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;

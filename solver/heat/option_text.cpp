@@ -84,7 +84,8 @@ std::string to_text(const TimeStep& step) {
 
 std::string to_text(const Constraint& constraint) {
   const std::string name = name_of(kConstraints, constraint.mode);
-  if (constraint.mode == ConstraintMode::kPenalty) return name + ":" + number_text(constraint.penalty);
+  if (constraint.mode == ConstraintMode::kPenalty)
+    return name + ":" + number_text(constraint.penalty);
   if (constraint.mode == ConstraintMode::kPinVertex && constraint.pin_vertex != kNoIndex) {
     return name + ":" + std::to_string(constraint.pin_vertex);
   }

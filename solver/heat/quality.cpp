@@ -13,8 +13,8 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
   for (std::size_t i = 0; i < n; ++i) {
     u[i] = heat.u(static_cast<Eigen::Index>(i), column);
     if (heat.level.empty()) continue;
-    const int level = heat.level[i * static_cast<std::size_t>(heat.u.cols()) +
-                                 static_cast<std::size_t>(column)];
+    const int level =
+        heat.level[i * static_cast<std::size_t>(heat.u.cols()) + static_cast<std::size_t>(column)];
     for (int k = 0; k < level && u[i] != 0; ++k) u[i] *= heat.step;
   }
   matrix.apply_free(u, product);

@@ -53,11 +53,11 @@ std::vector<std::vector<double>> split_columns(const Block& block) {
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, std::span<DistanceResult> results) {
   Stopwatch watch;
-  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality);
+  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool);
   if (!heat) return heat.error();
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   const UnitField field(*p.surface.operators, heat->field,
-                        p.options.variant == Variant::kClassic ? 0.0 : p.unit_t);
+                        p.options.variant == Variant::kClassic ? 0.0 : p.unit_t, p.pool);
   Block b = field.divergence(anchors);
   const double gradient_ms = watch.lap();
   Block right;
@@ -92,6 +92,8 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     }
     if (query.fields) result.heat = heat_in_file_order(p.surface, heat->field, column);
   }
+  p.pool.give(std::move(heat->field.u));
+  p.pool.give(std::move(answer->phi));
   return {};
 }
 
@@ -168,8 +170,8 @@ Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   std::vector<DistanceResult> results(sets.size());
   const double placing = watch.milliseconds();
   GroupRunner runner(pipeline, *groups, query, results, progress);
-  const int threads = std::min<int>(thread_count(pipeline.options.threads),
-                                    static_cast<int>(groups->size()));
+  const int threads =
+      std::min<int>(thread_count(pipeline.options.threads), static_cast<int>(groups->size()));
   if (auto failure = runner.run(threads)) return *failure;
   // Threads work side by side: a set's share of the wall clock is that much smaller.
   for (DistanceResult& result : results) {

@@ -17,6 +17,7 @@ struct QueryPipeline {
   const PoissonSolver& poisson;
   const HeatOptions& options;
   double unit_t;  ///< t in units of the intrinsic mesh squared
+  BlockPool& pool;
 };
 
 /// Solves every source set, in blocks of up to eight that threads share out: a block streams each

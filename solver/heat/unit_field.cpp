@@ -40,18 +40,17 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
 
 }  // namespace
 
-UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t)
-    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)) {
+UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, BlockPool& pool)
+    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)), pool_(pool) {
   if (t <= 0 && heat.level.empty()) return;
-  log_u_.resize(heat.u.rows(), heat.u.cols());
+  log_u_ = pool.take(heat.u.rows(), heat.u.cols());
   if (heat.level.empty()) {
     logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
     return;
   }
   const double step = std::log(heat.step);
   for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-    log_u_.data()[e] =
-        std::log(heat.u.data()[e]) + step * heat.level[static_cast<std::size_t>(e)];
+    log_u_.data()[e] = std::log(heat.u.data()[e]) + step * heat.level[static_cast<std::size_t>(e)];
   }
 }
 
@@ -80,7 +79,7 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   return {x[0] * size, x[1] * size};
 }
 
-void UnitField::add_fast(Eigen::Index first, int group, Block& b) const {
+void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   struct Context {
     const UnitField* field;
     Eigen::Index first;
@@ -89,6 +88,7 @@ void UnitField::add_fast(Eigen::Index first, int group, Block& b) const {
   FieldPass pass{};
   pass.mesh = &mesh_;
   pass.u = heat_.u.data() + first;
+  if (!heat_.level.empty()) pass.level = heat_.level.data() + first;
   pass.b = b.data() + first;
   pass.stride = b.cols();
   pass.context = &context;
@@ -105,18 +105,10 @@ void UnitField::add_fast(Eigen::Index first, int group, Block& b) const {
 
 Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
   const Eigen::Index columns = heat_.u.cols();
-  Block b = Block::Zero(heat_.u.rows(), columns);
+  Block b = pool_.take_zero(heat_.u.rows(), columns);
   for (Eigen::Index first = 0; first < columns;) {
     const int group = column_group(columns - first);
-    if (heat_.level.empty()) {
-      add_fast(first, group, b);
-    } else {
-      for (Index f = 0; f < mesh_.face_count(); ++f) {
-        for (Eigen::Index c = first; c < first + group; ++c) {
-          add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
-        }
-      }
-    }
+    add_group(first, group, b);
     first += group;
   }
   if (!(root_t_ > 0)) return b;

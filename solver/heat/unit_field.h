@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "solver/heat/block_pool.h"
 #include "solver/heat/diffuse.h"
 #include "solver/heat/source_anchors.h"
 
@@ -18,7 +19,10 @@ namespace geotherm {
 class UnitField {
  public:
   /// `t` in units of the intrinsic mesh squared, or 0. Keeps references. Cost: a logarithm a row.
-  UnitField(const OperatorMesh& mesh, const HeatField& heat, double t);
+  UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, BlockPool& pool);
+  ~UnitField() { pool_.give(std::move(log_u_)); }
+  UnitField(const UnitField&) = delete;
+  UnitField& operator=(const UnitField&) = delete;
 
   /// X of one face in its own plane: (0, 0) where the gradient is zero or not finite.
   std::array<double, 2> of_face(Index face, Eigen::Index column) const;
@@ -29,12 +33,13 @@ class UnitField {
   Block divergence(std::span<const SourceAnchors> anchors) const;
 
  private:
-  void add_fast(Eigen::Index first, int group, Block& b) const;
+  void add_group(Eigen::Index first, int group, Block& b) const;
   double length(const FaceLayout& layout, const Face& face, Eigen::Index column) const;
 
   const OperatorMesh& mesh_;
   const HeatField& heat_;
   double root_t_;
+  BlockPool& pool_;
   Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
 };
 

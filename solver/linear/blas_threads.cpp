@@ -31,7 +31,8 @@ bool adjustable() {
 }  // namespace
 
 BlasThreads::BlasThreads(int threads) {
-  if (threads == 1 && omp_set_max_active_levels != nullptr && omp_get_max_active_levels != nullptr) {
+  if (threads == 1 && omp_set_max_active_levels != nullptr &&
+      omp_get_max_active_levels != nullptr) {
     omp_levels_before_ = omp_get_max_active_levels();
     omp_set_max_active_levels(0);
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -71,7 +72,7 @@ class ConjugateGradient final : public Factorization {
     const int budget =
         kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
     SolveReport report;
-    while (rho > kTolerance * kTolerance * start) {
+    while (!(rho <= kTolerance * kTolerance * start)) {  // goes on, to an error, where rho is NaN
       if (report.iterations == budget) {
         return Error{ErrorCode::kBudgetEnded, "cg: the budget of " + std::to_string(budget) +
                                                   " iterations ended at a relative residual of " +
@@ -121,6 +122,15 @@ class CgAnalysis final : public Analysis {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();
+    }
+    const std::span<const double> diagonal = matrix->diagonal();
+    const auto bad =
+        std::find_if(diagonal.begin(), diagonal.end(), [](double d) { return !(d > 0); });
+    if (bad != diagonal.end()) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "cg: the matrix is not positive definite (diagonal " + rounded_text(*bad) +
+                       " in column " + std::to_string(bad - diagonal.begin()) + " of " +
+                       std::to_string(diagonal.size()) + "); try --laplacian intrinsic-delaunay"};
     }
     return std::unique_ptr<Factorization>(std::make_unique<ConjugateGradient>(std::move(matrix)));
   }

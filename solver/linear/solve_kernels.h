@@ -18,7 +18,12 @@ struct Panel {
   Index height;       ///< width + rows below
   const Index* rows;  ///< height - width row numbers
   const double* values;
+  const double* inverse_diagonal;  ///< width: 1 / L(c, c)
+  bool padded;                     ///< kPanelPadding doubles may be read after the last value
 };
+
+/// Kernels for one right side read whole registers, up to this many doubles past a column's end.
+inline constexpr std::ptrdiff_t kPanelPadding = 16;
 
 /// One column of a unit lower triangular factor with a diagonal, M = L D L^T.
 struct Column {
@@ -30,7 +35,8 @@ struct Column {
 };
 
 /// The four inner loops of triangular solves for one group of right sides: x has `stride` doubles
-/// a row. `scratch` holds height * group doubles.
+/// a row. `scratch` holds height * group doubles and
+/// kPanelPadding more.
 struct SolveKernels {
   void (*panel_forward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
   void (*panel_backward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);

@@ -16,93 +16,7 @@ constexpr int kLanes = 2;
 #endif
 constexpr Index kTile = 4;  ///< rows or columns of the factor held in registers at a time
 
-/// One right side: rows are the vector dimension.
-void panel_forward_one(const Panel& p, double* x, std::ptrdiff_t stride, double* below) {
-  const Index under = p.height - p.width;
-  for (Index r = 0; r < under; ++r) below[r] = 0;
-  Index c = 0;
-  for (; c + kTile <= p.width; c += kTile) {
-    double v[kTile];
-    const double* column[kTile];
-    for (Index i = 0; i < kTile; ++i) {
-      column[i] = p.values + static_cast<std::ptrdiff_t>(c + i) * p.height;
-      v[i] = x[(p.first + c + i) * stride];
-      for (Index j = 0; j < i; ++j) v[i] -= column[j][c + i] * v[j];
-      v[i] /= column[i][c + i];
-      x[(p.first + c + i) * stride] = v[i];
-    }
-    for (Index r = c + kTile; r < p.width; ++r) {
-      double sum = 0;
-      for (Index i = 0; i < kTile; ++i) sum += column[i][r] * v[i];
-      x[(p.first + r) * stride] -= sum;
-    }
-    const double *a = column[0] + p.width, *b = column[1] + p.width, *d = column[2] + p.width,
-                 *e = column[3] + p.width;
-#pragma GCC ivdep
-    for (Index r = 0; r < under; ++r) {
-      below[r] += a[r] * v[0] + b[r] * v[1] + (d[r] * v[2] + e[r] * v[3]);
-    }
-  }
-  for (; c < p.width; ++c) {
-    const double* column = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
-    const double v = x[(p.first + c) * stride] / column[c];
-    x[(p.first + c) * stride] = v;
-    for (Index r = c + 1; r < p.width; ++r) x[(p.first + r) * stride] -= column[r] * v;
-    const double* a = column + p.width;
-#pragma GCC ivdep
-    for (Index r = 0; r < under; ++r) below[r] += a[r] * v;
-  }
-  for (Index r = 0; r < under; ++r) x[p.rows[r] * stride] -= below[r];
-}
-
-void panel_backward_one(const Panel& p, double* x, std::ptrdiff_t stride, double* gathered) {
-  const Index under = p.height - p.width;
-  for (Index r = 0; r < under; ++r) gathered[r] = x[p.rows[r] * stride];
-  Index c = p.width;
-  while (c > 0) {
-    const Index tile = c >= kTile ? kTile : c;
-    c -= tile;
-    double sum[kTile] = {0, 0, 0, 0};
-    const double* column[kTile];
-    for (Index i = 0; i < kTile; ++i) {
-      column[i] = p.values + static_cast<std::ptrdiff_t>(i < tile ? c + i : c) * p.height;
-    }
-    const double *a = column[0] + p.width, *b = column[1] + p.width, *d = column[2] + p.width,
-                 *e = column[3] + p.width;
-    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-    if (tile == kTile) {
-#pragma omp simd reduction(+ : s0, s1, s2, s3)
-      for (Index r = 0; r < under; ++r) {
-        const double g = gathered[r];
-        s0 += a[r] * g;
-        s1 += b[r] * g;
-        s2 += d[r] * g;
-        s3 += e[r] * g;
-      }
-      sum[0] = s0, sum[1] = s1, sum[2] = s2, sum[3] = s3;
-    } else {
-      for (Index i = 0; i < tile; ++i) {
-        const double* v = column[i] + p.width;
-        double s = 0;
-#pragma omp simd reduction(+ : s)
-        for (Index r = 0; r < under; ++r) s += v[r] * gathered[r];
-        sum[i] = s;
-      }
-    }
-    for (Index r = c + tile; r < p.width; ++r) {
-      const double g = x[(p.first + r) * stride];
-      for (Index i = 0; i < tile; ++i) sum[i] += column[i][r] * g;
-    }
-    for (Index i = tile; i-- > 0;) {
-      double v = x[(p.first + c + i) * stride] - sum[i];
-      for (Index j = i + 1; j < tile; ++j) v -= column[i][c + j] * x[(p.first + c + j) * stride];
-      x[(p.first + c + i) * stride] = v / column[i][c + i];
-    }
-  }
-}
-
-/// Several right sides: they are the vector dimension. A group of K doubles is held in registers
-/// of the instruction set's width.
+/// K doubles in registers of the instruction set's width.
 template <int K>
 class Group {
   static constexpr int kWidth = K < kLanes ? K : kLanes;
@@ -124,6 +38,16 @@ class Group {
   void store(double* to) const {
     for (int i = 0; i < kCount; ++i) reinterpret_cast<Loose*>(to)[i] = lane_[i];
   }
+  void add(const Group& a, const Group& b) {
+    for (int i = 0; i < kCount; ++i) lane_[i] += a.lane_[i] * b.lane_[i];
+  }
+  double sum() const {
+    double out = 0;
+    for (int i = 0; i < kCount; ++i) {
+      for (int j = 0; j < kWidth; ++j) out += lane_[i][j];
+    }
+    return out;
+  }
   void add(double factor, const Group& other) {
     for (int i = 0; i < kCount; ++i) lane_[i] += factor * other.lane_[i];
   }
@@ -140,6 +64,95 @@ class Group {
  private:
   Lane lane_[kCount];
 };
+
+/// One right side: rows are the vector dimension, kRows at a time. The last rows of a column are
+/// read together with what follows them in memory and multiplied by zero or left unused; panels
+/// at the end of the factor, where nothing follows, go one row at a time.
+constexpr Index kRows = 8;
+
+inline void subtract_rows_plainly(const Panel& p, const double* own, Index r, double* x,
+                                  std::ptrdiff_t stride) {
+  double sum = 0;
+  for (Index c = 0; c < p.width; ++c) {
+    sum += p.values[static_cast<std::ptrdiff_t>(c) * p.height + r] * own[c];
+  }
+  x[p.rows[r - p.width] * stride] -= sum;
+}
+
+/// Rows r .. r + T kRows: what the panel's columns subtract from them.
+template <int T>
+inline void subtract_row_blocks(const Panel& p, const double* own, Index r, double* x,
+                                std::ptrdiff_t stride) {
+  Group<kRows> sum[T];
+  for (int i = 0; i < T; ++i) sum[i] = Group<kRows>::zero();
+  const double* values = p.values + r;
+  for (Index c = 0; c < p.width; ++c, values += p.height) {
+    for (int i = 0; i < T; ++i) sum[i].add(own[c], Group<kRows>::load(values + i * kRows));
+  }
+  double out[T * kRows];
+  for (int i = 0; i < T; ++i) sum[i].store(out + i * kRows);
+  const Index count = p.height - r < T * kRows ? p.height - r : T * kRows;
+  for (Index i = 0; i < count; ++i) x[p.rows[r - p.width + i] * stride] -= out[i];
+}
+
+void panel_forward_one(const Panel& p, double* x, std::ptrdiff_t stride, double* own) {
+  for (Index c = 0; c < p.width; ++c) own[c] = x[(p.first + c) * stride];
+  for (Index c = 0; c < p.width; ++c) {
+    const double* column = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
+    const double v = own[c] *= p.inverse_diagonal[c];
+    for (Index r = c + 1; r < p.width; ++r) own[r] -= column[r] * v;
+  }
+  for (Index c = 0; c < p.width; ++c) x[(p.first + c) * stride] = own[c];
+  Index r = p.width;
+  if (p.padded) {
+    for (; r + kRows < p.height; r += 2 * kRows) subtract_row_blocks<2>(p, own, r, x, stride);
+    for (; r < p.height; r += kRows) subtract_row_blocks<1>(p, own, r, x, stride);
+  } else {
+    for (; r < p.height; ++r) subtract_rows_plainly(p, own, r, x, stride);
+  }
+}
+
+/// Columns c .. c + T, given the values of all rows after them in `rows`, padded with zeros.
+template <int T>
+inline void solve_columns_one(const Panel& p, Index c, double* rows, double* x,
+                              std::ptrdiff_t stride) {
+  const double* column[T];
+  double sum[T] = {};
+  for (int i = 0; i < T; ++i) {
+    column[i] = p.values + static_cast<std::ptrdiff_t>(c + i) * p.height;
+  }
+  Index r = c + T;
+  if (p.padded) {
+    Group<kRows> part[T];
+    for (int i = 0; i < T; ++i) part[i] = Group<kRows>::zero();
+    for (; r < p.height; r += kRows) {
+      const Group<kRows> v = Group<kRows>::load(rows + r);
+      for (int i = 0; i < T; ++i) part[i].add(Group<kRows>::load(column[i] + r), v);
+    }
+    for (int i = 0; i < T; ++i) sum[i] = part[i].sum();
+  }
+  for (; r < p.height; ++r) {
+    for (int i = 0; i < T; ++i) sum[i] += column[i][r] * rows[r];
+  }
+  for (int i = T; i-- > 0;) {
+    double v = rows[c + i] - sum[i];
+    for (int j = i + 1; j < T; ++j) v -= column[i][c + j] * rows[c + j];
+    v *= p.inverse_diagonal[c + i];
+    x[(p.first + c + i) * stride] = rows[c + i] = v;
+  }
+}
+
+void panel_backward_one(const Panel& p, double* x, std::ptrdiff_t stride, double* rows) {
+  for (Index r = 0; r < p.width; ++r) rows[r] = x[(p.first + r) * stride];
+  for (Index r = p.width; r < p.height; ++r) rows[r] = x[p.rows[r - p.width] * stride];
+  for (Index r = 0; r < kRows; ++r) rows[p.height + r] = 0;
+  Index c = p.width;
+  for (; c >= kTile; c -= kTile) solve_columns_one<kTile>(p, c - kTile, rows, x, stride);
+  if (c >= 2) solve_columns_one<2>(p, c -= 2, rows, x, stride);
+  if (c > 0) solve_columns_one<1>(p, 0, rows, x, stride);
+}
+
+/// Several right sides: they are the vector dimension.
 
 /// Rows r .. r + T below the supernode: what its columns subtract from them.
 template <int K, int T>
@@ -168,7 +181,7 @@ void panel_forward(const Panel& p, double* x, std::ptrdiff_t stride, double* own
   for (Index c = 0; c < p.width; ++c) {
     const double* column = p.values + static_cast<std::ptrdiff_t>(c) * p.height;
     Group<K> v = Group<K>::load(own + c * K);
-    v.scale(1 / column[c]);
+    v.scale(p.inverse_diagonal[c]);
     v.store(own + c * K);
     v.store(x + (p.first + c) * stride);
     for (Index r = c + 1; r < p.width; ++r) {
@@ -200,7 +213,7 @@ inline void solve_columns(const Panel& p, Index c, double* rows, double* x, std:
     for (int j = i + 1; j < T; ++j) {
       value.subtract(column[c + j], Group<K>::load(rows + (c + j) * K));
     }
-    value.scale(1 / column[c + i]);
+    value.scale(p.inverse_diagonal[c + i]);
     value.store(rows + (c + i) * K);
     value.store(x + (p.first + c + i) * stride);
   }

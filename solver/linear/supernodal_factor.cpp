@@ -27,19 +27,28 @@ class SupernodalFactor final : public TriangularFactor {
  public:
   SupernodalFactor(std::shared_ptr<const SupernodalStructure> structure, const double* values,
                    std::shared_ptr<const void> owner)
-      : structure_(std::move(structure)), values_(values), owner_(std::move(owner)) {}
+      : structure_(std::move(structure)), values_(values), owner_(std::move(owner)) {
+    inverse_diagonal_.reserve(static_cast<std::size_t>(size()));
+    for (Index s = 0; s < structure_->count(); ++s) {
+      const Index width = structure_->first[s + 1] - structure_->first[s];
+      const std::int64_t height = width + structure_->row_start[s + 1] - structure_->row_start[s];
+      const double* diagonal = values_ + structure_->value_start[s];
+      for (Index c = 0; c < width; ++c) inverse_diagonal_.push_back(1 / diagonal[c * (height + 1)]);
+    }
+  }
 
   const EliminationTree& tree() const override { return structure_->tree; }
   Index size() const override { return structure_->first.back(); }
   FactorStats stats() const override {
     const std::int64_t entries = structure_->value_start.back();
-    return {entries, entries * static_cast<std::int64_t>(sizeof(double))};
+    return {entries, (entries + size()) * static_cast<std::int64_t>(sizeof(double))};
   }
 
   void forward(double* x, Eigen::Index stride, int columns,
                std::span<const Index> nodes) const override {
     const auto run = solve_kernels(columns).panel_forward;
-    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns);
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
+                                kPanelPadding);
     if (nodes.empty()) {
       for (Index s = 0; s < structure_->count(); ++s) run(panel(s), x, stride, scratch.data());
     } else {
@@ -50,7 +59,8 @@ class SupernodalFactor final : public TriangularFactor {
   void backward(double* x, Eigen::Index stride, int columns,
                 std::span<const Index> nodes) const override {
     const auto run = solve_kernels(columns).panel_backward;
-    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns);
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
+                                kPanelPadding);
     if (nodes.empty()) {
       for (Index s = structure_->count(); s-- > 0;) run(panel(s), x, stride, scratch.data());
     } else {
@@ -65,12 +75,18 @@ class SupernodalFactor final : public TriangularFactor {
     const SupernodalStructure& t = *structure_;
     const Index width = t.first[s + 1] - t.first[s];
     const auto under = static_cast<Index>(t.row_start[s + 1] - t.row_start[s]);
-    return {t.first[s], width, width + under, t.rows.data() + t.row_start[s],
-            values_ + t.value_start[s]};
+    return {t.first[s],
+            width,
+            width + under,
+            t.rows.data() + t.row_start[s],
+            values_ + t.value_start[s],
+            inverse_diagonal_.data() + t.first[s],
+            t.value_start[s + 1] + kPanelPadding <= t.value_start.back()};
   }
 
   std::shared_ptr<const SupernodalStructure> structure_;
   const double* values_;
+  std::vector<double> inverse_diagonal_;
   std::shared_ptr<const void> owner_;
 };
 

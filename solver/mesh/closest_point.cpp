@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/mesh/closest_point.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

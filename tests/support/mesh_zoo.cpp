@@ -34,7 +34,8 @@ Draft with_point_in_every_face(double to_corner, double to_side) {
   return draft;
 }
 
-Draft caps() { return with_point_in_every_face(0, 1e-4); }
+Draft caps() { return with_point_in_every_face(0, 0.02); }
+Draft flat_caps() { return with_point_in_every_face(0, 1e-4); }
 Draft needles() { return with_point_in_every_face(1 - 1e-4, 1e-4); }
 Draft degenerate_caps() { return with_point_in_every_face(0, 0); }
 Draft coincident_points() { return with_point_in_every_face(1, 0); }
@@ -164,6 +165,7 @@ const ZooMesh kZoo[] = {
     {"jittered_plane", kGood | kPlanar | kBorder, [] { return jittered_plane(20, 0.3, kSeed); }},
     {"sheared_plane", kPlanar | kBorder | kManifold | kConnected | kRegular, sheared_plane},
     {"caps", kPlanar | kBorder | kManifold | kConnected | kRegular, caps},
+    {"flat_caps", kPlanar | kBorder | kManifold | kConnected, flat_caps},
     {"needles", kPlanar | kBorder | kManifold | kConnected, needles},
     {"degenerate_caps", kBorder | kManifold | kConnected, degenerate_caps},
     {"coincident_points", kBorder | kManifold | kConnected, coincident_points},

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "app/cmd_compare.h"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "app/compare_report.h"
+#include "app/outputs.h"
+#include "app/resolve_sources.h"
+#include "app/text.h"
+#include "solver/linear/backend.h"
+#include "solver/mesh/write_file.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr Index kBatch = 16;
+constexpr Index kMostQueries = 100'000;
+constexpr std::uint64_t kSeed = 1;
+
+struct Plan {
+  CompareTask task;  ///< but for the sources, which need the mesh
+  std::vector<Source> sources;
+  Index queries = 0;
+};
+
+Result<std::vector<std::string>> backends_in(const std::string& text) {
+  if (text == "all") return backend_names();
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name(trimmed(std::string_view(text).substr(begin, end - begin)));
+    if (const auto backend = find_backend(name); !backend) {
+      return Error{ErrorCode::kNotAvailable, "--backends: " + backend.error().message};
+    }
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
+
+/// Finds what is wrong with the command line before any work is done.
+Result<Plan> plan_of(const CompareArguments& arguments) {
+  Plan plan;
+  const auto options = heat_options(arguments.heat);
+  if (!options) return options.error();
+  plan.task.options = *options;
+  auto names = backends_in(arguments.backends);
+  if (!names) return names.error();
+  plan.task.backends = *std::move(names);
+  std::vector<std::string>& backends = plan.task.backends;
+  plan.task.reference = arguments.reference.empty() ? backends.front() : arguments.reference;
+  if (const auto found = find_backend(plan.task.reference); !found) {
+    return Error{ErrorCode::kNotAvailable, "--reference: " + found.error().message};
+  }
+  if (std::find(backends.begin(), backends.end(), plan.task.reference) == backends.end()) {
+    backends.insert(backends.begin(), plan.task.reference);
+  }
+  const auto queries = number_in<Index>(arguments.queries);
+  if (!queries || *queries < 1 || *queries > kMostQueries) {
+    return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
+                                           "' is no number of queries; give 1 to " +
+                                           std::to_string(kMostQueries)};
+  }
+  plan.queries = *queries;
+  auto sources = sources_of(arguments.sources);
+  if (!sources) return sources.error();
+  plan.sources = *std::move(sources);
+  for (const std::string& model : arguments.models) {
+    if (is_bundled(model) || ::access(model.c_str(), R_OK) == 0) continue;
+    const auto missing = load_model(model);  // for its message
+    if (!missing) return missing.error();
+  }
+  return plan;
+}
+
+Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs) {
+  for (const auto& [path, option] : {std::pair{&arguments.json, "--json"},
+                                     {&arguments.csv, "--csv"},
+                                     {&arguments.html, "--html"}}) {
+    if (path->empty()) continue;
+    if (auto expected = outputs.expect(*path, option); !expected) return expected;
+    for (const std::string& model : arguments.models) {
+      Outputs alone;
+      if (is_bundled(model)) continue;
+      if (auto expected = alone.expect(*path, option, model); !expected) return expected;
+    }
+  }
+  return {};
+}
+
+/// The sources that were named, the same for each query; or single vertices at random.
+Result<void> choose_sources(const Model& model, const Plan& plan, CompareTask& task,
+                            std::vector<std::string>& warnings) {
+  if (!plan.sources.empty()) {
+    auto resolved = resolve_sources(plan.sources, *model.mesh);
+    if (!resolved) return resolved.error();
+    warnings.insert(warnings.end(), resolved->warnings.begin(), resolved->warnings.end());
+    task.queries.assign(static_cast<std::size_t>(plan.queries), resolved->set);
+    task.batch.assign(kBatch, resolved->set);
+    return {};
+  }
+  const auto pool = random_vertices(
+      *model.mesh, std::min(std::max(plan.queries, kBatch), model.mesh->vertex_count()), kSeed);
+  const auto vertices = pool ? pool : random_vertices(*model.mesh, 1, kSeed);
+  if (!vertices) {
+    return Error{ErrorCode::kBadFile,
+                 one_line(model.name) + ": no vertex belongs to a usable face"};
+  }
+  for (Index i = 0; i < std::max(plan.queries, kBatch); ++i) {
+    const Index vertex = (*vertices)[static_cast<std::size_t>(i) % vertices->size()];
+    if (i < plan.queries) task.queries.push_back(SourceSet::of_vertices({vertex}));
+    if (i < kBatch) task.batch.push_back(SourceSet::of_vertices({vertex}));
+  }
+  return {};
+}
+
+Result<void> write_reports(const CompareArguments& arguments, const std::vector<CompareRow>& rows,
+                           Outputs& outputs, CommandOutput& out) {
+  const Machine machine = this_machine();
+  const auto write = [&](const std::string& path, std::string text) -> Result<void> {
+    if (path.empty()) return {};
+    return outputs.write(path, [&]() -> Result<void> {
+      if (path != "-") return write_file(path, text);
+      out.text = std::move(text);
+      return {};
+    });
+  };
+  if (!outputs.uses_stdout()) out.text = compare_table(machine, rows);
+  if (auto done = write(arguments.json, compare_json(machine, rows)); !done) return done;
+  if (auto done = write(arguments.csv, compare_csv(rows)); !done) return done;
+  return write(arguments.html, compare_html(machine, rows));
+}
+
+}  // namespace
+
+void add_compare_options(CLI::App& command, CompareArguments& arguments) {
+  const auto add = [&command](const char* name, std::string& value, const char* type,
+                              const std::string& help) {
+    command.add_option(name, value, help)->type_name(type);
+  };
+  command
+      .add_option("MODEL", arguments.models,
+                  "files (.obj .ply .off .stl) or bundled models (geotherm models)")
+      ->required()
+      ->type_name("");
+  add("--backends,--backend", arguments.backends, "A,B",
+      "all (default), or some of " + joined(backend_names()));
+  add("--queries", arguments.queries, "N",
+      "queries a backend, default 10; iterative backends stop after about 5 s");
+  add("--reference", arguments.reference, "NAME",
+      "the backend from which differences are measured, default the first");
+  add("--json", arguments.json, "FILE", "every figure as JSON; - is standard output");
+  add("--csv", arguments.csv, "FILE", "the same as CSV");
+  add("--html", arguments.html, "FILE", "table and chart as a page of its own");
+  add_quiet_option(command, arguments.quiet);
+  add_source_options(command, arguments.sources);
+  add_heat_options(command, arguments.heat);
+  command.footer(
+      "Without sources each query starts at another vertex, chosen at random, the same in each "
+      "run.\n"
+      "Example:\n  geotherm compare bunny terrain --backends all --csv table.csv");
+}
+
+Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progress& progress) {
+  const auto plan = plan_of(arguments);
+  if (!plan) return plan.error();
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  CommandOutput out;
+  std::vector<CompareRow> rows;
+  for (const std::string& name : arguments.models) {
+    const auto model = load_model(name, progress);
+    if (!model) return model.error();
+    out.warnings.insert(out.warnings.end(), model->notes.begin(), model->notes.end());
+    CompareTask task = plan->task;
+    if (auto chosen = choose_sources(*model, *plan, task, out.warnings); !chosen) {
+      return chosen.error();
+    }
+    auto some = compare_backends(*model, task, progress);
+    if (!some) return some.error();
+    rows.insert(rows.end(), some->begin(), some->end());
+  }
+  if (auto done = write_reports(arguments, rows, outputs, out); !done) return done.error();
+  return out;
+}
+
+}  // namespace geotherm::app

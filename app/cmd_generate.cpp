@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "app/cmd_generate.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/load_model.h"
+#include "app/options.h"
+#include "app/outputs.h"
+#include "app/text.h"
+#include "solver/mesh/generate.h"
+#include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/write_distances.h"
+
+namespace geotherm::app {
+namespace {
+
+Result<Index> faces_in(const std::string& text) {
+  if (text.empty()) return 0;
+  const auto faces = number_in<Index>(text);
+  if (faces && *faces >= kFewestModelFaces && *faces <= kMostModelFaces) return *faces;
+  return Error{ErrorCode::kBadInput,
+               "--faces: '" + one_line(text) + "' is no number of faces; give " +
+                   std::to_string(kFewestModelFaces) + " to " + std::to_string(kMostModelFaces)};
+}
+
+}  // namespace
+
+void add_generate_options(CLI::App& command, GenerateArguments& arguments) {
+  command.add_option("NAME", arguments.name, "a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  command.add_option("--faces", arguments.faces, "about so many; default: the model's usual size")
+      ->type_name("N");
+  command
+      .add_option("-o,--output", arguments.output,
+                  ".obj .ply .off .stl, or - for OBJ on standard output")
+      ->required()
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  command.footer("Example:\n  geotherm generate gargoyle --faces 1000000 -o big.ply");
+}
+
+Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Progress& progress) {
+  const auto faces = faces_in(arguments.faces);
+  if (!faces) return faces.error();
+  if (auto known = check_mesh_path(arguments.output); !known) return known.error();
+  Outputs outputs;
+  if (is_bundled(arguments.name)) {  // otherwise its error is the one to report
+    if (auto expected = outputs.expect(arguments.output, "--output"); !expected) {
+      return expected.error();
+    }
+  }
+  const auto mesh = generate_model(arguments.name, *faces, progress);
+  if (!mesh) return mesh.error();
+  if (arguments.output == "-") return CommandOutput{io::obj_bytes(*mesh), {}};
+  if (auto written = write_mesh(arguments.output, *mesh); !written) return written.error();
+  return CommandOutput{one_line(arguments.output) + ": " + arguments.name + ", " +
+                           counted(mesh->vertex_count(), "vertex", "vertices") + ", " +
+                           counted(mesh->face_count(), "face", "faces") + "\n",
+                       {}};
+}
+
+}  // namespace geotherm::app

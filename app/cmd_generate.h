@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "app/command_output.h"
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace geotherm::app {
+
+struct GenerateArguments {
+  std::string name;
+  std::string faces;  ///< empty: the model's usual size
+  std::string output;
+  bool quiet = false;
+};
+
+void add_generate_options(CLI::App& command, GenerateArguments& arguments);
+Result<CommandOutput> run_generate(const GenerateArguments& arguments,
+                                   const Progress& progress = {});
+
+}  // namespace geotherm::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "app/command_output.h"
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+
+namespace CLI {
+class App;
+}
+
+namespace geotherm::app {
+
+struct InfoArguments {
+  std::string model;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_info_options(CLI::App& command, InfoArguments& arguments);
+Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress = {});
+
+}  // namespace geotherm::app

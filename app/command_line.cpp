@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "app/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <system_error>
+
+#include "app/cmd_compare.h"
+#include "app/cmd_generate.h"
+#include "app/cmd_info.h"
+#include "app/cmd_lists.h"
+#include "app/cmd_solve.h"
+#include "app/load_model.h"
+#include "app/progress_bar.h"
+#include "app/text.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::array kCommands = {"solve", "info", "compare", "generate", "backends", "models"};
+constexpr std::array kCommandsToCome = {"view",     "render", "path",   "study",
+                                        "isolines", "sample", "devices"};
+
+int fail(int code, const std::string& message) {
+  std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
+  return code;
+}
+
+int print(const CommandOutput& output) {
+  for (const std::string& warning : output.warnings) {
+    std::fprintf(stderr, "geotherm: warning: %s\n", one_line(warning).c_str());
+  }
+  errno = 0;
+  if (std::fwrite(output.text.data(), 1, output.text.size(), stdout) == output.text.size() &&
+      std::fflush(stdout) == 0) {
+    return 0;
+  }
+  return fail(1, "standard output: cannot be written: " + std::generic_category().message(errno) +
+                     "; choose another place for it");
+}
+
+int finish(const Result<CommandOutput>& result) {
+  if (result) return print(*result);
+  return fail(exit_code(result.error().code), result.error().message);
+}
+
+template <class Arguments, class Run>
+int run_with_bar(const Arguments& arguments, Run&& run) {
+  ProgressBar bar(!arguments.quiet && error_is_terminal());
+  const Result<CommandOutput> result = run(arguments, bar.progress());
+  bar.clear();
+  return finish(result);
+}
+
+/// What is wrong with a first word that is no command; empty when it is one or an option.
+std::string first_word_problem(const std::vector<std::string>& arguments) {
+  const std::string there_are = "there are " + joined(kCommands);
+  if (arguments.empty()) return "no command was given; " + there_are + "; see geotherm --help";
+  const std::string& word = arguments.front();
+  const auto in = [&word](const auto& list) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
+  if (word.starts_with('-') || in(kCommands)) return {};
+  if (in(kCommandsToCome)) return "this version has no command '" + word + "'; " + there_are;
+  std::error_code unknown;
+  const std::filesystem::path path(word);
+  if (is_bundled(word) || path.has_extension() || std::filesystem::exists(path, unknown)) {
+    return "this version has no viewer to open " + word + " with; " + there_are +
+           "; try geotherm solve " + word + " -s 0";
+  }
+  return "there is no command '" + word + "'; " + there_are;
+}
+
+/// CLI11 leaves long descriptions on one line.
+void wrap_descriptions(CLI::App& command) {
+  constexpr std::size_t kWidth = 68;
+  for (CLI::Option* option : command.get_options()) {
+    option->description(wrapped(option->get_description(), kWidth));
+  }
+}
+
+/// CLI11 describes what is wrong; the cure is the help of the command.
+int fail_to_parse(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+  std::string what = error.what();
+  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  const std::string& first = arguments.front();
+  const std::string command = first.starts_with('-') ? "" : first + " ";
+  return fail(2, what + "; see geotherm " + command + "--help");
+}
+
+}  // namespace
+
+int exit_code(ErrorCode code) {
+  return code == ErrorCode::kBadInput || code == ErrorCode::kNotAvailable ? 2 : 1;
+}
+
+int run_command_line(std::vector<std::string> arguments) {
+  if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
+    return fail(2, problem);
+  }
+  CLI::App root("Geodesic distance on triangle meshes by the heat method.", "geotherm");
+  root.set_version_flag("--version", "geotherm " GEOTHERM_VERSION);
+  root.require_subcommand(0, 1);
+  root.footer(
+      "Example:\n  geotherm solve bunny -s 17 -o distances.ply\n"
+      "geotherm COMMAND --help says more about each.");
+
+  SolveArguments solve;
+  InfoArguments info;
+  CompareArguments compare;
+  GenerateArguments generate;
+  CLI::App* const solve_app =
+      root.add_subcommand("solve", "Distance from a source set to every vertex.");
+  CLI::App* const info_app =
+      root.add_subcommand("info", "What a mesh is, and what is wrong with it.");
+  CLI::App* const compare_app =
+      root.add_subcommand("compare", "The same work through several backends, side by side.");
+  CLI::App* const generate_app = root.add_subcommand("generate", "Writes a bundled model.");
+  CLI::App* const backends_app =
+      root.add_subcommand("backends", "The linear solvers of this build, the default first.");
+  CLI::App* const models_app = root.add_subcommand("models", "The bundled models.");
+  add_solve_options(*solve_app, solve);
+  add_info_options(*info_app, info);
+  add_compare_options(*compare_app, compare);
+  add_generate_options(*generate_app, generate);
+  backends_app->footer("Example:\n  geotherm backends");
+  models_app->footer("Example:\n  geotherm models");
+
+  for (CLI::App* command : root.get_subcommands({})) wrap_descriptions(*command);
+
+  const std::vector<std::string> words = arguments;
+  try {
+    std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes them in
+    root.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    return print({root.help(), {}});
+  } catch (const CLI::CallForVersion& version) {
+    return print({std::string(version.what()) + "\n", {}});
+  } catch (const CLI::ParseError& error) {
+    return fail_to_parse(error, words);
+  }
+  if (solve_app->parsed()) return run_with_bar(solve, run_solve);
+  if (info_app->parsed()) return run_with_bar(info, run_info);
+  if (compare_app->parsed()) return run_with_bar(compare, run_compare);
+  if (generate_app->parsed()) return run_with_bar(generate, run_generate);
+  if (backends_app->parsed()) return print({list_backends(), {}});
+  return print({list_models(), {}});
+}
+
+}  // namespace geotherm::app

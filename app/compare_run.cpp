@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "app/compare_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "app/machine.h"
+#include "app/progress_bar.h"
+#include "app/text.h"
+#include "solver/core/stopwatch.h"
+#include "solver/heat/heat_method.h"
+#include "solver/linear/backend.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Milliseconds that an iterative backend may spend on queries, and again on the batch.
+constexpr double kIterativeBudget = 5000;
+
+using Answers = std::vector<std::vector<double>>;  // one a query
+
+std::string status_name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kBadInput:
+    case ErrorCode::kBadFile:
+      return "bad input";
+    case ErrorCode::kNotAvailable:
+      return "not available";
+    case ErrorCode::kNumericalFailure:
+      return "numerical failure";
+    case ErrorCode::kBudgetEnded:
+      return "budget ended";
+    case ErrorCode::kOutOfMemory:
+      return "out of memory";
+    case ErrorCode::kCancelled:
+      return "cancelled";
+  }
+  return "failed";
+}
+
+void fail(CompareRow& row, const Error& error) {
+  row.status = status_name(error.code);
+  row.message = error.message;
+}
+
+void add_message(CompareRow& row, const std::string& text) {
+  row.message += (row.message.empty() ? "" : "; ") + text;
+}
+
+double median(std::vector<double> values) {
+  const std::size_t middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(middle),
+                   values.end());
+  if (values.size() % 2 == 1) return values[middle];
+  return (values[middle] +
+          *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(middle))) /
+         2;
+}
+
+/// Works on one row; what fails ends the row only.
+class Runner {
+ public:
+  Runner(const CompareTask& task, const Progress& progress) : task_(task), progress_(progress) {}
+
+  Answers run(const Model& model, CompareRow& row) {
+    HeatOptions options = task_.options;
+    options.backend = row.backend;
+    reset_peak_rss();
+    const auto method = HeatMethod::build(model.mesh, options, progress_);
+    if (!method) {
+      fail(row, method.error());
+      return {};
+    }
+    row.setup_ms = method->timing().setup;
+    const auto backend = find_backend(row.backend);
+    iterative_ = backend && (*backend)->iterative();
+    Answers answers = ask_each(*method, row);
+    if (row.status == "ok") ask_batch(*method, row);
+    row.factor_mb = method->factor_mb();
+    row.peak_rss_mb = peak_rss_mb();
+    return answers;
+  }
+
+ private:
+  Answers ask_each(const HeatMethod& method, CompareRow& row) {
+    Answers answers;
+    std::vector<double> times;
+    const Stopwatch watch;
+    for (const SourceSet& query : task_.queries) {
+      if (iterative_ && !times.empty() && watch.milliseconds() > kIterativeBudget) break;
+      const double share =
+          static_cast<double>(times.size()) / static_cast<double>(task_.queries.size());
+      if (!report(progress_, "queries", share)) {
+        fail(row, {ErrorCode::kCancelled, "cancelled"});
+        return answers;
+      }
+      auto result = method.solve(query, {.quality = false, .fields = false});
+      if (!result) {
+        fail(row, result.error());
+        return answers;
+      }
+      times.push_back(result->timing.query);
+      answers.push_back(std::move(result->distances));
+    }
+    row.query_ms_median = median(times);
+    row.query_ms_min = *std::min_element(times.begin(), times.end());
+    row.query_ms_max = *std::max_element(times.begin(), times.end());
+    if (times.size() < task_.queries.size()) {
+      add_message(row,
+                  std::to_string(times.size()) + " of " +
+                      counted(static_cast<std::int64_t>(task_.queries.size()), "query", "queries") +
+                      ": an iterative backend is given " + significant(kIterativeBudget / 1000) +
+                      " s");
+    }
+    return answers;
+  }
+
+  void ask_batch(const HeatMethod& method, CompareRow& row) {
+    const auto count = static_cast<double>(task_.batch.size());
+    if (iterative_ && *row.query_ms_median * count > kIterativeBudget) {
+      add_message(row, "the batch was left out: " + std::to_string(task_.batch.size()) +
+                           " queries would take " +
+                           significant(*row.query_ms_median * count / 1000, 2) + " s");
+      return;
+    }
+    const Stopwatch watch;
+    const auto results =
+        method.solve_each(task_.batch, {.quality = false, .fields = false}, progress_);
+    if (results) {
+      row.batch_query_ms = watch.milliseconds() / count;
+    } else {
+      fail(row, results.error());
+    }
+  }
+
+  const CompareTask& task_;
+  const Progress& progress_;
+  bool iterative_ = false;
+};
+
+void measure_difference(const Answers& answers, const Answers& reference, CompareRow& row) {
+  double largest = 0, sum = 0, count = 0;
+  for (std::size_t q = 0; q < std::min(answers.size(), reference.size()); ++q) {
+    double scale = 0;
+    for (const double d : reference[q]) {
+      if (std::isfinite(d)) scale = std::max(scale, d);
+    }
+    for (std::size_t v = 0; v < reference[q].size(); ++v) {
+      const double a = answers[q][v];
+      const double b = reference[q][v];
+      if (std::isfinite(a) != std::isfinite(b)) {
+        row.status = status_name(ErrorCode::kNumericalFailure);
+        add_message(row, "vertex " + std::to_string(v) + " of query " + std::to_string(q) +
+                             " is reached by one backend and not by the other");
+        return;
+      }
+      if (!std::isfinite(a)) continue;
+      const double difference = scale > 0 ? std::abs(a - b) / scale : std::abs(a - b);
+      largest = std::max(largest, difference);
+      sum += difference;
+      ++count;
+    }
+  }
+  if (count == 0) return;
+  row.max_difference = largest;
+  row.mean_difference = sum / count;
+}
+
+}  // namespace
+
+Result<std::vector<CompareRow>> compare_backends(const Model& model, const CompareTask& task,
+                                                 const Progress& progress) {
+  std::vector<CompareRow> rows;
+  for (const std::string& name : task.backends) {
+    CompareRow row;
+    row.model = model.name;
+    row.vertices = model.mesh->vertex_count();
+    row.faces = model.mesh->face_count();
+    row.backend = name;
+    row.status = "ok";
+    rows.push_back(std::move(row));
+  }
+  // The reference first: only its answers are kept.
+  std::vector<CompareRow*> order;
+  for (CompareRow& row : rows) order.push_back(&row);
+  std::stable_partition(order.begin(), order.end(),
+                        [&task](const CompareRow* row) { return row->backend == task.reference; });
+  Answers reference;
+  for (CompareRow* row : order) {
+    const Progress named = with_prefix(progress, model.name + ", " + row->backend + ": ");
+    Answers answers = Runner(task, named).run(model, *row);
+    if (row->status == "cancelled") return Error{ErrorCode::kCancelled, "the work was cancelled"};
+    if (row->backend == task.reference && row->status == "ok") reference = answers;
+    if (row->status != "ok") continue;
+    if (reference.empty()) {
+      add_message(*row, "no difference: the reference " + task.reference + " failed");
+    } else {
+      measure_difference(answers, reference, *row);
+    }
+  }
+  return rows;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/command_line.h"
+
+namespace {
+
+/// A standard stream that the caller closed would give its number to the next file that is opened,
+/// and what is printed would end up in it. What stands in for it here refuses every use instead.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1) continue;
+    [[maybe_unused]] const int taken =
+        ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
+
+}  // namespace
+
+// A reader that closes its end of the pipe ends the program in the usual way, by SIGPIPE: files are
+// written before standard output.
+int main(int argc, char** argv) {
+  occupy_closed_streams();
+  try {
+    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc});
+  } catch (const std::bad_alloc&) {
+    std::fputs("geotherm: error: not enough memory; try a smaller mesh or --backend cg\n", stderr);
+  } catch (const std::exception& failure) {
+    std::fprintf(stderr, "geotherm: error: unexpected: %s; please report it\n", failure.what());
+  }
+  return 1;
+}

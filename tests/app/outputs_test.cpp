@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "app/outputs.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "solver/mesh/write_file.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+using app::Outputs;
+
+TEST(OutputFiles, AreRemovedWhenALaterOneFailsButNotThoseThatWereThere) {
+  const TemporaryDirectory folder;
+  const std::string old = folder.write("old", "before");
+  Outputs outputs;
+  ASSERT_TRUE(outputs.expect(old, "-o"));
+  ASSERT_TRUE(outputs.expect(folder.path("new"), "-o"));
+  ASSERT_TRUE(outputs.expect(folder.path("last"), "-o"));
+  EXPECT_TRUE(outputs.write(old, [&] { return write_file(old, "after"); }));
+  EXPECT_TRUE(
+      outputs.write(folder.path("new"), [&] { return write_file(folder.path("new"), "x"); }));
+  const auto failed = outputs.write(folder.path("last"), []() -> Result<void> {
+    return Error{ErrorCode::kBadFile, "the disk is full"};
+  });
+  EXPECT_FALSE(failed);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"old"});
+  EXPECT_EQ(bytes_of(old), "after");
+}
+
+TEST(OutputFiles, InAFolderWithoutPermissionAreRefusedBeforeTheWork) {
+  if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write everywhere";
+  const TemporaryDirectory folder;
+  ::mkdir(folder.path("closed").c_str(), 0500);
+  Outputs outputs;
+  const auto expected = outputs.expect(folder.path("closed/d.csv"), "-o");
+  ASSERT_FALSE(expected);
+  EXPECT_EQ(expected.error().code, ErrorCode::kBadFile);
+  EXPECT_NE(expected.error().message.find("ermission"), std::string::npos);
+}
+
+TEST(OutputFiles, MayUseStandardOutputOnce) {
+  Outputs outputs;
+  EXPECT_FALSE(outputs.uses_stdout());
+  EXPECT_TRUE(outputs.expect("-", "-o"));
+  EXPECT_TRUE(outputs.uses_stdout());
+  EXPECT_EQ(outputs.expect("-", "--json").error().code, ErrorCode::kBadInput);
+}
+
+TEST(OutputFiles, AreFoundToBeTheModelUnderAnotherName) {
+  const TemporaryDirectory folder;
+  const std::string model = folder.write("m.ply", "x");
+  ASSERT_EQ(::symlink(model.c_str(), folder.path("link.ply").c_str()), 0);
+  Outputs outputs;
+  EXPECT_EQ(outputs.expect(folder.path("link.ply"), "-o", model).error().code,
+            ErrorCode::kBadInput);
+  EXPECT_TRUE(outputs.expect(folder.path("other.ply"), "-o", model));
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/app/program.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+/// A command line that must fail. It is run in a folder with the files that write_files() makes.
+struct Failure {
+  const char* name;
+  std::vector<std::string> arguments;
+  int code;
+  std::vector<std::string> says;  ///< all of it in the one line on standard error
+};
+
+void PrintTo(const Failure& failure, std::ostream* stream) { *stream << failure.name; }
+
+void write_files(const TemporaryDirectory& folder) {
+  folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n");
+  folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
+  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  folder.write("empty.obj", "");
+  folder.write("mesh.xyz", "1 2 3\n");
+  folder.write("plain.txt", "x\n");
+  folder.write("bad_sources.txt", "0\n\n# a comment\nseven\n");
+  folder.write("far_sources.txt", "0\n99999\n");
+  folder.write("points.txt", "0\nface:0:1:0:0\n");
+  folder.write("two.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n");
+  folder.write("apart.txt", "0\n4\n");
+  folder.write("nothing.txt", "# only a comment\n");
+}
+
+const std::vector<Failure>& failures() {
+  static const std::vector<Failure> kFailures = {
+      // The command line.
+      {"NoCommand", {}, 2, {"no command", "solve, info, compare"}},
+      {"ModelAlone", {"bunny"}, 2, {"no viewer", "there are solve", "solve bunny"}},
+      {"FileAlone", {"triangle.obj"}, 2, {"no viewer"}},
+      {"CommandToCome", {"render", "bunny"}, 2, {"no command 'render'", "there are solve"}},
+      {"CommandToComePath", {"path", "bunny"}, 2, {"no command 'path'"}},
+      {"UnknownCommand", {"frobnicate"}, 2, {"'frobnicate'", "there are solve"}},
+      {"UnknownFlag", {"--frob"}, 2, {"--frob", "--help"}},
+      {"UnknownOption", {"solve", "bunny", "--frob"}, 2, {"--frob", "geotherm solve --help"}},
+      {"NoModel", {"solve", "-s", "1"}, 2, {"MODEL"}},
+      {"TwoModels", {"solve", "-s", "1", "bunny", "cube"}, 2, {"cube"}},
+      {"TwoCommands", {"backends", "models"}, 2, {"models"}},
+      {"NoValue", {"solve", "bunny", "-s"}, 2, {"--source"}},
+      {"NoSource", {"solve", "bunny"}, 2, {"no source", "-s 17"}},
+      // Values of options.
+      {"SourceText", {"solve", "bunny", "-s", "foo"}, 2, {"'foo'", "random:K"}},
+      {"SourceNegative", {"solve", "bunny", "-s", "-1"}, 2, {"'-1'"}},
+      {"SourceTooLarge", {"solve", "bunny", "-s", "99999"}, 2, {"99999", "vertices are 0 to"}},
+      {"SourceInNoFace", {"solve", "triangle.obj", "-s", "3"}, 2, {"vertex 3", "no face"}},
+      {"SourceNoBoundary", {"solve", "bunny", "-s", "boundary"}, 2, {"no boundary"}},
+      {"SourceFace", {"solve", "bunny", "-s", "face:99999:1:0:0"}, 2, {"face 99999"}},
+      {"SourceWeights", {"solve", "bunny", "-s", "face:1:1:1:1"}, 2, {"sum to 3"}},
+      {"SourceRandom", {"solve", "bunny", "-s", "random:99999"}, 2, {"99,999"}},
+      {"SourceXyz", {"solve", "bunny", "-s", "xyz:1:2"}, 2, {"xyz:x:y:z"}},
+      {"CurveAlone", {"solve", "bunny", "-s", "1", "--curve"}, 2, {"--source-file"}},
+      {"Backend", {"solve", "bunny", "-s", "1", "--backend", "magic"}, 2, {"'magic'", "cg"}},
+      {"Method", {"solve", "bunny", "-s", "1", "--method", "exact"}, 2, {"'exact'", "heat"}},
+      {"TimeStep", {"solve", "bunny", "-s", "1", "--time-step", "big"}, 2, {"mean-edge"}},
+      {"TimeStepZero", {"solve", "bunny", "-s", "1", "--time-step", "absolute:0"}, 2, {"positive"}},
+      {"TimeFactor", {"solve", "bunny", "-s", "1", "-m", "0"}, 2, {"--time-factor", "positive"}},
+      {"TimeFactorNan", {"solve", "bunny", "-s", "1", "-m", "nan"}, 2, {"--time-factor"}},
+      {"Constraint", {"solve", "bunny", "-s", "1", "--constraint", "glue"}, 2, {"pin-sources"}},
+      {"Pin", {"solve", "bunny", "-s", "1", "--constraint", "pin-vertex:99999"}, 2, {"99999"}},
+      {"Heat", {"solve", "bunny", "-s", "1", "--heat", "warm"}, 2, {"unit, diffuse, hold"}},
+      {"Boundary", {"solve", "bunny", "-s", "1", "--boundary", "open"}, 2, {"neumann"}},
+      {"Laplacian", {"solve", "bunny", "-s", "1", "--laplacian", "odd"}, 2, {"cotan"}},
+      {"Tufted", {"solve", "bunny", "-s", "1", "--laplacian", "tufted"}, 2, {"not available"}},
+      {"Variant", {"solve", "bunny", "-s", "1", "--variant", "odd"}, 2, {"corrected"}},
+      {"Threads", {"solve", "bunny", "-s", "1", "--threads", "0"}, 2, {"--threads", "1 to"}},
+      {"ThreadsText", {"solve", "bunny", "-s", "1", "--threads", "two"}, 2, {"--threads"}},
+      {"Backends", {"compare", "bunny", "--backends", "magic"}, 2, {"'magic'", "cg"}},
+      {"Reference", {"compare", "bunny", "--reference", "magic"}, 2, {"--reference", "'magic'"}},
+      {"Queries", {"compare", "bunny", "--queries", "0"}, 2, {"--queries"}},
+      {"GenerateName", {"generate", "dragon", "-o", "d.ply"}, 2, {"dragon", "terrain"}},
+      {"GenerateFaces", {"generate", "bunny", "--faces", "3", "-o", "d.ply"}, 2, {"'3'", "500 to"}},
+      {"GenerateNowhere", {"generate", "bunny"}, 2, {"--output"}},
+      {"GenerateFormat", {"generate", "bunny", "-o", "d.xyz"}, 2, {".xyz", ".ply"}},
+      // Output files, known to be wrong before the work.
+      {"OutputObj", {"solve", "bunny", "-s", "1", "-o", "d.obj"}, 2, {"no value per vertex"}},
+      {"OutputFormat", {"solve", "bunny", "-s", "1", "-o", "d.xyz"}, 2, {".xyz", ".csv"}},
+      {"OutputTwice", {"solve", "bunny", "-s", "1", "-o", "d.csv", "-o", "./d.csv"}, 2, {"twice"}},
+      {"StdoutTwice", {"solve", "bunny", "-s", "1", "-o", "-", "--json", "-"}, 2, {"twice"}},
+      {"OutputIsModel",
+       {"solve", "triangle.obj", "-s", "1", "--json", "triangle.obj"},
+       2,
+       {"model"}},
+      {"NoFolder", {"solve", "bunny", "-s", "1", "-o", "no/d.csv"}, 1, {"no/d.csv", "no folder"}},
+      {"FolderIsFile", {"solve", "bunny", "-s", "1", "-o", "plain.txt/d.csv"}, 1, {"no folder"}},
+      {"OutputIsFolder", {"solve", "bunny", "-s", "1", "--json", "."}, 1, {"folder"}},
+      {"InfoNoFolder", {"info", "bunny", "--json", "no/d.json"}, 1, {"no/d.json"}},
+      {"CompareNoFolder", {"compare", "bunny", "--html", "no/d.html"}, 1, {"no/d.html"}},
+      {"GenerateNoFolder", {"generate", "bunny", "-o", "no/d.ply"}, 1, {"no/d.ply"}},
+      {"SecondOutput", {"solve", "bunny", "-s", "1", "-o", "d.csv", "-o", "no/d.csv"}, 1, {"no/d"}},
+      // Files that cannot be used.
+      {"NoFile", {"solve", "missing.obj", "-s", "1"}, 1, {"missing.obj", "no such file"}},
+      {"NoBundled", {"solve", "bunnny", "-s", "1"}, 1, {"bunnny", "terrain"}},
+      {"BrokenFile", {"info", "broken.obj"}, 1, {"broken.obj", "line 4", "7"}},
+      {"EmptyFile", {"info", "empty.obj"}, 1, {"empty.obj", "empty"}},
+      {"UnknownFormat", {"info", "mesh.xyz"}, 1, {".xyz", ".obj"}},
+      {"ModelIsFolder", {"info", "."}, 1, {"directory"}},
+      {"NoArea", {"solve", "flat.obj", "-s", "0"}, 1, {"flat", "no face with area"}},
+      {"CompareNoFile", {"compare", "bunny", "missing.obj"}, 1, {"missing.obj"}},
+      {"SourceFileMissing", {"solve", "bunny", "--source-file", "none.txt"}, 1, {"none.txt"}},
+      {"SourceFileEmpty", {"solve", "bunny", "--source-file", "nothing.txt"}, 1, {"no source"}},
+      {"SourceFileFolder", {"solve", "bunny", "--source-file", "."}, 1, {"folder"}},
+      {"SourceFileLine", {"solve", "bunny", "--source-file", "bad_sources.txt"}, 1, {"line 4"}},
+      {"SourceFileRange", {"solve", "bunny", "--source-file", "far_sources.txt"}, 1, {"line 2"}},
+      {"CurvePoint", {"solve", "bunny", "--source-file", "points.txt", "--curve"}, 1, {"line 2"}},
+      {"CurveApart",
+       {"solve", "two.obj", "--source-file", "apart.txt", "--curve"},
+       1,
+       {"line 2", "different components"}},
+  };
+  return kFailures;
+}
+
+class ProgramFailures : public testing::TestWithParam<Failure> {};
+
+TEST_P(ProgramFailures, AreOneLineWithTheCureAndLeaveNothing) {
+  const TemporaryDirectory folder;
+  write_files(folder);
+  const std::vector<std::string> before = folder.names();
+  const ProgramRun run = run_program(folder.path("."), GetParam().arguments);
+  EXPECT_EQ(run.code, GetParam().code);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(run.err.starts_with("geotherm: error: ")) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_TRUE(run.err.ends_with('\n'));
+  for (const std::string& part : GetParam().says) {
+    EXPECT_NE(run.err.find(part), std::string::npos) << "no \"" << part << "\" in " << run.err;
+  }
+  EXPECT_EQ(folder.names(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, ProgramFailures, testing::ValuesIn(failures()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ProgramStreams, AFullStandardOutputIsAnError) {
+  const TemporaryDirectory folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"models"}, {"solve", "bunny", "-s", "1", "-o", "-"}}) {
+    const ProgramRun run = run_program(folder.path("."), arguments, Stdout::kFull);
+    EXPECT_EQ(run.code, 1);
+    EXPECT_NE(run.err.find("standard output: cannot be written"), std::string::npos) << run.err;
+  }
+}
+
+TEST(ProgramStreams, AClosedStandardOutputIsAnErrorAndGetsIntoNoFile) {
+  const TemporaryDirectory folder;
+  const ProgramRun run =
+      run_program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "d.csv"}, Stdout::kClosed);
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("standard output: cannot be written"), std::string::npos) << run.err;
+  EXPECT_EQ(bytes_of(folder.path("d.csv")).substr(0, 16), "vertex,distance\n");
+}
+
+TEST(ProgramStreams, APipeWithoutReaderEndsTheProgramSilently) {
+  constexpr int kBrokenPipe = 128 + 13;
+  const TemporaryDirectory folder;
+  const ProgramRun run = run_program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "-"},
+                                     Stdout::kPipeWithoutReader);
+  EXPECT_EQ(run.code, kBrokenPipe);
+  EXPECT_EQ(run.err, "");
+}
+
+}  // namespace
+}  // namespace geotherm::test

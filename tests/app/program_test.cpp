@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "solver/linear/backend.h"
+#include "solver/mesh/generate.h"
+#include "solver/mesh/read_mesh.h"
+#include "tests/app/program.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// One rounding in each of two factors.
+constexpr double kRoundOff = 1e-15;
+
+/// Runs of the program in a folder of their own.
+class Program : public testing::Test {
+ protected:
+  ProgramRun run(const std::vector<std::string>& arguments) {
+    ProgramRun result = run_program(folder.path("."), arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result;
+  }
+  Json json(const std::vector<std::string>& arguments) {
+    const ProgramRun result = run(arguments);
+    Json value = Json::parse(result.out, nullptr, false);
+    EXPECT_FALSE(value.is_discarded()) << result.out;
+    return value;
+  }
+
+  TemporaryDirectory folder;
+};
+
+/// Every key of `expected`, in every level of it, is in `actual`.
+void expect_keys(const Json& actual, const Json& expected, const std::string& where) {
+  for (const auto& item : expected.items()) {
+    ASSERT_TRUE(actual.contains(item.key())) << where << item.key();
+    if (item.value().is_object()) {
+      expect_keys(actual[item.key()], item.value(), where + item.key() + ".");
+    }
+  }
+}
+
+Json keys(const std::vector<const char*>& names) {
+  Json object = Json::object();
+  for (const char* name : names) object[name] = nullptr;
+  return object;
+}
+
+TEST_F(Program, SolveShowsATable) {
+  const ProgramRun result = run({"solve", "bunny", "-s", "17"});
+  for (const char* part : {"bunny", "backend", "set-up", "query", "MB factors", "mean", "residuals",
+                           backend_names().front().c_str()}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " is not in\n" << result.out;
+  }
+  EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Program, SolveJsonHasTheKeysOfTheContract) {
+  const Json solved = json({"solve", "bunny", "-s", "3,99", "--json", "-"});
+  const Json expected = {
+      {"model", keys({"name", "vertices", "faces", "components", "boundary_edges",
+                      "nonmanifold_edges", "degenerate_faces", "mean_edge_length", "area"})},
+      {"options", keys({"method", "backend", "time_step", "time_factor", "t", "constraint", "heat",
+                        "boundary", "laplacian", "threads"})},
+      {"sources", nullptr},
+      {"distance", keys({"min", "max", "mean", "unreached"})},
+      {"timing_ms", keys({"load", "operators", "analyze", "factorize", "setup", "diffuse",
+                          "gradient", "poisson", "query"})},
+      {"memory_mb", keys({"factor", "peak_rss"})},
+      {"quality",
+       keys({"heat_residual", "poisson_residual", "max_source_distance", "eikonal_error_mean",
+             "zero_gradient_faces", "iterations_heat", "iterations_poisson"})},
+      {"warnings", nullptr}};
+  expect_keys(solved, expected, "");
+  EXPECT_EQ(solved["model"]["name"], "bunny");
+  EXPECT_EQ(solved["sources"], Json({3, 99}));
+  EXPECT_EQ(solved["distance"]["min"], 0.0);
+  EXPECT_EQ(solved["options"]["backend"], backend_names().front());
+  EXPECT_GE(solved["options"]["threads"], 1);
+  EXPECT_GT(solved["memory_mb"]["peak_rss"], 0.0);
+}
+
+TEST_F(Program, SolveJsonHoldsTheTimeStepToRoundOff) {
+  const Json edge = json({"solve", "bunny", "-s", "1", "-m", "3", "--json", "-"});
+  const double h = edge["model"]["mean_edge_length"];
+  EXPECT_NEAR(edge["options"]["t"].get<double>(), 3 * h * h, 3 * h * h * kRoundOff);
+  EXPECT_EQ(edge["options"]["time_factor"], 3.0);
+  const Json area =
+      json({"solve", "bunny", "-s", "1", "--time-step", "mean-face-area", "--json", "-"});
+  const double mean = area["model"]["area"].get<double>() / area["model"]["faces"].get<double>();
+  constexpr double kSumOfFaces = 1e-12;
+  EXPECT_NEAR(area["options"]["t"].get<double>(), mean, mean * kSumOfFaces);
+  const Json given =
+      json({"solve", "bunny", "-s", "1", "--time-step", "absolute:0.01", "--json", "-"});
+  EXPECT_EQ(given["options"]["t"], 0.01);
+}
+
+TEST_F(Program, SolveWritesEveryFormatAndNothingElse) {
+  run({"solve", "bunny", "-s", "5", "-o", "d.csv", "-o", "d.npy", "-o", "d.ply", "-o", "d.vtp",
+       "--json", "d.json"});
+  EXPECT_EQ(folder.names(),
+            (std::vector<std::string>{"d.csv", "d.json", "d.npy", "d.ply", "d.vtp"}));
+  EXPECT_TRUE(read_mesh(folder.path("d.ply")));
+  EXPECT_TRUE(Json::accept(bytes_of(folder.path("d.json"))));
+}
+
+TEST_F(Program, SolveWritesCsvAndNothingElseToStandardOutput) {
+  const ProgramRun result = run({"solve", "bunny", "-s", "5", "-o", "-", "-o", "same.csv"});
+  EXPECT_EQ(result.out, bytes_of(folder.path("same.csv")));
+  EXPECT_TRUE(result.out.starts_with("vertex,distance\n0,"));
+  EXPECT_NE(result.out.find("\n5,0\n"), std::string::npos);
+}
+
+TEST_F(Program, SolveReplacesAFileThatIsThere) {
+  folder.write("d.csv", "old");
+  run({"solve", "bunny", "-s", "5", "-o", "d.csv"});
+  EXPECT_TRUE(bytes_of(folder.path("d.csv")).starts_with("vertex,distance\n"));
+}
+
+TEST_F(Program, SolveTakesSourcesOfAllKindsAsOneSet) {
+  folder.write("more.txt", "# more\n7\nface:4:0.5:0.25:0.25  # inside\n\n0.1 2 0\n");
+  const Json solved = json({"solve", "-s", "3", "-s", "random:2:9", "bunny", "--source-file",
+                            "more.txt", "-s", "face:9:0:1:0", "--json", "-"});
+  std::size_t inside = 0;
+  for (const Json& source : solved["sources"]) inside += source.is_object();
+  EXPECT_GE(inside, 1U);
+  EXPECT_EQ(solved["sources"].size(), 7U);
+}
+
+TEST_F(Program, SolveTakesTheBoundaryAndACurveAsEdges) {
+  ASSERT_EQ(run({"generate", "terrain", "--faces", "1000", "-o", "t.off"}).code, 0);
+  const Json border = json({"solve", "t.off", "-s", "boundary", "--json", "-"});
+  EXPECT_EQ(border["source_edges"].size(), border["model"]["boundary_edges"]);
+  folder.write("curve.txt", "0\n200\n");
+  const ProgramRun curve =
+      run({"solve", "t.off", "--source-file", "curve.txt", "--curve", "-o", "-"});
+  EXPECT_NE(curve.err.find("geotherm: warning: curve.txt"), std::string::npos) << curve.err;
+  EXPECT_NE(curve.out.find("\n200,0\n"), std::string::npos);
+}
+
+TEST_F(Program, SolveSaysWhatIsUnreached) {
+  folder.write("two.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 9 9 9\nf 1 2 3\nf 4 5 6\n");
+  const ProgramRun result = run({"solve", "two.obj", "-s", "0", "--json", "-"});
+  const Json solved = Json::parse(result.out);
+  EXPECT_EQ(solved["distance"]["unreached"], 4);
+  EXPECT_EQ(solved["warnings"].size(), 2U);
+  EXPECT_NE(result.err.find("geotherm: warning: 1 vertex belongs to no face"), std::string::npos);
+  EXPECT_NE(result.err.find("geotherm: warning: 3 vertices lie in components"), std::string::npos);
+  EXPECT_NE(run({"solve", "two.obj", "-s", "0", "-o", "-"}).out.find("\n6,inf\n"),
+            std::string::npos);
+}
+
+class ProgramBackends : public Program, public testing::WithParamInterface<std::string> {};
+
+TEST_P(ProgramBackends, SolveWithEachName) {
+  const Json solved =
+      json({"solve", "bunny", "-s", "1", "--backend", GetParam(), "--threads", "1", "--json", "-"});
+  EXPECT_EQ(solved["options"]["backend"], GetParam());
+  EXPECT_EQ(solved["options"]["threads"], 1);
+  EXPECT_GT(solved["distance"]["max"], 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProgramBackends, testing::ValuesIn(backend_names()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(Program, SolvePassesOptionsOn) {
+  const Json solved = json({"solve", "bunny", "-s", "1,900", "--constraint", "penalty:5", "--heat",
+                            "hold", "--boundary", "average", "--laplacian", "intrinsic-delaunay",
+                            "--variant", "classic", "--json", "-"});
+  EXPECT_EQ(solved["options"]["constraint"], "penalty:5");
+  EXPECT_EQ(solved["options"]["heat"], "hold");
+  EXPECT_EQ(solved["options"]["boundary"], "average");
+  EXPECT_EQ(solved["options"]["laplacian"], "intrinsic-delaunay");
+  EXPECT_EQ(solved["options"]["variant"], "classic");
+}
+
+TEST_F(Program, InfoTellsWhatAMeshIs) {
+  const ProgramRun table = run({"info", "bunny"});
+  EXPECT_NE(table.out.find("Euler characteristic"), std::string::npos);
+  EXPECT_EQ(table.err, "");
+  const Json info = json({"info", "bunny", "--json", "-"});
+  expect_keys(info["model"],
+              keys({"name", "vertices", "faces", "components", "boundary_edges",
+                    "nonmanifold_edges", "degenerate_faces", "mean_edge_length", "area"}),
+              "model.");
+  EXPECT_EQ(info["model"]["components"], 1);
+  EXPECT_EQ(info["warnings"], Json::array());
+}
+
+TEST_F(Program, InfoWarnsInWords) {
+  folder.write("odd.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 9 9 9\nf 1 2 4 3\nf 1 1 2\nf 1 2 4\n");
+  const ProgramRun result = run({"info", "odd.obj"});
+  for (const char* part : {"1 polygon was triangulated", "1 vertex belongs to no face",
+                           "1 face repeats a corner", "1 duplicate face"}) {
+    EXPECT_NE(result.err.find(std::string("geotherm: warning: ") + part), std::string::npos)
+        << result.err;
+  }
+}
+
+TEST_F(Program, InfoSaysThatAnStlWasWelded) {
+  run({"generate", "bunny", "-o", "b.stl"});
+  EXPECT_NE(run({"info", "b.stl"}).err.find("welded"), std::string::npos);
+}
+
+TEST_F(Program, CompareHasARowForEachBackendAndModel) {
+  ASSERT_EQ(run({"generate", "cube", "--faces", "600", "-o", "cube.ply"}).code, 0);
+  const Json compared = json({"compare", "bunny", "cube.ply", "--queries", "2", "--json", "-"});
+  expect_keys(compared["machine"], keys({"cpu", "cores", "blas"}), "machine.");
+  const std::size_t backends = backend_names().size();
+  ASSERT_EQ(compared["rows"].size(), 2 * backends);
+  for (std::size_t i = 0; i < compared["rows"].size(); ++i) {
+    const Json& row = compared["rows"][i];
+    expect_keys(row,
+                keys({"model", "vertices", "faces", "backend", "setup_ms", "query_ms_median",
+                      "batch_query_ms", "factor_mb", "peak_rss_mb", "max_difference",
+                      "mean_difference", "status", "message"}),
+                "row.");
+    EXPECT_EQ(row["model"], i < backends ? "bunny" : "cube");
+    EXPECT_EQ(row["backend"], backend_names()[i % backends]);
+    EXPECT_EQ(row["status"], "ok") << row;
+    constexpr double kIterative = 1e-6;  // what an iterative backend promises
+    EXPECT_LE(row["max_difference"].get<double>(), kIterative);
+    EXPECT_LE(row["mean_difference"], row["max_difference"]);
+  }
+}
+
+TEST_F(Program, CompareWritesTableCsvAndPage) {
+  const ProgramRun result = run({"compare", "bunny", "--queries", "1", "-s", "random:3", "--csv",
+                                 "t.csv", "--html", "t.html", "--json", "t.json"});
+  EXPECT_NE(result.out.find("pre-factorisation"), std::string::npos);
+  const std::string csv = bytes_of(folder.path("t.csv"));
+  EXPECT_TRUE(csv.starts_with("model,vertices,faces,backend,setup_ms,query_ms_median"));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            1 + backend_names().size());
+  const std::string page = bytes_of(folder.path("t.html"));
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need nothing else";
+  EXPECT_TRUE(Json::accept(bytes_of(folder.path("t.json"))));
+}
+
+TEST_F(Program, CompareMeasuresFromTheReference) {
+  const std::string last = backend_names().back();
+  const Json compared =
+      json({"compare", "bunny", "--queries", "1", "--reference", last, "--json", "-"});
+  EXPECT_EQ(compared["rows"].back()["backend"], last);
+  EXPECT_EQ(compared["rows"].back()["max_difference"], 0.0);
+}
+
+TEST_F(Program, CompareKeepsAFailureInItsRow) {
+  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  const Json compared = json({"compare", "flat.obj", "--json", "-"});
+  ASSERT_EQ(compared["rows"].size(), backend_names().size());
+  for (const Json& row : compared["rows"]) {
+    EXPECT_NE(row["status"], "ok");
+    EXPECT_NE(row["message"], "");
+    EXPECT_TRUE(row["setup_ms"].is_null());
+  }
+}
+
+TEST_F(Program, GenerateWritesEveryFormat) {
+  for (const char* file : {"b.obj", "b.ply", "b.off", "b.stl"}) {
+    run({"generate", "bunny", "--faces", "1000", "-o", file});
+    EXPECT_TRUE(read_mesh(folder.path(file))) << file;
+  }
+  const ProgramRun text = run({"generate", "bunny", "--faces", "1000", "-o", "-"});
+  EXPECT_EQ(text.out, bytes_of(folder.path("b.obj")));
+}
+
+TEST_F(Program, ListsNameOneThingALine) {
+  const std::string backends = run({"backends"}).out;
+  EXPECT_TRUE(backends.starts_with(backend_names().front()));
+  EXPECT_EQ(static_cast<std::size_t>(std::count(backends.begin(), backends.end(), '\n')),
+            backend_names().size());
+  const std::string models = run({"models"}).out;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(models.begin(), models.end(), '\n')),
+            bundled_models().size());
+  for (const BundledModel& model : bundled_models()) {
+    EXPECT_NE(models.find(std::string(model.name) + " "), std::string::npos);
+  }
+}
+
+TEST_F(Program, HelpShowsAnExample) {
+  EXPECT_TRUE(run({"--version"}).out.starts_with("geotherm "));
+  EXPECT_NE(run({"--help"}).out.find("geotherm solve bunny -s 17"), std::string::npos);
+  for (const char* command : {"solve", "info", "compare", "generate", "backends", "models"}) {
+    EXPECT_NE(run({command, "--help"}).out.find(std::string("  geotherm ") + command),
+              std::string::npos)
+        << command;
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "app/resolve_sources.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::app;
+
+/// A 4 x 4 grid of unit squares, then a vertex in no face.
+TriangleMesh grid() {
+  Draft draft = plane_grid(4, 4, 4, 4);
+  draft.add(Vec3(9, 9, 9));
+  return *finish(std::move(draft));
+}
+constexpr Index kLoose = 25;
+
+Result<ResolvedSources> resolve(const TriangleMesh& mesh, const std::vector<std::string>& texts) {
+  std::vector<Source> sources;
+  for (const std::string& text : texts) {
+    sources.push_back({*parse_source(text), "-s " + text, ErrorCode::kBadInput});
+  }
+  return resolve_sources(sources, mesh);
+}
+
+ResolvedSources curve(const TriangleMesh& mesh, std::vector<Index> vertices) {
+  VertexCurve curve{std::move(vertices), {}};
+  for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
+    curve.lines.push_back(static_cast<int>(i) + 1);
+  }
+  const Source source{curve, "c.txt", ErrorCode::kBadFile};
+  return *resolve_sources({&source, 1}, mesh);
+}
+
+TEST(Sources, AreOneSetWithoutRepetition) {
+  const auto resolved = resolve(grid(), {"3,7", "7", "3", "face:0:1:0:0"});
+  ASSERT_TRUE(resolved);
+  EXPECT_EQ(vertices_of(resolved->set).size(), 3U);
+  EXPECT_EQ(resolved->set.points.size(), 3U);
+}
+
+TEST(Sources, AtRandomAreDifferentVerticesInFacesTheSameForASeed) {
+  const TriangleMesh mesh = grid();
+  const auto some = *random_vertices(mesh, 10, 4);
+  EXPECT_EQ(std::set<Index>(some.begin(), some.end()).size(), 10U);
+  EXPECT_EQ(some, *random_vertices(mesh, 10, 4));
+  EXPECT_NE(some, *random_vertices(mesh, 10, 5));
+  const auto all = *random_vertices(mesh, 25, 1);
+  EXPECT_EQ(std::set<Index>(all.begin(), all.end()).size(), 25U);
+  EXPECT_FALSE(std::set<Index>(all.begin(), all.end()).contains(kLoose));
+  EXPECT_FALSE(random_vertices(mesh, 26, 1));
+}
+
+TEST(Sources, AtRandomAreTheVerticesThatSplitmix64Chooses) {
+  // By hand from the definition: the first value of seed 1 is 0x910a2dec89025cc1; modulo 25, 11.
+  EXPECT_EQ(*random_vertices(grid(), 1, 1), std::vector<Index>{0x910a2dec89025cc1U % 25});
+}
+
+TEST(Sources, OnTheBoundaryAreItsEdges) {
+  const auto resolved = resolve(grid(), {"boundary"});
+  ASSERT_TRUE(resolved);
+  EXPECT_EQ(resolved->set.edges.size(), 16U);
+  EXPECT_EQ(vertices_of(resolved->set).size(), 16U);
+  const auto closed = resolve(*finish(sphere(1)), {"boundary"});
+  ASSERT_FALSE(closed);
+  EXPECT_NE(closed.error().message.find("no boundary (each of its 120 edges"), std::string::npos);
+}
+
+TEST(Sources, InSpaceAreTheClosestPointsAndFarOnesAreMentioned) {
+  const auto near = resolve(grid(), {"xyz:1.2:1.3:0.001"});
+  ASSERT_TRUE(near);
+  EXPECT_TRUE(near->warnings.empty());
+  ASSERT_EQ(near->set.points.size(), 1U);
+  EXPECT_FALSE(near->set.points[0].is_vertex());
+  const auto far = resolve(grid(), {"xyz:-3:-4:0"});
+  ASSERT_TRUE(far);
+  EXPECT_EQ(vertices_of(far->set), std::vector<Index>{0});
+  ASSERT_EQ(far->warnings.size(), 1U);
+  EXPECT_NE(far->warnings[0].find("5 away"), std::string::npos) << far->warnings[0];
+}
+
+TEST(Sources, AlongACurveAreItsEdges) {
+  const TriangleMesh mesh = grid();
+  const ResolvedSources line = curve(mesh, {0, 1, 2, 2, 7});
+  EXPECT_EQ(line.set.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 7}}));
+  EXPECT_TRUE(line.warnings.empty());
+  const ResolvedSources point = curve(mesh, {4});
+  EXPECT_EQ(vertices_of(point.set), std::vector<Index>{4});
+  EXPECT_TRUE(point.set.edges.empty());
+}
+
+TEST(Sources, AlongACurveWithGapsAreJoinedAndThatIsSaid) {
+  const ResolvedSources line = curve(grid(), {0, 1, 4});
+  EXPECT_EQ(line.set.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
+  ASSERT_EQ(line.warnings.size(), 1U);
+  EXPECT_NE(line.warnings[0].find("c.txt: 1 of 2 steps"), std::string::npos) << line.warnings[0];
+  EXPECT_NE(line.warnings[0].find("vertex 1 to 4, line 3"), std::string::npos);
+}
+
+TEST(Sources, ThatDoNotFitAreRefusedWithTheirName) {
+  struct Case {
+    const char *text, *says;
+  };
+  for (const Case& c : {Case{"26", "vertices are 0 to 25"},
+                        {"25", "belongs to no face"},
+                        {"face:32:1:0:0", "faces are 0 to 31"},
+                        {"random:26", "25 belong"}}) {
+    const auto resolved = resolve(grid(), {c.text});
+    ASSERT_FALSE(resolved) << c.text;
+    EXPECT_TRUE(resolved.error().message.starts_with(std::string("-s ") + c.text + ": "));
+    EXPECT_NE(resolved.error().message.find(c.says), std::string::npos) << resolved.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "app/source_spec.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::app;
+
+template <class Spec>
+Spec parsed(std::string_view text) {
+  const auto spec = parse_source(text);
+  EXPECT_TRUE(spec) << text;
+  const Spec* found = spec ? std::get_if<Spec>(&*spec) : nullptr;
+  EXPECT_NE(found, nullptr) << text;
+  return found ? *found : Spec{};
+}
+
+TEST(SourceText, NamesVertices) {
+  EXPECT_EQ(parsed<VertexList>("17").vertices, std::vector<Index>{17});
+  EXPECT_EQ(parsed<VertexList>("3,99,512").vertices, (std::vector<Index>{3, 99, 512}));
+}
+
+TEST(SourceText, NamesRandomVertices) {
+  EXPECT_EQ(parsed<RandomVertices>("random:5").count, 5);
+  EXPECT_EQ(parsed<RandomVertices>("random:5").seed, RandomVertices{}.seed);
+  EXPECT_EQ(parsed<RandomVertices>("random:5:18446744073709551615").seed, 18446744073709551615U);
+}
+
+TEST(SourceText, NamesTheBoundary) { parsed<WholeBoundary>("boundary"); }
+
+TEST(SourceText, NamesPointsInFacesAndInSpace) {
+  const FacePoint inside = parsed<FacePoint>("face:7:0.5:0.25:.25");
+  EXPECT_EQ(inside.face, 7);
+  EXPECT_EQ(inside.weights, (std::array<double, 3>{0.5, 0.25, 0.25}));
+  EXPECT_EQ(parsed<SpacePoint>("xyz:-1:+2.5:3e-2").position, Vec3(-1, 2.5, 0.03));
+}
+
+TEST(SourceText, ScalesWeightsThatNearlySumToOne) {
+  const auto weights = parsed<FacePoint>("face:7:0.333:0.333:0.333").weights;
+  EXPECT_DOUBLE_EQ(weights[0] + weights[1] + weights[2], 1.0);
+}
+
+class WrongSourceText : public testing::TestWithParam<const char*> {};
+
+TEST_P(WrongSourceText, IsRefusedWithAHint) {
+  const auto spec = parse_source(GetParam());
+  ASSERT_FALSE(spec) << GetParam();
+  EXPECT_EQ(spec.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(spec.error().message.find_first_of(":;"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongSourceText,
+    testing::Values("", "x", "-1", "1.5", "3,,4", "3,", "1e3", "99999999999", "0x10", "random",
+                    "random:", "random:0", "random:-1", "random:x", "random:1:", "random:1:2:3",
+                    "random:1:-2", "boundary:1", "face", "face:1", "face:1:1:0", "face:-1:1:0:0",
+                    "face:1:1:1:0", "face:1:2:-1:0", "face:1:nan:0:0", "face:1:1:0:0:0", "xyz",
+                    "xyz:1:2", "xyz:1:2:3:4", "xyz:1:2:inf", "xyz:1,5:2:3", "xyz: 1:2:3"));
+
+class SourceFile : public testing::Test {
+ protected:
+  Result<std::vector<Source>> read(std::string_view text, bool curve = false) {
+    return read_source_file(folder.write("s.txt", text), curve);
+  }
+  TemporaryDirectory folder;
+};
+
+TEST_F(SourceFile, HoldsIdsAndPointsBlankLinesAndComments) {
+  const auto sources =
+      read("\xef\xbb\xbf# ids\r\n5\r\n\n  6  # six\nface:1:1:0:0\nxyz:1:2:3\n\t1 2.5 -3e0\n7");
+  ASSERT_TRUE(sources) << sources.error().message;
+  ASSERT_EQ(sources->size(), 6U);
+  EXPECT_EQ(std::get<VertexList>((*sources)[1].spec).vertices, std::vector<Index>{6});
+  EXPECT_EQ(std::get<SpacePoint>((*sources)[4].spec).position, Vec3(1, 2.5, -3));
+  EXPECT_TRUE((*sources)[1].where.ends_with("s.txt: line 4"));
+  EXPECT_EQ((*sources)[1].blame, ErrorCode::kBadFile);
+}
+
+TEST_F(SourceFile, ThatIsACurveIsOnePolyline) {
+  const auto sources = read("5\n6\n\n7\n5\n", true);
+  ASSERT_TRUE(sources);
+  ASSERT_EQ(sources->size(), 1U);
+  const auto& curve = std::get<VertexCurve>(sources->front().spec);
+  EXPECT_EQ(curve.vertices, (std::vector<Index>{5, 6, 7, 5}));
+  EXPECT_EQ(curve.lines, (std::vector<int>{1, 2, 4, 5}));
+}
+
+TEST_F(SourceFile, ThatIsWrongIsRefusedWithTheLine) {
+  for (const char* text : {"1\n2\nx\n", "1\n2\n1 2\n", "1\n2\n1 2 y\n", "1\n2\nrandom:3\n",
+                           "1\n2\n3,4\n", "1\n2\n-4\n", "1\n2\n1 2 3 4\n", "1\n\nface:1:2:3:4\n"}) {
+    const auto sources = read(text);
+    ASSERT_FALSE(sources) << text;
+    EXPECT_EQ(sources.error().code, ErrorCode::kBadFile);
+    EXPECT_NE(sources.error().message.find("line 3: "), std::string::npos);
+  }
+  EXPECT_FALSE(read("# nothing\n\n"));
+  EXPECT_FALSE(read("1\n1 2 3\n", true));
+}
+
+}  // namespace
+}  // namespace geotherm::test

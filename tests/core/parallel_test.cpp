@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "solver/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <vector>
+
+namespace geotherm::test {
+namespace {
+
+class ParallelFor : public testing::TestWithParam<int> {};
+
+TEST_P(ParallelFor, VisitsEveryIndexOnce) {
+  for (const std::int64_t count : {0, 1, 7, 64, 1000}) {
+    for (const std::int64_t grain : {1, 10, 5000}) {
+      std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
+      parallel_for(GetParam(), count, grain, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+      });
+      for (const auto& visit : visits) EXPECT_EQ(visit, 1);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 5));
+
+TEST_P(ParallelFor, BothFunctionsRunAndFailuresReachTheCaller) {
+  int first = 0, second = 0;
+  run_both(GetParam(), [&] { first = 1; }, [&] { second = 2; });
+  EXPECT_EQ(first + second, 3);
+  EXPECT_THROW(run_both(
+                   GetParam(), [] { throw std::runtime_error("first"); }, [] {}),
+               std::runtime_error);
+  EXPECT_THROW(run_both(
+                   GetParam(), [] {}, [] { throw std::runtime_error("second"); }),
+               std::runtime_error);
+}
+
+TEST(ThreadCount, OfZeroMeansAllCores) {
+  EXPECT_EQ(thread_count(3), 3);
+  EXPECT_GE(thread_count(0), 1);
+  EXPECT_EQ(thread_count(-2), thread_count(0));
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// Of the largest distance: rules change the heat beside the border, by more than round-off and by
+// less than the few edges over which heat reaches.
+constexpr double kDiffers = 1e-3;
+constexpr double kAtMost = 0.15;
+// What a rule may do to distances that no border is near.
+constexpr double kInside = 0.03;
+constexpr double kRoundOff = 1e-9;
+
+HeatOptions under(BoundaryRule rule, const std::string& backend = {}) {
+  HeatOptions options;
+  options.boundary = rule;
+  options.backend = backend;
+  return options;
+}
+
+class BoundaryRules : public testing::TestWithParam<std::string> {
+ protected:
+  static constexpr Index kN = 32;
+  Draft draft = jittered_plane(kN, 0.2, 3);
+  MeshPtr mesh = finish(draft);
+  Index centre = grid_vertex(kN, kN / 2, kN / 2);
+
+  DistanceResult from(Index source, BoundaryRule rule) const {
+    return solve(mesh, {source}, under(rule, GetParam()));
+  }
+  double largest_difference(BoundaryRule a, BoundaryRule b, double within) const {
+    const auto d = from(centre, a).distances, e = from(centre, b).distances;
+    double most = 0;
+    for (std::size_t v = 0; v < d.size(); ++v) {
+      const Vec3 p = draft.positions[v] - draft.positions[centre];
+      if (p.cwiseAbs().maxCoeff() <= within) most = std::max(most, std::abs(d[v] - e[v]));
+    }
+    return most / largest(d);
+  }
+};
+
+TEST_P(BoundaryRules, DifferBesideTheBorder) {
+  const auto n = BoundaryRule::kNeumann, d = BoundaryRule::kDirichlet, a = BoundaryRule::kAverage;
+  for (const auto& [x, y] : {std::pair{n, d}, {n, a}, {d, a}}) {
+    EXPECT_GE(largest_difference(x, y, 1), kDiffers);
+    EXPECT_LE(largest_difference(x, y, 1), kAtMost);
+  }
+}
+
+TEST_P(BoundaryRules, MatterLittleInside) {
+  EXPECT_LE(largest_difference(BoundaryRule::kNeumann, BoundaryRule::kDirichlet, 0.25), kInside);
+  EXPECT_LE(largest_difference(BoundaryRule::kNeumann, BoundaryRule::kAverage, 0.25), kInside);
+}
+
+TEST_P(BoundaryRules, TakeSourcesOnTheBorder) {
+  const Index corner = 0, side = grid_vertex(kN, kN / 2, 0);
+  for (const Index source : {corner, side}) {
+    const auto reference = from(source, BoundaryRule::kNeumann).distances;
+    for (const auto rule : {BoundaryRule::kDirichlet, BoundaryRule::kAverage}) {
+      const auto result = from(source, rule);
+      EXPECT_EQ(result.distances[source], 0);
+      EXPECT_LE(relative_difference(result.distances, reference), kAtMost);
+      EXPECT_FALSE(result.warnings.empty()) << "the source's row is left free, which must be said";
+    }
+  }
+}
+
+TEST_P(BoundaryRules, TakeAWholeBorderOfSources) {
+  std::vector<Index> border;
+  for (Index i = 0; i < kN; ++i) {
+    border.insert(border.end(), {grid_vertex(kN, i, 0), grid_vertex(kN, kN, i),
+                                 grid_vertex(kN, i + 1, kN), grid_vertex(kN, 0, i + 1)});
+  }
+  const auto d = solve(mesh, border, under(BoundaryRule::kDirichlet, GetParam())).distances;
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    const Vec3& p = draft.positions[v];
+    const double exact = std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()});
+    EXPECT_NEAR(d[v], exact, kAtMost / 2) << "vertex " << v;
+  }
+}
+
+TEST_P(BoundaryRules, AreOneOnAClosedSurface) {
+  const MeshPtr closed = finish(torus(24, 12, 0.4));
+  const auto neumann = solve(closed, {7}, under(BoundaryRule::kNeumann, GetParam())).distances;
+  for (const auto rule : {BoundaryRule::kDirichlet, BoundaryRule::kAverage}) {
+    EXPECT_LE(relative_difference(solve(closed, {7}, under(rule, GetParam())).distances, neumann),
+              kRoundOff);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, BoundaryRules, testing::ValuesIn(backend_names()),
+                         backend_test_name);
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Whatever a file may hold gets distances or one clear error, never something that is no number.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+/// For every vertex whether faces of three different corners join it to `source`.
+std::vector<char> reach_of(const TriangleMesh& mesh, Index source) {
+  std::vector<Index> parent(static_cast<std::size_t>(mesh.vertex_count()));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](Index v) {
+    while (parent[v] != v) v = parent[v];
+    return v;
+  };
+  std::vector<char> used(parent.size(), 0);
+  for (const auto& [a, b, c] : mesh.faces()) {
+    if (a == b || b == c || c == a) continue;
+    parent[root(a)] = root(b);
+    parent[root(b)] = root(c);
+    used[a] = used[b] = used[c] = 1;
+  }
+  std::vector<char> reached(parent.size());
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    reached[v] = static_cast<char>(used[v] && root(v) == root(source));
+  }
+  return reached;
+}
+
+using Case = std::tuple<std::string, ZooMesh>;
+
+class EveryMesh : public testing::TestWithParam<Case> {
+ protected:
+  MeshPtr mesh = std::get<1>(GetParam()).mesh();
+  Index source = mesh->faces()[mesh->face_count() / 2][0];
+
+  void expect_distances(const HeatOptions& options) const {
+    const auto result = solve(mesh, {source}, with_backend(std::get<0>(GetParam()), options));
+    const std::vector<char> reached = reach_of(*mesh, source);
+    ASSERT_EQ(static_cast<Index>(result.distances.size()), mesh->vertex_count());
+    for (Index v = 0; v < mesh->vertex_count(); ++v) {
+      const double d = result.distances[v];
+      if (reached[v]) {
+        EXPECT_TRUE(std::isfinite(d) && d >= 0) << "vertex " << v << " has " << d;
+      } else {
+        EXPECT_EQ(d, kUnreached) << "vertex " << v;
+      }
+    }
+    EXPECT_EQ(result.distances[source], 0);
+  }
+};
+
+TEST_P(EveryMesh, HasFiniteDistancesInReachAndInfiniteOnesElsewhere) { expect_distances({}); }
+
+TEST_P(EveryMesh, HasThemWithHeldSourcesAndAHeldBorder) {
+  HeatOptions options;
+  options.heat = HeatMode::kHold;
+  options.boundary = BoundaryRule::kDirichlet;
+  expect_distances(options);
+}
+
+TEST_P(EveryMesh, HasThemFromInsideAFace) {
+  SourceSet inside;
+  inside.points = {SurfacePoint::in_face(mesh->face_count() / 2, {0.2, 0.3, 0.5})};
+  const auto method = method_of(mesh, with_backend(std::get<0>(GetParam())));
+  const auto result = solve(method, inside);
+  const std::vector<char> reached = reach_of(*mesh, source);
+  for (Index v = 0; v < mesh->vertex_count(); ++v) {
+    EXPECT_EQ(std::isfinite(result.distances[v]), reached[v] != 0) << "vertex " << v;
+    EXPECT_GE(result.distances[v], 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, EveryMesh,
+                         testing::Combine(testing::ValuesIn(backend_names()),
+                                          testing::ValuesIn(zoo())),
+                         [](const auto& each) {
+                           return test_name(std::get<0>(each.param)) + "_" +
+                                  std::get<1>(each.param).name;
+                         });
+
+class SmoothMesh : public testing::TestWithParam<ZooMesh> {};
+
+TEST_P(SmoothMesh, HasPositiveHeatEverywhere) {
+  const MeshPtr mesh = GetParam().mesh();
+  QueryOptions query;
+  query.fields = true;
+  const auto result = solve(method_of(mesh), SourceSet::of_vertices({5}), query);
+  ASSERT_EQ(static_cast<Index>(result.heat.size()), mesh->vertex_count());
+  for (Index v = 0; v < mesh->vertex_count(); ++v) EXPECT_GT(result.heat[v], 0) << "vertex " << v;
+  EXPECT_EQ(result.heat[5], 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Zoo, SmoothMesh, testing::ValuesIn(zoo(kSmooth)), zoo_name);
+
+TEST(MeshWithoutArea, IsOneClearError) {
+  Draft points, line;
+  points.positions.assign(3, Vec3(1, 2, 3));
+  points.faces = {{0, 1, 2}};
+  const auto method = HeatMethod::build(finish(points));
+  ASSERT_FALSE(method);
+  EXPECT_EQ(method.error().code, ErrorCode::kBadInput);
+  line.positions = {{0, 0, 0}, {1, 0, 0}};
+  line.faces = {{0, 1, 0}, {1, 1, 1}};
+  const auto repeated = HeatMethod::build(finish(line));
+  ASSERT_FALSE(repeated);
+  EXPECT_EQ(repeated.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(repeated.error().message.find("2"), std::string::npos) << repeated.error().message;
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// At t = h^2 heat falls below the range of doubles after some 700 edges. Directions must not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// Far from the source fronts are straight lines across the strip: what is left is the offset that
+// the neighbourhood of the source gives, about an edge.
+constexpr double kSlope = 1e-6;
+constexpr double kIterative = 1e-6;
+constexpr double kDirect = 1e-9;
+
+constexpr Index kLength = 3000;
+
+class FarField : public testing::TestWithParam<std::string> {};
+
+TEST_P(FarField, OfAStripOfThousandsOfEdgesIsLinear) {
+  const MeshPtr strip = finish(plane_grid(kLength, 2, kLength, 2));
+  const auto result = solve(strip, {grid_vertex(kLength, 0, 1)}, with_backend(GetParam()));
+  EXPECT_EQ(result.quality.zero_gradient_faces, 0);
+  const auto at = [&](Index i) { return result.distances[grid_vertex(kLength, i, 1)]; };
+  const double begin = at(100);
+  for (Index i = 101; i <= kLength; ++i) {
+    ASSERT_NEAR((at(i) - begin) / (i - 100), 1, kSlope) << "edge " << i;
+  }
+  EXPECT_NEAR(at(kLength), kLength, 1);
+}
+
+TEST_P(FarField, KeepsDirectionsThroughSeveralColumns) {
+  // The same from both ends in one block, where the levels of the columns differ.
+  const Index n = 1200;
+  const HeatMethod method = method_of(finish(plane_grid(n, 2, n, 2)), with_backend(GetParam()));
+  const SourceSet sets[] = {SourceSet::of_vertices({grid_vertex(n, 0, 0)}),
+                            SourceSet::of_vertices({grid_vertex(n, n / 2, 1)}),
+                            SourceSet::of_vertices({grid_vertex(n, n, 2)})};
+  const auto together = method.solve_each(sets);
+  ASSERT_TRUE(together) << together.error().message;
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_LE(relative_difference((*together)[c].distances, solve(method, sets[c]).distances),
+              kDirect);
+  }
+  // The strip is its own image under a half turn.
+  const auto& left = (*together)[0].distances;
+  std::vector<double> turned((*together)[2].distances.rbegin(), (*together)[2].distances.rend());
+  EXPECT_LE(relative_difference(turned, left), kDirect);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FarField, testing::ValuesIn(direct_backends()),
+                         backend_test_name);
+
+/// The radius beyond which an iterative solver that stops by its residual knows nothing.
+class IterativeFarField : public testing::TestWithParam<std::string> {
+ protected:
+  static void expect_agreement(const MeshPtr& mesh, const std::vector<Index>& sources,
+                               const HeatOptions& options) {
+    EXPECT_LE(relative_difference(
+                  solve(mesh, sources, with_backend(GetParam(), options)).distances,
+                  solve(mesh, sources, with_backend(direct_backends().front(), options)).distances),
+              kIterative);
+  }
+  MeshPtr strip = finish(plane_grid(700, 4, 700, 4));
+};
+
+TEST_P(IterativeFarField, AgreesBeyondFiveHundredEdges) {
+  expect_agreement(strip, {grid_vertex(700, 0, 2)}, {});
+}
+
+TEST_P(IterativeFarField, AgreesWithTheBorderHeld) {
+  HeatOptions options;
+  options.boundary = BoundaryRule::kDirichlet;
+  expect_agreement(strip, {grid_vertex(700, 3, 2)}, options);
+}
+
+TEST_P(IterativeFarField, AgreesWithSourcesHeld) {
+  HeatOptions options;
+  options.heat = HeatMode::kHold;
+  expect_agreement(strip, {grid_vertex(700, 0, 2), grid_vertex(700, 9, 2)}, options);
+}
+
+TEST_P(IterativeFarField, AgreesAroundALongRing) {
+  expect_agreement(finish(torus(1200, 6, 0.004)), {0}, {});
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, IterativeFarField, testing::ValuesIn(iterative_backends()),
+                         backend_test_name);
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+// The figures that tell a good answer from a bad one.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <tuple>
+
+#include "solver/heat/surface.h"
+#include "solver/heat/linear_system.h"
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+constexpr double kDirectResidual = 1e-9;
+constexpr double kIterativeResidual = 1e-6;
+// A distance has slope 1 but at sources and creases; on these coarse meshes a tenth of the area.
+constexpr double kSlopeError = 0.1;
+constexpr double kConserved = 1e-11;
+
+using Case = std::tuple<std::string, ZooMesh>;
+
+class QualityFigures : public testing::TestWithParam<Case> {
+ protected:
+  std::string backend = std::get<0>(GetParam());
+  MeshPtr mesh = std::get<1>(GetParam()).mesh();
+  bool iterative = (*find_backend(backend))->iterative();
+};
+
+TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
+  const auto result = solve(mesh, {3, mesh->vertex_count() / 2}, with_backend(backend));
+  const Quality& q = result.quality;
+  const double residual = iterative ? kIterativeResidual : kDirectResidual;
+  EXPECT_LE(q.heat_residual, residual);
+  EXPECT_LE(q.poisson_residual, residual);
+  EXPECT_EQ(q.zero_gradient_faces, 0);
+  EXPECT_EQ(q.max_source_distance, 0);
+  EXPECT_GT(q.eikonal_error_mean, 0);
+  EXPECT_LE(q.eikonal_error_mean, kSlopeError);
+  EXPECT_EQ(q.iterations_heat > 0, iterative);
+  EXPECT_EQ(q.iterations_poisson > 0, iterative);
+  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+}
+
+// 1' (A + t L) u = 1' A u: whatever heat goes in is there afterwards, when none can leave.
+TEST_P(QualityFigures, HeatIsConserved) {
+  const auto surface =
+      build_surface(mesh, **find_backend(backend), LaplacianKind::kAuto, 1);
+  ASSERT_TRUE(surface) << surface.error().message;
+  const auto system = LinearSystem::build(*(*surface)->analysis, (*surface)->operators, 1.0, 1.0,
+                                          {}, 1, 0.5);
+  ASSERT_TRUE(system) << system.error().message;
+  Block u = Block::Zero((*surface)->operators->size(), 1);
+  u(3, 0) = 2;
+  u(40, 0) = 5;
+  ASSERT_TRUE((*system)->solve(u));
+  const auto& mass = (*surface)->operators->mass;
+  double total = 0;
+  for (Eigen::Index i = 0; i < u.rows(); ++i) total += mass[i] * u(i, 0);
+  EXPECT_NEAR(total, 7, 7 * kConserved);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, QualityFigures,
+                         testing::Combine(testing::ValuesIn(backend_names()),
+                                          testing::ValuesIn(zoo(kSmooth))),
+                         [](const auto& each) {
+                           return test_name(std::get<0>(each.param)) + "_" +
+                                  std::get<1>(each.param).name;
+                         });
+
+class QualityResponds : public testing::Test {
+ protected:
+  MeshPtr mesh = finish(sphere(3));
+  DistanceResult with_constraint(ConstraintMode mode) const {
+    HeatOptions options;
+    options.constraint.mode = mode;
+    return solve(mesh, {0, 100, 400}, options);
+  }
+};
+
+TEST_F(QualityResponds, SourcesOffZeroShowBeforeTheyAreMoved) {
+  EXPECT_GT(with_constraint(ConstraintMode::kPinVertex).quality.max_source_distance, 0);
+  EXPECT_EQ(with_constraint(ConstraintMode::kPinSources).quality.max_source_distance, 0);
+}
+
+TEST_F(QualityResponds, ALargeTimeBlursTheSlope) {
+  HeatOptions blurred;
+  blurred.time_step.factor = 300;
+  blurred.variant = Variant::kClassic;
+  HeatOptions sharp;
+  sharp.variant = Variant::kClassic;
+  EXPECT_GT(solve(mesh, {0, 100, 400}, blurred).quality.eikonal_error_mean,
+            solve(mesh, {0, 100, 400}, sharp).quality.eikonal_error_mean);
+}
+
+TEST_F(QualityResponds, FiguresAreLeftOutWhenNotAsked) {
+  QueryOptions query;
+  query.quality = false;
+  const auto result = solve(method_of(mesh), SourceSet::of_vertices({0}), query);
+  EXPECT_EQ(result.quality.eikonal_error_mean, 0);
+  EXPECT_EQ(result.distances, solve(mesh, {0}).distances);
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/closest_point.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+/// Of a handful of operations on numbers of the triangle's size.
+constexpr double kRoundOff = 1e-14;
+
+/// Corners (0,0,0), (4,0,0), (0,4,0).
+TriangleMesh one_triangle() {
+  return *TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}, {{0, 1, 2}});
+}
+
+Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+  if (point.is_vertex()) return mesh.positions()[static_cast<std::size_t>(point.vertex)];
+  Vec3 p = Vec3::Zero();
+  const Face& face = mesh.faces()[static_cast<std::size_t>(point.face)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    p += point.weights[k] * mesh.positions()[static_cast<std::size_t>(face[k])];
+  }
+  return p;
+}
+
+struct Case {
+  const char* name;
+  Vec3 query, closest;
+};
+
+class ClosestPoints : public testing::TestWithParam<Case> {};
+
+TEST_P(ClosestPoints, AreFoundInFacesOnSidesAndAtCorners) {
+  const TriangleMesh mesh = one_triangle();
+  const auto found = closest_point(mesh, GetParam().query);
+  ASSERT_TRUE(found);
+  EXPECT_LE((position_of(mesh, found->point) - GetParam().closest).norm(), 4 * kRoundOff);
+  EXPECT_NEAR(found->distance, (GetParam().query - GetParam().closest).norm(), 10 * kRoundOff);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfATriangle, ClosestPoints,
+                         testing::Values(Case{"Above", {1, 1, 3}, {1, 1, 0}},
+                                         Case{"Below", {1, 1, -3}, {1, 1, 0}},
+                                         Case{"On", {1, 2, 0}, {1, 2, 0}},
+                                         Case{"BesideTheFirst", {1, -2, 1}, {1, 0, 0}},
+                                         Case{"BesideTheSecond", {4, 4, 0}, {2, 2, 0}},
+                                         Case{"BesideTheThird", {-5, 3, 2}, {0, 3, 0}},
+                                         Case{"AtTheFirst", {-1, -1, 0}, {0, 0, 0}},
+                                         Case{"AtTheSecond", {9, -1, 2}, {4, 0, 0}},
+                                         Case{"AtTheThird", {-1, 7, 0}, {0, 4, 0}}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ClosestPoint, IsAVertexWhereTheQueryIsOne) {
+  const MeshPtr mesh = finish(sphere(2));
+  for (const Index v : {0, 7, 100}) {
+    const auto found = closest_point(*mesh, mesh->positions()[static_cast<std::size_t>(v)]);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->point.vertex, v);
+    EXPECT_EQ(found->distance, 0.0);
+  }
+}
+
+TEST(ClosestPoint, IsNoFartherThanAnyVertexAndHasValidWeights) {
+  const MeshPtr mesh = finish(torus(24, 12, 0.4));
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 query(std::sin(3.0 * i), 2 * std::cos(5.0 * i), std::sin(7.0 * i));
+    const auto found = closest_point(*mesh, query);
+    ASSERT_TRUE(found);
+    for (const Vec3& p : mesh->positions()) EXPECT_LE(found->distance, (p - query).norm() * 1.0001);
+    if (found->point.is_vertex()) continue;
+    double sum = 0;
+    for (const double w : found->point.weights) {
+      EXPECT_GE(w, 0);
+      sum += w;
+    }
+    EXPECT_NEAR(sum, 1, kRoundOff);
+  }
+}
+
+TEST(ClosestPoint, TakesFacesWithoutAreaAsSegmentsAndPoints) {
+  // A face that is a segment, a face that is one point, and a face that repeats a corner.
+  const auto mesh =
+      *TriangleMesh::build({Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5),
+                            Vec3(5, 5, 5), Vec3(5, 5, 5), Vec3(9, 9, 9)},
+                           {{0, 1, 2}, {3, 4, 5}, {6, 6, 0}});
+  const auto segment = closest_point(mesh, Vec3(0.5, 1, 0));
+  ASSERT_TRUE(segment);
+  EXPECT_NEAR(segment->distance, 1, kRoundOff);
+  const auto point = closest_point(mesh, Vec3(9, 9, 9));
+  ASSERT_TRUE(point);
+  EXPECT_EQ(point->point.vertex, 3);
+}
+
+TEST(ClosestPoint, IsTheSameAtEveryScale) {
+  for (const double scale : {1e-200, 1e-9, 1e9, 1e200}) {
+    const MeshPtr mesh = finish(transformed(plane_grid(3, 3, 1, 1), scale, Vec3::Zero(), false));
+    const auto found = closest_point(*mesh, scale * Vec3(0.4, 0.45, 0.5));
+    ASSERT_TRUE(found) << scale;
+    EXPECT_NEAR(found->distance / scale, 0.5, kRoundOff) << scale;
+  }
+}
+
+TEST(ClosestPoint, RefusesWhatHasNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(closest_point(one_triangle(), Vec3(0, nan, 0)).error().code, ErrorCode::kBadInput);
+  const auto mesh = *TriangleMesh::build({Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 0, 1}});
+  EXPECT_NE(closest_point(mesh, Vec3::Zero()).error().message.find("1 faces"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace geotherm::test
