@@ -23,7 +23,8 @@ struct LoadRow {
 /// it `runs` times with each reader.
 LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs);
 
-/// Reads the file with tinyobjloader; false in a build without it. Errors: kBadFile.
-Result<bool> read_with_tinyobjloader(const std::string& path);
+/// Milliseconds that tinyobjloader takes to read the file; kNotMeasured in a build without it.
+/// Errors: kBadFile.
+Result<double> time_tinyobjloader(const std::string& path);
 
 }  // namespace geotherm::bench

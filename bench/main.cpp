@@ -70,7 +70,8 @@ int run(const Arguments& arguments) {
     for (const LoadRow& row : loads) print(load_text(row), out);
   }
 
-  if (groups.empty() && loads.empty()) print("Nothing fits --only " + arguments.only + "\n", stderr);
+  if (groups.empty() && loads.empty())
+    print("Nothing fits --only " + arguments.only + "\n", stderr);
   if (arguments.json.empty()) return 0;
   const auto written = write_file(arguments.json, to_json(machine, threads, groups, growth, loads));
   if (written) return 0;
@@ -99,6 +100,10 @@ int main(int argc, char** argv) {
           return "not a regular expression: " + std::string(error.what());
         }
       });
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   return geotherm::bench::run(arguments);
 }

@@ -3,6 +3,6 @@
 
 namespace geotherm::bench {
 
-Result<bool> read_with_tinyobjloader(const std::string&) { return false; }
+Result<double> time_tinyobjloader(const std::string&) { return kNotMeasured; }
 
 }  // namespace geotherm::bench

@@ -164,7 +164,8 @@ std::vector<Growth> measure_growth(const std::vector<SolveGroup>& groups) {
   }
   std::vector<Growth> out;
   for (const std::string& name : names) {
-    out.push_back({name, setup[name].slope(), query[name].slope()});
+    const Growth growth{name, setup[name].slope(), query[name].slope()};
+    if (std::isfinite(growth.setup_exponent)) out.push_back(growth);
   }
   return out;
 }

@@ -42,7 +42,8 @@ using OnGroup = std::function<void(const SolveGroup&)>;
 std::vector<SolveGroup> measure_solves(const SolvePlan& plan, const Say& say,
                                        const OnGroup& on_group);
 
-/// One exponent a contender: the slope of log time over log faces, common to all kinds of mesh.
+/// The slope of log time over log faces, common to all kinds of mesh; one row for each contender
+/// that was measured on two sizes of one kind.
 std::vector<Growth> measure_growth(const std::vector<SolveGroup>& groups);
 
 }  // namespace geotherm::bench

@@ -2,12 +2,16 @@
 #include <tiny_obj_loader.h>
 
 #include "bench/load_bench.h"
+#include "solver/core/stopwatch.h"
 
 namespace geotherm::bench {
 
-Result<bool> read_with_tinyobjloader(const std::string& path) {
+Result<double> time_tinyobjloader(const std::string& path) {
   tinyobj::ObjReader reader;
-  if (reader.ParseFromFile(path)) return true;
+  const Stopwatch watch;
+  const bool read = reader.ParseFromFile(path);
+  const double elapsed = watch.milliseconds();
+  if (read) return elapsed;
   return Error{ErrorCode::kBadFile, "tinyobjloader: " + reader.Error()};
 }
 

@@ -15,8 +15,8 @@ using FieldKernel = void (*)(const FieldPass&);
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
-/// Squared gradients outside this range go the careful way: a square root of something that
-/// underflowed has no direction left.
+/// Differences and squares outside this range go the careful way: what has underflowed has no
+/// direction left.
 constexpr double kSafeLow = 1e-280;
 constexpr double kSafeHigh = 1e280;
 
@@ -73,15 +73,20 @@ template <int K>
 bool compute(const FieldPass& pass, Lanes<K>& s) {
   double any = 0;
   for (int j = 0; j < Lanes<K>::kCount; ++j) {
-    const double gx = s.du1[j] * s.inverse_base[j];
-    const double gy = (s.du2[j] - s.x[j] * gx) * s.inverse_height[j];
+    // Relative to the larger difference: squares of u itself underflow half way to the floor.
+    const double size1 = std::abs(s.du1[j]);
+    const double size2 = std::abs(s.du2[j]);
+    const double largest = size1 > size2 ? size1 : size2;
+    const double to_one = 1 / largest;
+    const double gx = s.du1[j] * to_one * s.inverse_base[j];
+    const double gy = (s.du2[j] * to_one - s.x[j] * gx) * s.inverse_height[j];
     const double square = gx * gx + gy * gy;
     const double scale = -0.5 / std::sqrt(square);
     const double fx = gx * scale;
     const double fy = gy * scale;
     s.d1[j] = s.height[j] * fx - s.x[j] * fy;
     s.d2[j] = s.base[j] * fy;
-    s.careful[j] = square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
+    s.careful[j] = largest > kSafeLow && square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
   }
   if (pass.log_u != nullptr) {
     for (int j = 0; j < Lanes<K>::kCount; ++j) {

@@ -42,15 +42,13 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
 
 UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, BlockPool& pool)
     : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)), pool_(pool) {
-  if (t <= 0 && heat.level.empty()) return;
+  if (!(t > 0)) return;
   log_u_ = pool.take(heat.u.rows(), heat.u.cols());
-  if (heat.level.empty()) {
-    logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
-    return;
-  }
+  logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
+  if (heat.level.empty()) return;
   const double step = std::log(heat.step);
   for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-    log_u_.data()[e] = std::log(heat.u.data()[e]) + step * heat.level[static_cast<std::size_t>(e)];
+    log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
   }
 }
 
@@ -67,11 +65,15 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   const Face& face = mesh_.faces[f];
   std::array<double, 3> u{};
   for (int k = 0; k < 3; ++k) u[k] = heat_.u(face[k], column);
-  if (!heat_.level.empty()) {  // to one exponent: the largest value's
-    std::array<double, 3> log_u{};
-    for (int k = 0; k < 3; ++k) log_u[k] = log_u_(face[k], column);
-    const double top = *std::max_element(log_u.begin(), log_u.end());
-    for (int k = 0; k < 3; ++k) u[k] = std::exp(log_u[k] - top);
+  if (!heat_.level.empty()) {  // to one exponent: the largest values'
+    std::array<int, 3> level{};
+    for (int k = 0; k < 3; ++k) {
+      level[k] = heat_.level[static_cast<std::size_t>(face[k] * heat_.u.cols() + column)];
+    }
+    const int base = std::min({level[0], level[1], level[2]});
+    for (int k = 0; k < 3; ++k) {
+      if (level[k] > base) u[k] *= std::pow(heat_.step, level[k] - base);
+    }
   }
   const FaceLayout& p = mesh_.layout[f];
   const Field x = against_gradient(p, u[0], u[1], u[2]);

@@ -71,15 +71,15 @@ TEST_P(CurveSources, DoNotDependOnDirectionOrOrder) {
   EXPECT_EQ(solve(method, turned).distances, solve(method, middle_curve()).distances);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Backends, CurveSources,
-    testing::Combine(testing::ValuesIn(backend_names()),
-                     testing::Values(HeatMode::kUnit, HeatMode::kDiffuse, HeatMode::kHold)),
-    [](const auto& each) {
-      const char* const modes[] = {"unit", "diffuse", "hold"};
-      return test_name(std::get<0>(each.param)) + "_" +
-             modes[static_cast<int>(std::get<1>(each.param))];
-    });
+std::string case_name(const testing::TestParamInfo<Case>& each) {
+  const char* const modes[] = {"unit", "diffuse", "hold"};
+  return test_name(std::get<0>(each.param)) + "_" + modes[static_cast<int>(std::get<1>(each.param))];
+}
+INSTANTIATE_TEST_SUITE_P(Backends, CurveSources,
+                         testing::Combine(testing::ValuesIn(backend_names()),
+                                          testing::Values(HeatMode::kUnit, HeatMode::kDiffuse,
+                                                          HeatMode::kHold)),
+                         case_name);
 
 TEST(CurveSource, IsBetterThanItsVerticesAlone) {
   // Curve along edges much longer than the faces beside it.
