@@ -28,7 +28,7 @@ class Random {
 Result<TriangleMesh> make_torus(Index faces) {
   constexpr double kTwoPi = 2 * std::numbers::pi;
   constexpr double kJitter = 0.4;  // of a cell
-  const auto across = static_cast<Index>(std::lround(std::sqrt(faces / 2 / 2.5)));
+  const auto across = static_cast<Index>(std::lround(std::sqrt(faces / 5.0)));
   const auto along = static_cast<Index>(std::lround(faces / 2.0 / across));
   Random random(1);
   std::vector<Vec3> positions;

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
+#include <regex>
 #include <string>
 
 #include "bench/bench_mesh.h"
@@ -32,8 +34,8 @@ void print(const std::string& text, std::FILE* to) {
 
 /// What is being done: one line that is written over on a terminal, nothing elsewhere.
 void say(std::string_view what) {
-  static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (!terminal) return;
+  static const bool kTerminal = isatty(STDERR_FILENO) != 0;
+  if (!kTerminal) return;
   std::fprintf(stderr, "\r\033[K%.*s", static_cast<int>(what.size()), what.data());
   std::fflush(stderr);
 }
@@ -79,11 +81,8 @@ int run(const Arguments& arguments) {
   return 1;
 }
 
-}  // namespace
-}  // namespace geotherm::bench
-
-int main(int argc, char** argv) {
-  geotherm::bench::Arguments arguments;
+int run_command_line(int argc, char** argv) {
+  Arguments arguments;
   CLI::App app("Set-up, query, batch and memory of each backend beside a plain use of CHOLMOD.");
   app.add_flag("--quick", arguments.quick, "Fewer meshes and runs: under ten minutes on 2 cores");
   app.add_option("--json", arguments.json, "Write the figures to this file ('-': standard output)");
@@ -105,5 +104,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  return geotherm::bench::run(arguments);
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace geotherm::bench
+
+int main(int argc, char** argv) {
+  try {
+    return geotherm::bench::run_command_line(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "geotherm_bench: error: %s\n", error.what());
+    return 1;
+  }
 }

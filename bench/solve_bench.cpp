@@ -89,6 +89,7 @@ SolveGroup measure_case(const Case& c, const std::vector<std::string>& backends,
   group.faces = mesh->face_count();
 
   std::vector<std::unique_ptr<Contender>> contenders;
+  contenders.reserve(backends.size() + 1);
   for (const std::string& backend : backends) {
     contenders.push_back(make_backend_contender(backend, plan.threads));
   }

@@ -156,7 +156,7 @@ class CholmodAnalysis final : public Analysis {
         return not_definite(static_cast<std::size_t>(bad - inverse.begin()), inverse.size(),
                             status);
       }
-      return make_direct_factorization(make_column_factor(std::move(columns)));
+      return make_direct_factorization(make_column_factor(columns));
     }
     const auto* values = static_cast<const double*>(numeric->factor->x);
     return make_direct_factorization(make_supernodal_factor(structure_, values, numeric));

@@ -1,69 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "solver/linear/column_factor.h"
 
-#include <numeric>
+#include <cmath>
 
-#include "solver/linear/solve_kernels.h"
+#include "solver/linear/supernodal_factor.h"
 
 namespace geotherm {
 namespace {
 
-class ColumnFactor final : public TriangularFactor {
- public:
-  explicit ColumnFactor(ColumnFactorData data) : data_(std::move(data)) {
-    tree_.node_of_row.resize(static_cast<std::size_t>(size()));
-    std::iota(tree_.node_of_row.begin(), tree_.node_of_row.end(), 0);
-    tree_.parent.resize(static_cast<std::size_t>(size()));
-    for (Index j = 0; j < size(); ++j) {
-      const bool root = data_.start[j] == data_.start[j + 1];
-      tree_.parent[j] = root ? kNoIndex : data_.row[data_.start[j]];
-    }
-  }
-
-  const EliminationTree& tree() const override { return tree_; }
-  Index size() const override { return static_cast<Index>(data_.inverse_pivot.size()); }
-  FactorStats stats() const override {
-    const auto entries = static_cast<std::int64_t>(data_.value.size());
-    return {entries + size(),
-            entries * static_cast<std::int64_t>(sizeof(double) + sizeof(Index)) +
-                size() * static_cast<std::int64_t>(sizeof(double) + sizeof(std::int64_t))};
-  }
-
-  void forward(double* x, Eigen::Index stride, int columns,
-               std::span<const Index> nodes) const override {
-    const auto run = solve_kernels(columns).column_forward;
-    if (nodes.empty()) {
-      for (Index j = 0; j < size(); ++j) run(column(j), x, stride);
-    } else {
-      for (const Index j : nodes) run(column(j), x, stride);
-    }
-  }
-
-  void backward(double* x, Eigen::Index stride, int columns,
-                std::span<const Index> nodes) const override {
-    const auto run = solve_kernels(columns).column_backward;
-    if (nodes.empty()) {
-      for (Index j = size(); j-- > 0;) run(column(j), x, stride);
-    } else {
-      for (auto j = nodes.rbegin(); j != nodes.rend(); ++j) run(column(*j), x, stride);
-    }
-  }
-
- private:
-  Column column(Index j) const {
-    const std::int64_t begin = data_.start[j];
-    return {j, static_cast<Index>(data_.start[j + 1] - begin), data_.row.data() + begin,
-            data_.value.data() + begin, data_.inverse_pivot[j]};
-  }
-
-  ColumnFactorData data_;
-  EliminationTree tree_;
-};
+/// A fundamental supernode goes on while a column has exactly one entry more than the next and the
+/// next is its parent: then the rest of both patterns is the same (Liu, Ng, Peyton 1993).
+bool continues(const ColumnFactorData& data, Index column) {
+  const std::int64_t begin = data.start[column];
+  const std::int64_t count = data.start[column + 1] - begin;
+  if (count == 0 || data.row[begin] != column + 1) return false;
+  return count - 1 == data.start[column + 2] - data.start[column + 1];
+}
 
 }  // namespace
 
-std::unique_ptr<TriangularFactor> make_column_factor(ColumnFactorData data) {
-  return std::make_unique<ColumnFactor>(std::move(data));
+std::unique_ptr<TriangularFactor> make_column_factor(const ColumnFactorData& data) {
+  const auto size = static_cast<Index>(data.inverse_pivot.size());
+  auto structure = std::make_shared<SupernodalStructure>();
+  auto values = std::make_shared<std::vector<double>>();
+  for (Index first = 0; first < size;) {
+    Index last = first;
+    while (last + 1 < size && continues(data, last)) ++last;
+    const Index width = last - first + 1;
+    const std::int64_t under = data.start[last + 1] - data.start[last];
+    structure->rows.insert(structure->rows.end(), data.row.begin() + data.start[last],
+                           data.row.begin() + data.start[last + 1]);
+    for (Index column = first; column <= last; ++column) {
+      // L L^T from L D L^T; the part above the diagonal is never read.
+      const double scale = std::sqrt(1 / data.inverse_pivot[column]);
+      values->insert(values->end(), static_cast<std::size_t>(column - first), 0.0);
+      values->push_back(scale);
+      for (std::int64_t e = data.start[column]; e < data.start[column + 1]; ++e) {
+        values->push_back(data.value[e] * scale);
+      }
+    }
+    structure->first.push_back(last + 1);
+    structure->row_start.push_back(static_cast<std::int64_t>(structure->rows.size()));
+    structure->value_start.push_back(structure->value_start.back() + width * (width + under));
+    first = last + 1;
+  }
+  structure->finish();
+  values->shrink_to_fit();
+  const double* numbers = values->data();
+  return make_supernodal_factor(std::move(structure), numbers, std::move(values));
 }
 
 }  // namespace geotherm

@@ -8,14 +8,18 @@
 
 namespace geotherm {
 
-/// M = L D L^T stored by sparse columns: L has a unit diagonal, which is not stored.
+/// M = L D L^T by sparse columns, as simplicial codes give it: L has a unit diagonal, which is not
+/// stored.
 struct ColumnFactorData {
   std::vector<std::int64_t> start = {0};  ///< n + 1
   std::vector<Index> row;                 ///< ascending in each column, below the diagonal
   std::vector<double> value;
-  std::vector<double> inverse_pivot;  ///< n: 1 / D
+  std::vector<double> inverse_pivot;  ///< n: 1 / D, > 0
 };
 
-std::unique_ptr<TriangularFactor> make_column_factor(ColumnFactorData data);
+/// Gathers columns of equal structure into panels, so that every factor is solved with by the same
+/// kernels: no zeros are added, and row numbers are stored once a panel. Precondition: the complete
+/// pattern of a Cholesky factor. Cost: one copy.
+std::unique_ptr<TriangularFactor> make_column_factor(const ColumnFactorData& data);
 
 }  // namespace geotherm

@@ -59,7 +59,7 @@ class EigenAnalysis final : public Analysis {
     data.value.assign(factor.valuePtr(), factor.valuePtr() + data.start.back());
     data.inverse_pivot.resize(static_cast<std::size_t>(lower.size()));
     for (Index j = 0; j < lower.size(); ++j) data.inverse_pivot[j] = 1 / pivots[j];
-    return make_direct_factorization(make_column_factor(std::move(data)));
+    return make_direct_factorization(make_column_factor(data));
   }
 
  private:

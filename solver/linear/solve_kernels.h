@@ -25,23 +25,12 @@ struct Panel {
 /// Kernels for one right side read whole registers, up to this many doubles past a column's end.
 inline constexpr std::ptrdiff_t kPanelPadding = 16;
 
-/// One column of a unit lower triangular factor with a diagonal, M = L D L^T.
-struct Column {
-  Index index;
-  Index count;  ///< entries below the diagonal
-  const Index* rows;
-  const double* values;
-  double inverse_pivot;
-};
-
-/// The four inner loops of triangular solves for one group of right sides: x has `stride` doubles
+/// The two inner loops of triangular solves for one group of right sides: x has `stride` doubles
 /// a row. `scratch` holds height * group doubles and
 /// kPanelPadding more.
 struct SolveKernels {
   void (*panel_forward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
   void (*panel_backward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
-  void (*column_forward)(const Column&, double* x, std::ptrdiff_t stride);
-  void (*column_backward)(const Column&, double* x, std::ptrdiff_t stride);
 };
 
 /// Kernels for a group of 1, 2, 4, 8 or 16 right sides. Asking for a set that this build or

@@ -231,32 +231,11 @@ void panel_backward(const Panel& p, double* x, std::ptrdiff_t stride, double* ro
 }
 
 template <int K>
-void column_forward(const Column& column, double* x, std::ptrdiff_t stride) {
-  const Group<K> own = Group<K>::load(x + column.index * stride);
-  for (Index e = 0; e < column.count; ++e) {
-    double* target = x + column.rows[e] * stride;
-    Group<K> value = Group<K>::load(target);
-    value.subtract(column.values[e], own);
-    value.store(target);
-  }
-}
-
-template <int K>
-void column_backward(const Column& column, double* x, std::ptrdiff_t stride) {
-  Group<K> own = Group<K>::load(x + column.index * stride);
-  own.scale(column.inverse_pivot);
-  for (Index e = 0; e < column.count; ++e) {
-    own.subtract(column.values[e], Group<K>::load(x + column.rows[e] * stride));
-  }
-  own.store(x + column.index * stride);
-}
-
-template <int K>
 constexpr SolveKernels kernels_for() {
   if constexpr (K == 1) {
-    return {panel_forward_one, panel_backward_one, column_forward<1>, column_backward<1>};
+    return {panel_forward_one, panel_backward_one};
   } else {
-    return {panel_forward<K>, panel_backward<K>, column_forward<K>, column_backward<K>};
+    return {panel_forward<K>, panel_backward<K>};
   }
 }
 

@@ -142,7 +142,7 @@ TEST_P(ProgramFailures, AreOneLineWithTheCureAndLeaveNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, ProgramFailures, testing::ValuesIn(failures()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(ProgramStreams, AFullStandardOutputIsAnError) {
   const TemporaryDirectory folder;

@@ -168,8 +168,8 @@ TEST_P(ProgramBackends, SolveWithEachName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramBackends, testing::ValuesIn(backend_names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });

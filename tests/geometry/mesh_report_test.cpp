@@ -26,8 +26,12 @@ TEST_P(MeshReports, AgreeWithWhatTheMeshIsKnownToBe) {
   const MeshReport report = inspect_mesh(*mesh);
   EXPECT_EQ(report.vertices, mesh->vertex_count());
   EXPECT_EQ(report.faces, mesh->face_count());
-  if (zoo.tags & kClosed) EXPECT_EQ(report.boundary_edges, 0);
-  if (zoo.tags & kBorder) EXPECT_GT(report.boundary_edges, 0);
+  if (zoo.tags & kClosed) {
+    EXPECT_EQ(report.boundary_edges, 0);
+  }
+  if (zoo.tags & kBorder) {
+    EXPECT_GT(report.boundary_edges, 0);
+  }
   EXPECT_EQ(report.boundary_loops > 0, report.boundary_edges > 0);
   if (zoo.tags & kManifold) {
     EXPECT_EQ(report.nonmanifold_edges, 0);

@@ -86,20 +86,6 @@ TEST_P(Kernels, PanelsSolveWithTheirTriangle) {
   }
 }
 
-TEST_P(Kernels, ColumnsSolveWithTheirTriangle) {
-  const RandomPanel random(1, 23, 77);
-  const Column column{3, 23, random.rows.data(), random.data.data() + 1, 0.7};
-  Eigen::MatrixXd L = random.matrix();
-  L(3, 3) = 1;
-  Eigen::MatrixXd right = x.leftCols(group);
-  Block forward = x, backward = x;
-  kernels.column_forward(column, forward.data(), stride);
-  expect_columns(forward, L.triangularView<Eigen::Lower>().solve(right));
-  kernels.column_backward(column, backward.data(), stride);
-  right.row(3) *= 0.7;
-  expect_columns(backward, L.transpose().triangularView<Eigen::Upper>().solve(right));
-}
-
 std::string kernel_name(const testing::TestParamInfo<KernelCase>& info) {
   const char* const names[] = {"plain", "avx2", "avx512"};
   return std::string(names[static_cast<int>(std::get<1>(info.param))]) + "_" +

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(OfATriangle, ClosestPoints,
                                          Case{"AtTheFirst", {-1, -1, 0}, {0, 0, 0}},
                                          Case{"AtTheSecond", {9, -1, 2}, {4, 0, 0}},
                                          Case{"AtTheThird", {-1, 7, 0}, {0, 4, 0}}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(ClosestPoint, IsAVertexWhereTheQueryIsOne) {
   const MeshPtr mesh = finish(sphere(2));
