@@ -122,7 +122,7 @@ class Runner {
     if (iterative_ && *row.query_ms_median * count > kIterativeBudget) {
       add_message(row, "the batch was left out: " + std::to_string(task_.batch.size()) +
                            " queries would take " +
-                           significant(*row.query_ms_median * count / 1000, 2) + " s");
+                           milliseconds(*row.query_ms_median * count / 1000) + " s");
       return;
     }
     const Stopwatch watch;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -20,12 +21,7 @@ void occupy_closed_streams() {
   }
 }
 
-}  // namespace
-
-// A reader that closes its end of the pipe ends the program in the usual way, by SIGPIPE: files are
-// written before standard output.
-int main(int argc, char** argv) {
-  occupy_closed_streams();
+int run(int argc, char** argv) {
   try {
     return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc});
   } catch (const std::bad_alloc&) {
@@ -34,4 +30,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "geotherm: error: unexpected: %s; please report it\n", failure.what());
   }
   return 1;
+}
+
+}  // namespace
+
+// A reader that closes its end of the pipe ends the program in the usual way, by SIGPIPE: files are
+// written before standard output.
+int main(int argc, char** argv) {
+  occupy_closed_streams();
+  const int code = run(argc, argv);
+  std::fflush(nullptr);
+  // Without the handlers of exit(): OpenBLAS waits there for its threads, and these wait for memory
+  // where there is none left.
+  std::_Exit(code);
 }

@@ -45,7 +45,10 @@ Result<void> check_place(const std::string& path) {
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code unknown;
   if (fs::equivalent(a, b, unknown)) return true;
-  return fs::weakly_canonical(a, unknown) == fs::weakly_canonical(b, unknown);
+  const auto resolved = [&unknown](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
+  };
+  return resolved(a) == resolved(b);
 }
 
 }  // namespace

@@ -12,7 +12,11 @@ case ${1:-} in
 esac
 if [ $# -gt 1 ]; then fail "one model at most, $# given; try scripts/demo.sh --help"; fi
 model=${1:-gargoyle}
-if [ -e "$model" ]; then model=$(realpath "$model"); fi
+source=17
+if [ -e "$model" ]; then
+  model=$(realpath "$model")
+  source=random:1  # a vertex that is on the surface, whatever the file holds
+fi
 
 "$root/scripts/setup.sh"
 build release geotherm
@@ -21,8 +25,8 @@ program=$root/build/release/geotherm
 output=$root/build/demo
 mkdir -p "$output"
 
-say "geotherm solve $model -s 17"
-"$program" solve "$model" -s 17 -o "$output/distances.ply" --json "$output/solve.json"
+say "geotherm solve $model -s $source"
+"$program" solve "$model" -s "$source" -o "$output/distances.ply" --json "$output/solve.json"
 
 cat <<TEXT
 

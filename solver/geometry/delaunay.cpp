@@ -7,8 +7,10 @@
 namespace geotherm {
 namespace {
 
-/// Cotangent sums down to this are accepted: cocircular corners would flip to and fro.
-constexpr double kTolerance = 1e-9;
+/// Cotangent sums down to this are accepted. Cocircular corners, as in every mesh of rectangles,
+/// would flip to and fro, and as rounding of the coordinates (1e-7 of an edge for a model that
+/// stands a million sizes away) would have it.
+constexpr double kTolerance = 1e-6;
 
 double weight(const IntrinsicMesh& mesh, Side side) {
   const Side other = mesh.twin[side];

@@ -140,6 +140,10 @@ Result<Constraint> parse_constraint(std::string_view text) {
   if (*mode == ConstraintMode::kPinVertex) {
     const auto vertex = number<Index>("the pinned vertex", tail);
     if (!vertex) return vertex.error();
+    if (*vertex < 0) {
+      return Error{ErrorCode::kBadInput,
+                   "the pinned vertex is " + std::string(tail) + "; vertices are numbered from 0"};
+    }
     constraint.pin_vertex = *vertex;
     return constraint;
   }

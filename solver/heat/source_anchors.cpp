@@ -145,7 +145,22 @@ class Placer {
     return carry_through_flips(surface_.flips, moved);
   }
 
+  /// The point as its face sees it and, where it lies on an edge, as the face beyond does: which
+  /// of the two was named makes no difference.
   void add_carried(const SurfacePoint& point) {
+    add_to_face(point, true);
+    for (int k = 0; k < 3; ++k) {
+      if (point.weights[k] > kAtCorner) continue;
+      const Side twin = surface_.intrinsic.twin[3 * point.face + next_corner(k)];
+      if (twin == kNoSide) continue;
+      SurfacePoint beyond = SurfacePoint::in_face(face_of(twin), {});
+      beyond.weights[corner_of(twin)] = point.weights[previous_corner(k)];
+      beyond.weights[next_corner(corner_of(twin))] = point.weights[next_corner(k)];
+      add_to_face(beyond, false);
+    }
+  }
+
+  void add_to_face(const SurfacePoint& point, bool heats) {
     const OperatorMesh& mesh = *surface_.operators;
     const Index first = surface_.row_of_vertex[surface_.intrinsic.faces[point.face][0]];
     for (const Index f : mesh.faces_at(first)) {
@@ -155,8 +170,9 @@ class Placer {
           point.weights[0] * at[0] + point.weights[1] * at[1] + point.weights[2] * at[2];
       for (int k = 0; k < 3; ++k) {
         Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
+        if (entry.offset == 0) continue;  // a source itself, with all its heat
         entry.offset = std::min(entry.offset, (p - at[k]).norm());
-        entry.heat += point.weights[k];
+        if (heats) entry.heat += point.weights[k];
       }
       touched_.insert(f);
       return;

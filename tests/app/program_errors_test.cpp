@@ -100,6 +100,13 @@ const std::vector<Failure>& failures() {
       {"CompareNoFolder", {"compare", "bunny", "--html", "no/d.html"}, 1, {"no/d.html"}},
       {"GenerateNoFolder", {"generate", "bunny", "-o", "no/d.ply"}, 1, {"no/d.ply"}},
       {"SecondOutput", {"solve", "bunny", "-s", "1", "-o", "d.csv", "-o", "no/d.csv"}, 1, {"no/d"}},
+      // Output files that turn out to be wrong when they are written.
+      {"LateOutput", {"solve", "bunny", "-s", "1", "-o", "/proc/d.csv"}, 1, {"/proc/d.csv"}},
+      {"LateSecondOutput",
+       {"solve", "bunny", "-s", "1", "-o", "d.csv", "--json", "/proc/d.json"},
+       1,
+       {"/proc/d.json"}},
+      {"LateGenerate", {"generate", "bunny", "-o", "/proc/d.ply"}, 1, {"/proc/d.ply"}},
       // Files that cannot be used.
       {"NoFile", {"solve", "missing.obj", "-s", "1"}, 1, {"missing.obj", "no such file"}},
       {"NoBundled", {"solve", "bunnny", "-s", "1"}, 1, {"bunnny", "terrain"}},

@@ -2,55 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "solver/linear/backend.h"
 #include "solver/mesh/generate.h"
 #include "solver/mesh/read_mesh.h"
-#include "tests/app/program.h"
-#include "tests/mesh/mesh_files.h"
+#include "tests/app/program_fixture.h"
 
 namespace geotherm::test {
 namespace {
 
-using Json = nlohmann::json;
-
 /// One rounding in each of two factors.
 constexpr double kRoundOff = 1e-15;
-
-/// Runs of the program in a folder of their own.
-class Program : public testing::Test {
- protected:
-  ProgramRun run(const std::vector<std::string>& arguments) {
-    ProgramRun result = run_program(folder.path("."), arguments);
-    EXPECT_EQ(result.code, 0) << result.err;
-    return result;
-  }
-  Json json(const std::vector<std::string>& arguments) {
-    const ProgramRun result = run(arguments);
-    Json value = Json::parse(result.out, nullptr, false);
-    EXPECT_FALSE(value.is_discarded()) << result.out;
-    return value;
-  }
-
-  TemporaryDirectory folder;
-};
-
-/// Every key of `expected`, in every level of it, is in `actual`.
-void expect_keys(const Json& actual, const Json& expected, const std::string& where) {
-  for (const auto& item : expected.items()) {
-    ASSERT_TRUE(actual.contains(item.key())) << where << item.key();
-    if (item.value().is_object()) {
-      expect_keys(actual[item.key()], item.value(), where + item.key() + ".");
-    }
-  }
-}
-
-Json keys(const std::vector<const char*>& names) {
-  Json object = Json::object();
-  for (const char* name : names) object[name] = nullptr;
-  return object;
-}
 
 TEST_F(Program, SolveShowsATable) {
   const ProgramRun result = run({"solve", "bunny", "-s", "17"});
@@ -212,61 +174,6 @@ TEST_F(Program, InfoWarnsInWords) {
 TEST_F(Program, InfoSaysThatAnStlWasWelded) {
   run({"generate", "bunny", "-o", "b.stl"});
   EXPECT_NE(run({"info", "b.stl"}).err.find("welded"), std::string::npos);
-}
-
-TEST_F(Program, CompareHasARowForEachBackendAndModel) {
-  ASSERT_EQ(run({"generate", "cube", "--faces", "600", "-o", "cube.ply"}).code, 0);
-  const Json compared = json({"compare", "bunny", "cube.ply", "--queries", "2", "--json", "-"});
-  expect_keys(compared["machine"], keys({"cpu", "cores", "blas"}), "machine.");
-  const std::size_t backends = backend_names().size();
-  ASSERT_EQ(compared["rows"].size(), 2 * backends);
-  for (std::size_t i = 0; i < compared["rows"].size(); ++i) {
-    const Json& row = compared["rows"][i];
-    expect_keys(row,
-                keys({"model", "vertices", "faces", "backend", "setup_ms", "query_ms_median",
-                      "batch_query_ms", "factor_mb", "peak_rss_mb", "max_difference",
-                      "mean_difference", "status", "message"}),
-                "row.");
-    EXPECT_EQ(row["model"], i < backends ? "bunny" : "cube");
-    EXPECT_EQ(row["backend"], backend_names()[i % backends]);
-    EXPECT_EQ(row["status"], "ok") << row;
-    constexpr double kIterative = 1e-6;  // what an iterative backend promises
-    EXPECT_LE(row["max_difference"].get<double>(), kIterative);
-    EXPECT_LE(row["mean_difference"], row["max_difference"]);
-  }
-}
-
-TEST_F(Program, CompareWritesTableCsvAndPage) {
-  const ProgramRun result = run({"compare", "bunny", "--queries", "1", "-s", "random:3", "--csv",
-                                 "t.csv", "--html", "t.html", "--json", "t.json"});
-  EXPECT_NE(result.out.find("pre-factorisation"), std::string::npos);
-  const std::string csv = bytes_of(folder.path("t.csv"));
-  EXPECT_TRUE(csv.starts_with("model,vertices,faces,backend,setup_ms,query_ms_median"));
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
-            1 + backend_names().size());
-  const std::string page = bytes_of(folder.path("t.html"));
-  EXPECT_NE(page.find("<svg"), std::string::npos);
-  EXPECT_EQ(page.find("http"), std::string::npos) << "the page must need nothing else";
-  EXPECT_TRUE(Json::accept(bytes_of(folder.path("t.json"))));
-}
-
-TEST_F(Program, CompareMeasuresFromTheReference) {
-  const std::string last = backend_names().back();
-  const Json compared =
-      json({"compare", "bunny", "--queries", "1", "--reference", last, "--json", "-"});
-  EXPECT_EQ(compared["rows"].back()["backend"], last);
-  EXPECT_EQ(compared["rows"].back()["max_difference"], 0.0);
-}
-
-TEST_F(Program, CompareKeepsAFailureInItsRow) {
-  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
-  const Json compared = json({"compare", "flat.obj", "--json", "-"});
-  ASSERT_EQ(compared["rows"].size(), backend_names().size());
-  for (const Json& row : compared["rows"]) {
-    EXPECT_NE(row["status"], "ok");
-    EXPECT_NE(row["message"], "");
-    EXPECT_TRUE(row["setup_ms"].is_null());
-  }
 }
 
 TEST_F(Program, GenerateWritesEveryFormat) {

@@ -28,7 +28,8 @@ INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 5));
 
 TEST_P(ParallelFor, BothFunctionsRunAndFailuresReachTheCaller) {
   int first = 0, second = 0;
-  run_both(GetParam(), [&] { first = 1; }, [&] { second = 2; });
+  run_both(
+      GetParam(), [&] { first = 1; }, [&] { second = 2; });
   EXPECT_EQ(first + second, 3);
   EXPECT_THROW(run_both(
                    GetParam(), [] { throw std::runtime_error("first"); }, [] {}),

@@ -71,7 +71,8 @@ TEST(CleanFacesCount, RepeatedCorners) {
 TEST(CleanFacesCount, DuplicatesHoweverTheyAreTurned) {
   Draft draft = plane_grid(4, 4, 1, 1);
   const auto [a, b, c] = draft.faces[9];
-  for (const Face& again : {Face{a, b, c}, Face{b, c, a}, Face{c, b, a}}) draft.faces.push_back(again);
+  for (const Face& again : {Face{a, b, c}, Face{b, c, a}, Face{c, b, a}})
+    draft.faces.push_back(again);
   const CleanFaces out = clean(draft);
   EXPECT_EQ(out.duplicate, 3);
   EXPECT_EQ(out.faces.size(), 32U);

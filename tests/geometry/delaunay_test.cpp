@@ -69,8 +69,7 @@ TEST_P(DelaunayFlips, KeepBothSidesOfAnEdgeTogether) {
     const Face &f = m.faces[face_of(side)], &g = m.faces[face_of(twin)];
     EXPECT_EQ(f[corner_of(side)], g[next_corner(corner_of(twin))]);
     EXPECT_EQ(f[next_corner(corner_of(side))], g[corner_of(twin)]);
-    EXPECT_EQ(m.lengths[face_of(side)][corner_of(side)],
-              m.lengths[face_of(twin)][corner_of(twin)]);
+    EXPECT_EQ(m.lengths[face_of(side)][corner_of(side)], m.lengths[face_of(twin)][corner_of(twin)]);
   }
 }
 

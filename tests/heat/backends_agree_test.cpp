@@ -27,14 +27,18 @@ const OptionCase kOptions[] = {
     {"small_time", [](HeatOptions& o) { o.time_step.factor = 0.3; }},
     {"large_time", [](HeatOptions& o) { o.time_step.factor = 20; }},
     {"mean_face_area", [](HeatOptions& o) { o.time_step.rule = TimeRule::kMeanFaceArea; }},
-    {"absolute_time", [](HeatOptions& o) { o.time_step = {TimeRule::kAbsolute, 1, 0.003}; }},
+    {"absolute_time",
+     [](HeatOptions& o) {
+       o.time_step = {TimeRule::kAbsolute, 1, 0.003};
+     }},
     {"diffuse", [](HeatOptions& o) { o.heat = HeatMode::kDiffuse; }},
     {"hold", [](HeatOptions& o) { o.heat = HeatMode::kHold; }},
     {"dirichlet", [](HeatOptions& o) { o.boundary = BoundaryRule::kDirichlet; }},
     {"average", [](HeatOptions& o) { o.boundary = BoundaryRule::kAverage; }},
     {"pin_vertex", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPinVertex; }},
     {"penalty", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPenalty; }},
-    {"conserve_energy", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kConserveEnergy; }},
+    {"conserve_energy",
+     [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kConserveEnergy; }},
     {"pseudo_inverse", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPseudoInverse; }},
     {"hold_dirichlet_pseudo_inverse",
      [](HeatOptions& o) {

@@ -82,12 +82,17 @@ const BadOption kBadOptions[] = {
      "-1"},
     {"factor_that_is_no_number", [](HeatOptions& o) { o.time_step.factor = kNan; },
      ErrorCode::kBadInput, "factor"},
-    {"endless_time", [](HeatOptions& o) { o.time_step = {TimeRule::kAbsolute, 1, kUnreached}; },
+    {"endless_time",
+     [](HeatOptions& o) {
+       o.time_step = {TimeRule::kAbsolute, 1, kUnreached};
+     },
      ErrorCode::kBadInput, "time"},
     {"absolute_time_of_zero", [](HeatOptions& o) { o.time_step.rule = TimeRule::kAbsolute; },
      ErrorCode::kBadInput, "time"},
     {"penalty_of_zero",
-     [](HeatOptions& o) { o.constraint = {ConstraintMode::kPenalty, kNoIndex, 0}; },
+     [](HeatOptions& o) {
+       o.constraint = {ConstraintMode::kPenalty, kNoIndex, 0};
+     },
      ErrorCode::kBadInput, "penalty"},
     {"unknown_backend", [](HeatOptions& o) { o.backend = "gauss"; }, ErrorCode::kNotAvailable,
      "gauss"},

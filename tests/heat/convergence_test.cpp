@@ -99,9 +99,7 @@ class Convergence : public testing::TestWithParam<Shape> {
   }
 };
 
-TEST_P(Convergence, IsOfFirstOrderInTheMean) {
-  EXPECT_GE(rates({}, true).mean, kMeanRate);
-}
+TEST_P(Convergence, IsOfFirstOrderInTheMean) { EXPECT_GE(rates({}, true).mean, kMeanRate); }
 
 TEST_P(Convergence, IsOfHalfOrderInTheLargestError) {
   EXPECT_GE(rates({}, true).largest, kLargestRate);

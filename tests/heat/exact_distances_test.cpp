@@ -41,7 +41,9 @@ const ExactCase kCases[] = {
      {{4.82, 10.1}, {2.28, 5.62}, {4.00, 8.00}, {2.37, 5.02}}},
     {"spot.obj", {0}, {{1.72, 4.50}, {1.70, 4.59}, {1.69, 4.58}, {1.69, 4.64}}},
     {"spot.obj", {100, 1500, 2800}, {{6.13, 8.07}, {6.24, 8.26}, {6.09, 8.27}, {6.17, 8.40}}},
-    {"stanford-bunny.obj", {5000}, {{0.90, 2.19}, {0.89, 2.20}, {0.91, 1.96}, {kRefused, kRefused}}},
+    {"stanford-bunny.obj",
+     {5000},
+     {{0.90, 2.19}, {0.89, 2.20}, {0.91, 1.96}, {kRefused, kRefused}}},
 };
 
 // The largest error is one vertex's, and so may be this much above the best.
@@ -95,11 +97,9 @@ TEST_P(ExactDistances, AreMetAtLeastAsWellAsByTheBestHeatMethodElsewhere) {
   EXPECT_EQ(*std::ranges::min_element(result.distances), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, ExactDistances, testing::ValuesIn(kCases),
-                         [](const auto& each) {
-                           return test_name(stem_of(each.param) + "_from_" +
-                                            std::to_string(each.param.sources.size()));
-                         });
+INSTANTIATE_TEST_SUITE_P(Meshes, ExactDistances, testing::ValuesIn(kCases), [](const auto& each) {
+  return test_name(stem_of(each.param) + "_from_" + std::to_string(each.param.sources.size()));
+});
 
 }  // namespace
 }  // namespace geotherm::test

@@ -7,9 +7,9 @@ namespace geotherm::test {
 namespace {
 
 TEST(OptionText, OfTimeStepsReadsBack) {
-  for (const TimeStep& step : {TimeStep{}, TimeStep{TimeRule::kMeanFaceArea, 1, 0},
-                               TimeStep{TimeRule::kAbsolute, 1, 0.1 + 0.2},
-                               TimeStep{TimeRule::kAbsolute, 1, 3e-300}}) {
+  for (const TimeStep& step :
+       {TimeStep{}, TimeStep{TimeRule::kMeanFaceArea, 1, 0},
+        TimeStep{TimeRule::kAbsolute, 1, 0.1 + 0.2}, TimeStep{TimeRule::kAbsolute, 1, 3e-300}}) {
     const auto parsed = parse_time_step(to_text(step));
     ASSERT_TRUE(parsed) << to_text(step);
     EXPECT_EQ(*parsed, step);
@@ -69,8 +69,8 @@ TEST_P(RefusedConstraint, IsBadInput) { expect_refused(parse_constraint(GetParam
 INSTANTIATE_TEST_SUITE_P(Texts, RefusedConstraint,
                          testing::Values("penalty:0", "penalty:-1", "penalty:nan", "penalty:inf",
                                          "penalty:", "penalty:1x", "pin-vertex:", "pin-vertex:1.5",
-                                         "pin-vertex:-1", "pin-vertex:99999999999",
-                                         "pin-sources:3", "pseudo-inverse:1", ":", ""));
+                                         "pin-vertex:-1", "pin-vertex:99999999999", "pin-sources:3",
+                                         "pseudo-inverse:1", ":", ""));
 
 class RefusedTimeStep : public testing::TestWithParam<const char*> {};
 TEST_P(RefusedTimeStep, IsBadInput) { expect_refused(parse_time_step(GetParam()), ""); }

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <tuple>
 
-#include "solver/heat/surface.h"
 #include "solver/heat/linear_system.h"
+#include "solver/heat/surface.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
 
@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kDirectResidual = 1e-9;
 constexpr double kIterativeResidual = 1e-6;
-// A distance has slope 1 but at sources and creases; on these coarse meshes a tenth of the area.
-constexpr double kSlopeError = 0.1;
+// A distance has slope 1 but at sources, creases and borders: an edge or two on each side of them,
+// which on these coarse meshes is a third of the area.
+constexpr double kSlopeError = 0.2;
 constexpr double kConserved = 1e-11;
 
 using Case = std::tuple<std::string, ZooMesh>;
@@ -45,11 +46,10 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
 
 // 1' (A + t L) u = 1' A u: whatever heat goes in is there afterwards, when none can leave.
 TEST_P(QualityFigures, HeatIsConserved) {
-  const auto surface =
-      build_surface(mesh, **find_backend(backend), LaplacianKind::kAuto, 1);
+  const auto surface = build_surface(mesh, **find_backend(backend), LaplacianKind::kAuto, 1);
   ASSERT_TRUE(surface) << surface.error().message;
-  const auto system = LinearSystem::build(*(*surface)->analysis, (*surface)->operators, 1.0, 1.0,
-                                          {}, 1, 0.5);
+  const auto system =
+      LinearSystem::build(*(*surface)->analysis, (*surface)->operators, 1.0, 1.0, {}, 1, 0.5);
   ASSERT_TRUE(system) << system.error().message;
   Block u = Block::Zero((*surface)->operators->size(), 1);
   u(3, 0) = 2;

@@ -53,7 +53,8 @@ inline double relative_residual(const SymmetricOperator& matrix, const Block& x,
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     for (Eigen::Index i = 0; i < b.rows(); ++i) column[static_cast<std::size_t>(i)] = x(i, c);
     matrix.apply(column, applied);
-    for (Eigen::Index i = 0; i < b.rows(); ++i) product(i, c) = applied[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < b.rows(); ++i)
+      product(i, c) = applied[static_cast<std::size_t>(i)];
   }
   return (b - product).norm() / b.norm();
 }

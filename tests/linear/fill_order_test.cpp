@@ -71,8 +71,8 @@ TEST_P(NestedDissection, IsAPermutationAndTheSameInParallel) {
 
 TEST_P(NestedDissection, ManagesPointsThatAllCoincide) {
   const std::vector<Vec3> nowhere(graph.positions.size(), Vec3(1, 2, 3));
-  EXPECT_TRUE(is_permutation_of_all(nested_dissection(graph.pattern, nowhere, 1),
-                                    graph.pattern.size()));
+  EXPECT_TRUE(
+      is_permutation_of_all(nested_dissection(graph.pattern, nowhere, 1), graph.pattern.size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Zoo, NestedDissection, testing::ValuesIn(zoo()), zoo_name);

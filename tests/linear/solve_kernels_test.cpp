@@ -20,7 +20,7 @@ constexpr Index kRows = 60;
 
 /// A random supernode: `width` columns from row 3 on, and `under` rows below them.
 struct RandomPanel {
-  RandomPanel(Index width, Index under, unsigned seed) {
+  RandomPanel(Index width, Index under, bool padded, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> entry(-0.3, 0.3), pivot(1, 2);
     for (Index r = 0; r < kRows - 3 - width; ++r) rows.push_back(3 + width + r);
@@ -31,7 +31,10 @@ struct RandomPanel {
     for (Index c = 0; c < width; ++c) {
       for (Index r = 0; r < height; ++r) data.push_back(r == c ? pivot(random) : entry(random));
     }
-    panel = {3, width, height, rows.data(), data.data()};
+    for (Index c = 0; c < width; ++c) inverse_diagonal.push_back(1 / data[c * height + c]);
+    // What stands behind the panel must not matter.
+    if (padded) data.insert(data.end(), kPanelPadding, 1e100);
+    panel = {3, width, height, rows.data(), data.data(), inverse_diagonal.data(), padded};
   }
   RandomPanel(const RandomPanel&) = delete;
   RandomPanel& operator=(const RandomPanel&) = delete;
@@ -49,20 +52,22 @@ struct RandomPanel {
   }
 
   std::vector<Index> rows;
-  std::vector<double> data;
+  std::vector<double> data, inverse_diagonal;
   Panel panel{};
 };
 
-using KernelCase = std::tuple<int, InstructionSet>;
+using KernelCase = std::tuple<int, InstructionSet, bool>;
 
 class Kernels : public testing::TestWithParam<KernelCase> {
  protected:
   int group = std::get<0>(GetParam());
   SolveKernels kernels = solve_kernels(group, std::get<1>(GetParam()));
+  bool padded = std::get<2>(GetParam());
   /// Wider than the group: columns beyond it must stay as they are.
   Index stride = group + 3;
   Block x = random_block(kRows, stride, 2);
-  std::vector<double> scratch = std::vector<double>(static_cast<std::size_t>(kRows * group));
+  std::vector<double> scratch =
+      std::vector<double>(static_cast<std::size_t>(kRows * group + kPanelPadding));
 
   void expect_columns(const Block& got, const Eigen::MatrixXd& expected) const {
     EXPECT_LE((got.leftCols(group) - expected).cwiseAbs().maxCoeff(),
@@ -75,7 +80,7 @@ TEST_P(Kernels, PanelsSolveWithTheirTriangle) {
   for (Index width = 1; width <= 13; ++width) {
     for (const Index under : {0, 1, 3, 4, 5, 8, 17, 30}) {
       SCOPED_TRACE(std::to_string(width) + " columns, " + std::to_string(under) + " rows below");
-      const RandomPanel random(width, under, static_cast<unsigned>(100 * width + under));
+      const RandomPanel random(width, under, padded, static_cast<unsigned>(100 * width + under));
       const Eigen::MatrixXd L = random.matrix(), right = x.leftCols(group);
       Block forward = x, backward = x;
       kernels.panel_forward(random.panel, forward.data(), stride, scratch.data());
@@ -89,14 +94,15 @@ TEST_P(Kernels, PanelsSolveWithTheirTriangle) {
 std::string kernel_name(const testing::TestParamInfo<KernelCase>& info) {
   const char* const names[] = {"plain", "avx2", "avx512"};
   return std::string(names[static_cast<int>(std::get<1>(info.param))]) + "_" +
-         std::to_string(std::get<0>(info.param));
+         std::to_string(std::get<0>(info.param)) + (std::get<2>(info.param) ? "_padded" : "");
 }
 // A set that this processor lacks stands for the best one below it.
 INSTANTIATE_TEST_SUITE_P(Sets, Kernels,
                          testing::Combine(testing::Values(1, 2, 4, 8, 16),
                                           testing::Values(InstructionSet::kPlain,
                                                           InstructionSet::kAvx2,
-                                                          InstructionSet::kAvx512)),
+                                                          InstructionSet::kAvx512),
+                                          testing::Bool()),
                          kernel_name);
 
 }  // namespace

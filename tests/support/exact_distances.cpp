@@ -26,8 +26,8 @@ std::vector<double> read_npy(const std::string& path) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   constexpr std::size_t kHeader = 10;  // magic, version, length of the header's text
   if (bytes.size() < kHeader || bytes.compare(1, 5, "NUMPY") != 0) return {};
-  const std::size_t begin = kHeader + static_cast<unsigned char>(bytes[8]) +
-                            256U * static_cast<unsigned char>(bytes[9]);
+  const std::size_t begin =
+      kHeader + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
   if (bytes.size() < begin || bytes.substr(0, begin).find("'<f8'") == std::string::npos) return {};
   std::vector<double> values((bytes.size() - begin) / sizeof(double));
   std::memcpy(values.data(), bytes.data() + begin, values.size() * sizeof(double));

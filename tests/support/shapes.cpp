@@ -44,7 +44,8 @@ MeshPtr finish(Draft draft) {
 void append(Draft& draft, const Draft& other) {
   const Index first = draft.vertex_count();
   draft.positions.insert(draft.positions.end(), other.positions.begin(), other.positions.end());
-  for (const Face& f : other.faces) draft.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+  for (const Face& f : other.faces)
+    draft.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
 }
 
 Draft plane_grid(Index nx, Index ny, double width, double height) {
@@ -199,8 +200,7 @@ Draft folded_flat_torus(Index cells, double jitter, unsigned seed) {
       draft.add({fold(x), fold(y), 0});
     }
   }
-  add_cells(draft, cells, cells,
-            [=](Index i, Index j) { return (j % cells) * cells + i % cells; });
+  add_cells(draft, cells, cells, [=](Index i, Index j) { return (j % cells) * cells + i % cells; });
   return draft;
 }
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What a method decides about a mesh before there is a source.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/operators.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// Sums over some thousand edges or faces.
+constexpr double kRoundOff = 1e-12;
+
+class Setup : public testing::TestWithParam<ZooMesh> {
+ protected:
+  MeshPtr mesh = GetParam().mesh();
+  Intrinsic in = intrinsic_of(*mesh, false);
+};
+
+TEST_P(Setup, TakesTheTimeFromTheMeanEdge) {
+  const auto p = mesh->positions();
+  double sum = 0;
+  for (Index e = 0; e < in.clean.edges.edge_count(); ++e) {
+    sum += (p[in.clean.edges.low(e)] - p[in.clean.edges.high(e)]).norm();
+  }
+  const double mean = sum / in.clean.edges.edge_count();
+  HeatOptions options;
+  options.time_step.factor = 2.5;
+  EXPECT_NEAR(method_of(mesh, options).t(), 2.5 * mean * mean, kRoundOff * mean * mean);
+}
+
+TEST_P(Setup, TakesTheTimeAsGiven) {
+  HeatOptions options;
+  options.time_step = {TimeRule::kAbsolute, 1, 0.0123};
+  EXPECT_EQ(method_of(mesh, options).t(), 0.0123);
+}
+
+TEST_P(Setup, FlipsEdgesWhereNeededUnlessToldNotTo) {
+  const bool needed = count_non_delaunay(in.mesh) > 0;
+  const HeatMethod chosen = method_of(mesh);
+  EXPECT_EQ(chosen.flips() > 0, needed);
+  EXPECT_EQ(chosen.laplacian(), needed ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan);
+  HeatOptions options;
+  options.laplacian = LaplacianKind::kCotan;
+  EXPECT_EQ(method_of(mesh, options).flips(), 0);
+}
+
+TEST_P(Setup, WarnsWhereFacesWereLeftOutOrLengthened) {
+  const bool odd = in.clean.repeated_corner + in.clean.duplicate > 0 || in.mesh.mollified_by > 0;
+  EXPECT_EQ(!method_of(mesh).warnings().empty(), odd);
+}
+
+INSTANTIATE_TEST_SUITE_P(Zoo, Setup, testing::ValuesIn(zoo()), zoo_name);
+
+class SetupOfRegularMeshes : public Setup {};
+
+TEST_P(SetupOfRegularMeshes, TakesTheTimeFromTheMeanFaceArea) {
+  const auto p = mesh->positions();
+  double area = 0;
+  for (const auto& [a, b, c] : mesh->faces()) area += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+  HeatOptions options;
+  options.time_step = {TimeRule::kMeanFaceArea, 3, 0};
+  const double expected = 3 * area / mesh->face_count();
+  EXPECT_NEAR(method_of(mesh, options).t(), expected, 1e-9 * expected);  // area from lengths
+}
+
+INSTANTIATE_TEST_SUITE_P(Zoo, SetupOfRegularMeshes, testing::ValuesIn(zoo(kRegular)), zoo_name);
+
+TEST(SetupMemory, IsReportedWhereThereIsAFactor) {
+  const MeshPtr mesh = finish(sphere(3));
+  for (const std::string& name : direct_backends()) {
+    EXPECT_GT(method_of(mesh, with_backend(name)).factor_mb(), 0) << name;
+  }
+  for (const std::string& name : iterative_backends()) {
+    EXPECT_EQ(method_of(mesh, with_backend(name)).factor_mb(), 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test
