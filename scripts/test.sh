@@ -32,4 +32,5 @@ printf 'subdirs("%s")\n' "${suites[@]/#/$root/build/}" >"$root/build/all/CTestTe
 
 say "running all tests"
 for line in "${skipped[@]}"; do printf 'not run: %s\n' "$line"; done
-exec ctest --test-dir "$root/build/all" --output-on-failure --no-tests=error -j "$(job_count)" "$@"
+ctest --test-dir "$root/build/all" --output-on-failure --no-tests=error -j "$(job_count)" "$@" |
+  { grep --line-buffered -vE '^ +Start +[0-9]+: ' || true; }

@@ -8,9 +8,9 @@ namespace geotherm {
 Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
   constexpr std::size_t kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
   if (faces.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "the mesh has no faces (" + std::to_string(positions.size()) +
-                     " vertices); distances need a surface of triangles"};
+    return Error{ErrorCode::kBadInput, "the mesh has no faces (" +
+                                           std::to_string(positions.size()) +
+                                           " vertices); distances need a surface of triangles"};
   }
   if (positions.size() > kMost || faces.size() > kMost) {
     return Error{ErrorCode::kBadInput, "the mesh has " + std::to_string(positions.size()) +
