@@ -2,6 +2,7 @@
 #include "app/source_spec.h"
 
 #include <cmath>
+#include <span>
 
 #include "app/text.h"
 
