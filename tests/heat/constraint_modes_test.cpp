@@ -35,7 +35,7 @@ class ConstraintModes : public testing::TestWithParam<Case> {
   double tolerance = iterative ? kIterative : kDirect;
   std::vector<Index> sources = {3, mesh->vertex_count() / 2, mesh->vertex_count() - 4};
 
-  DistanceResult in(HeatOptions options) const {
+  DistanceResult in(const HeatOptions& options) const {
     return solve(mesh, sources, with_backend(backend, options));
   }
 };
@@ -89,6 +89,7 @@ class PinnedSources : public testing::TestWithParam<Index> {};
 TEST_P(PinnedSources, AreTheSameThroughADenseSystemAndThroughHeldRows) {
   const MeshPtr mesh = finish(torus(48, 24, 0.4));
   std::vector<Index> sources;
+  sources.reserve(static_cast<std::size_t>(GetParam()));
   for (Index k = 0; k < GetParam(); ++k) sources.push_back(k * 7);
   for (const std::string& direct : direct_backends()) {
     const auto d = solve(mesh, sources, with_backend(direct)).distances;

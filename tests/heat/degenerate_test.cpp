@@ -112,7 +112,7 @@ TEST(MeshWithoutArea, IsOneClearError) {
   const auto repeated = HeatMethod::build(finish(line));
   ASSERT_FALSE(repeated);
   EXPECT_EQ(repeated.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(repeated.error().message.find("2"), std::string::npos) << repeated.error().message;
+  EXPECT_NE(repeated.error().message.find('2'), std::string::npos) << repeated.error().message;
 }
 
 }  // namespace

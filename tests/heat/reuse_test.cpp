@@ -138,6 +138,7 @@ TEST_P(Blocks, ConcurrentQueriesGiveTheSameBits) {
   std::vector<std::vector<double>> answers(3);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(answers.size());
     for (auto& answer : answers) {
       threads.emplace_back([&] {
         auto result = method.solve(all[2]);

@@ -134,6 +134,7 @@ TEST_P(Conformance, ConcurrentSolvesGiveTheSameBits) {
   std::vector<Block> answers(4, b);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(answers.size());
     for (Block& answer : answers) {
       threads.emplace_back([&factor, &answer] {
         if (!factor->solve(answer)) answer.setZero();
@@ -150,6 +151,7 @@ TEST_P(Conformance, ConcurrentFactorisationsOfOneAnalysisAgree) {
   std::vector<Block> answers(3, b);
   {
     std::vector<std::jthread> threads;
+    threads.reserve(answers.size());
     for (Block& answer : answers) {
       threads.emplace_back([this, &answer] {
         const auto factor = surface.analysis->factorize(heat(), 1);
