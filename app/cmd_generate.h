@@ -3,13 +3,10 @@
 
 #include <string>
 
+#include "app/cli_app.h"
 #include "app/command_output.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-
-namespace CLI {
-class App;
-}
 
 namespace geotherm::app {
 

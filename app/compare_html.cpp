@@ -121,11 +121,11 @@ std::string chart(std::span<const CompareRow> rows) {
   std::string out = "<svg viewBox=\"0 0 900 " + number(height) + "\" role=img>\n";
   for (int decade = scale.first(); decade <= scale.last(); ++decade) {
     const std::string x = number(scale.at_decade(decade));
-    out += "<line class=grid x1=" + x + " x2=" + x + " y1=18 y2=" + number(height) +
-           " /><text class=soft text-anchor=middle x=" + x + " y=12>" +
-           (decade < 0 ? significant(std::pow(10.0, decade))
-                       : grouped(std::llround(std::pow(10.0, decade)))) +
-           " ms</text>\n";
+    const double ms = std::pow(10.0, decade);
+    out.append("<line class=grid x1=").append(x).append(" x2=").append(x);
+    out.append(" y1=18 y2=").append(number(height)).append(" /><text class=soft");
+    out.append(" text-anchor=middle x=").append(x).append(" y=12>");
+    out.append(decade < 0 ? significant(ms) : grouped(std::llround(ms))).append(" ms</text>\n");
   }
   double y = kTop;
   for (const CompareRow& row : rows) {

@@ -184,6 +184,7 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
   }
   // The reference first: only its answers are kept.
   std::vector<CompareRow*> order;
+  order.reserve(rows.size());
   for (CompareRow& row : rows) order.push_back(&row);
   std::stable_partition(order.begin(), order.end(),
                         [&task](const CompareRow* row) { return row->backend == task.reference; });

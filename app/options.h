@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "app/cli_app.h"
 #include "app/source_spec.h"
 #include "solver/core/result.h"
 #include "solver/heat/heat_options.h"
-
-namespace CLI {
-class App;
-}
 
 namespace geotherm::app {
 

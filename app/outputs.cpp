@@ -82,7 +82,7 @@ bool Outputs::uses_stdout() const {
 }
 
 Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
-  const Result<void> done = write();
+  Result<void> done = write();
   for (File& file : files_) {
     if (done && file.path == path) file.written = true;
     if (!done && file.written && file.is_new) ::unlink(file.path.c_str());

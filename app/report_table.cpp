@@ -35,7 +35,7 @@ std::string time_in_words(const HeatMethod& method, const MeshReport& mesh) {
 }
 
 std::string laplacian_in_words(const HeatMethod& method) {
-  const std::string name = to_text(method.laplacian());
+  std::string name = to_text(method.laplacian());
   if (method.laplacian() == LaplacianKind::kCotan) return name;
   return name + ", " + counted(method.flips(), "edge", "edges") + " flipped";
 }
@@ -46,6 +46,7 @@ std::string sources_in_words(const SourceSet& sources) {
   constexpr std::size_t kShown = 8;
   if (!vertices.empty() && vertices.size() <= kShown) {
     std::vector<std::string> ids;
+    ids.reserve(vertices.size());
     for (const Index v : vertices) ids.push_back(std::to_string(v));
     text = (ids.size() == 1 ? "vertex " : "vertices ") + joined(ids);
   }

@@ -34,7 +34,7 @@ Result<SourceSpec> parse_words(const std::vector<std::string_view>& words) {
                    "numbers x y z"};
 }
 
-Result<std::vector<Source>> as_curve(const std::string& shown, std::vector<Source> sources,
+Result<std::vector<Source>> as_curve(const std::string& shown, const std::vector<Source>& sources,
                                      const std::vector<int>& lines) {
   VertexCurve curve;
   curve.lines = lines;
@@ -82,7 +82,7 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
                  shown + ": holds no source; write one vertex id or point a line"};
   }
   if (!curve) return sources;
-  return as_curve(shown, std::move(sources), lines);
+  return as_curve(shown, sources, lines);
 }
 
 }  // namespace geotherm::app

@@ -49,6 +49,7 @@ ProgramRun run_program(const std::string& folder, const std::vector<std::string>
   std::vector<std::string> words = {GEOTHERM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   const pid_t child = ::fork();

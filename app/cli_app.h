@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace CLI {  // NOLINT(readability-identifier-naming): not ours
+class App;
+}
