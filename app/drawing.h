@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_settings.h"
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+
+namespace geotherm::app {
+
+/// A finished picture: rows from the top, four bytes a pixel, alpha not multiplied in.
+struct DrawnPicture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+/// A device on which pictures can be drawn, for `geotherm devices`.
+struct DrawingDevice {
+  std::string name, kind, driver, api;
+  double memory_mb = 0;
+  bool software = false, chosen = false;
+  std::vector<std::string> lacks;  ///< why it cannot be used; empty: it can
+};
+
+/// What draws: the program's one link to the engine, which this folder does not know. main() hands
+/// in the real one.
+class Drawing {
+ public:
+  virtual ~Drawing() = default;
+
+  /// Errors: kNotAvailable.
+  virtual Result<std::vector<DrawingDevice>> devices() = 0;
+
+  /// Opens the device that the settings name. Called before the solve, so that a machine that
+  /// cannot draw says so at once. Errors: kNotAvailable, kOutOfMemory.
+  virtual Result<DrawingDevice> open(const PictureSettings& settings) = 0;
+
+  /// Draws `data` as the settings say, once for each camera turn: `frame(i, picture)` is called for
+  /// i = 0 .. max(turntable, 1) - 1 and ends the work by returning an error. Precondition: open().
+  using TakeFrame = std::function<Result<void>(int, const DrawnPicture&)>;
+  virtual Result<void> draw(const PictureData& data, const PictureSettings& settings,
+                            const TakeFrame& frame) = 0;
+};
+
+}  // namespace geotherm::app

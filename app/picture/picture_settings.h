@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace geotherm::app {
+
+/// The report's seven views, in the order of their keys 1 to 7.
+enum class View {
+  kWireframe,
+  kFlat,
+  kSmooth,
+  kSources,
+  kHeatGradient,   ///< X in black
+  kGradientError,  ///< X in black, grad phi in blue, scaled by the angle between both
+  kContours,
+};
+
+enum class PictureLight { kThreePoint, kHeadlight, kNone };
+enum class PictureBackground { kLight, kDark, kTransparent };
+enum class PictureFit { kTight, kSphere };
+
+struct CameraSettings {
+  double azimuth = 30, elevation = 20;  ///< degrees
+  double zoom = 1;
+  double pan_right = 0, pan_up = 0;  ///< in picture heights
+  bool orthographic = false;
+  PictureFit fit = PictureFit::kTight;
+
+  bool operator==(const CameraSettings&) const = default;
+};
+
+/// All that decides how a solved model is shown. Lengths in model units unless said otherwise.
+struct PictureSettings {
+  View view = View::kContours;
+  int width = 1280, height = 720;
+  int samples = 4;  ///< 1 or 4 a pixel
+  std::string colour_map = "red-blue";
+  bool reverse = false;
+  std::optional<double> range_min, range_max;  ///< distances at the map's ends
+  std::optional<double> line_spacing;          ///< 0: no lines; absent: a round number that suits
+  PictureLight light = PictureLight::kThreePoint;
+  PictureBackground background = PictureBackground::kLight;
+  bool bar = true, caption = true, markers = true;
+  CameraSettings camera;
+  int turntable = 0;  ///< frames of one turn; 0: one picture
+  std::string device;  ///< part of its name; empty: the best
+
+  bool operator==(const PictureSettings&) const = default;
+};
+
+}  // namespace geotherm::app

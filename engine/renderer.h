@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "engine/device.h"
+#include "engine/overlay/overlay.h"
+#include "engine/scene/colour_map.h"
+#include "engine/scene/scene.h"
+#include "engine/target.h"
+#include "solver/core/result.h"
+
+namespace geotherm::engine {
+
+/// Draws one model. Geometry is uploaded once; values, colours, arrows and markers are replaced
+/// without touching it. Every call may fail with kOutOfMemory or kNumericalFailure (device lost);
+/// after a failure what was there before is still there.
+class Renderer {
+ public:
+  /// samples: 1 or 4 a pixel.
+  static Result<Renderer> build(const Device& device, int samples = 4);
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// Replaces the model; values, arrows and markers are gone. Cost: normals and creases of all
+  /// faces, then the upload.
+  Result<void> set_surface(const SurfaceGeometry& geometry);
+  /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
+  Result<void> set_values(std::span<const float> values);
+  Result<void> set_colours(const ColourTable& table);
+  /// One vector a face, each field empty or F long; a zero vector draws no arrow. Lengths are the
+  /// arrows' share of full size, 0 to 1.
+  Result<void> set_arrows(std::span<const glm::vec3> primary, std::span<const glm::vec3> secondary);
+  Result<void> set_markers(std::span<const Marker> markers);
+
+  Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {});
+
+  int samples() const;
+
+ private:
+  struct State;
+  explicit Renderer(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace geotherm::engine

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <span>
+
+#include "engine/scene/camera.h"
+
+namespace geotherm::engine {
+
+/// Value of a vertex that has none; its faces are drawn in neutral grey.
+inline constexpr float kNoValue = -std::numeric_limits<float>::max();
+
+/// A triangle mesh in scene space: within radius 1 of the origin, finite.
+struct SurfaceGeometry {
+  std::span<const glm::vec3> positions;                ///< V
+  std::span<const std::array<std::uint32_t, 3>> faces;  ///< F, every corner in [0, V)
+};
+
+/// A source: a point (both ends the same) or a straight piece of a curve.
+struct Marker {
+  glm::vec3 from, to;  ///< scene space
+};
+
+enum class Light {
+  kHeadlight,   ///< one lamp at the eye
+  kThreePoint,  ///< key, fill and rim light, fixed to the eye
+  kNone,        ///< colours as they are
+};
+
+enum class Paint {
+  kPlain,  ///< one colour
+  kMap,    ///< the colour map at each vertex' value
+};
+
+/// How the surface is drawn; what is off costs nothing.
+struct SurfaceStyle {
+  bool visible = true;
+  bool smooth = true;  ///< shaded with vertex normals, split where faces meet sharply
+  Paint paint = Paint::kPlain;
+  glm::vec3 colour{0.80F, 0.80F, 0.78F};   ///< kPlain, sRGB
+  float range_min = 0, range_max = 1;      ///< values at the ends of the colour map
+  float line_spacing = 0;                  ///< isolines at its multiples; 0: none
+  float line_width = 1.4F;                 ///< pixels
+  glm::vec3 line_colour{0.05F};
+  bool wire = false;                       ///< edges of all triangles
+  float wire_width = 1.0F;                 ///< pixels
+  glm::vec3 wire_colour{0.08F, 0.09F, 0.11F};
+};
+
+struct ArrowStyle {
+  bool primary = false;    ///< the first field, in black
+  bool secondary = false;  ///< the second one, in blue
+  float spacing = 26;      ///< pixels between arrows, about
+  glm::vec3 primary_colour{0.04F}, secondary_colour{0.05F, 0.25F, 0.85F};
+};
+
+struct MarkerStyle {
+  bool visible = true;
+  float radius = 5;  ///< pixels
+  glm::vec3 colour{1, 1, 1}, rim{0.05F};
+};
+
+/// Everything about a picture but the data that was uploaded.
+struct Scene {
+  Camera camera;
+  Light light = Light::kThreePoint;
+  glm::vec4 background{1, 1, 1, 1};  ///< sRGB and alpha; what has alpha 0 stays transparent
+  SurfaceStyle surface;
+  ArrowStyle arrows;
+  MarkerStyle markers;
+  float pixel_scale = 1;  ///< multiplies every width, radius and spacing in pixels
+};
+
+}  // namespace geotherm::engine
