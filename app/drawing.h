@@ -33,15 +33,19 @@ class Drawing {
  public:
   virtual ~Drawing() = default;
 
-  /// Errors: kNotAvailable.
+  /// Names of the colour maps, the default first. Needs no device.
+  virtual std::vector<std::string> colour_maps() const = 0;
+
+  /// All devices, in the order of preference. Errors: kNoDevice (no loader, no device).
   virtual Result<std::vector<DrawingDevice>> devices() = 0;
 
   /// Opens the device that the settings name. Called before the solve, so that a machine that
-  /// cannot draw says so at once. Errors: kNotAvailable, kOutOfMemory.
+  /// cannot draw says so at once. Errors: kNoDevice, kOutOfMemory.
   virtual Result<DrawingDevice> open(const PictureSettings& settings) = 0;
 
   /// Draws `data` as the settings say, once for each camera turn: `frame(i, picture)` is called for
   /// i = 0 .. max(turntable, 1) - 1 and ends the work by returning an error. Precondition: open().
+  /// Errors: kNoDevice (it was lost), kOutOfMemory, those of `frame`.
   using TakeFrame = std::function<Result<void>(int, const DrawnPicture&)>;
   virtual Result<void> draw(const PictureData& data, const PictureSettings& settings,
                             const TakeFrame& frame) = 0;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "app/option_value.h"
 #include "app/text.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
@@ -12,16 +13,6 @@ namespace geotherm::app {
 namespace {
 
 constexpr int kMostThreads = 1024;
-
-/// Stores the value of a parsed option, or says which option was wrong.
-template <class Value>
-Result<void> take(Result<Value> parsed, std::string_view option, Value& into) {
-  if (!parsed) {
-    return Error{parsed.error().code, std::string(option) + ": " + parsed.error().message};
-  }
-  into = *std::move(parsed);
-  return {};
-}
 
 Result<double> time_factor_in(const std::string& text) {
   const auto factor = number_in<double>(text);
@@ -119,16 +110,10 @@ Result<HeatOptions> heat_options(const HeatArguments& a) {
   HeatOptions options;
   std::string method;
   double factor = 1;
-  const auto check = [](std::initializer_list<Result<void>> all) -> Result<void> {
-    for (const Result<void>& each : all) {
-      if (!each) return each;
-    }
-    return {};
-  };
   if (auto taken = take(time_factor_in(a.time_factor), "--time-factor", factor); !taken) {
     return taken.error();
   }
-  const Result<void> all = check({
+  const Result<void> all = first_failure({
       take(method_in(a.method), "--method", method),
       take(backend_in(a.backend), "--backend", options.backend),
       take(parse_time_step(a.time_step, factor), "--time-step", options.time_step),

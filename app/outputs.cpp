@@ -42,35 +42,47 @@ Result<void> check_place(const std::string& path) {
                                 std::generic_category().message(errno) + "; choose another place");
 }
 
-bool same_file(const std::string& a, const std::string& b) {
+std::string resolved_path(const std::string& path) {
   std::error_code unknown;
-  if (fs::equivalent(a, b, unknown)) return true;
-  const auto resolved = [&unknown](const std::string& path) {
-    return fs::weakly_canonical(fs::absolute(path, unknown), unknown);
-  };
-  return resolved(a) == resolved(b);
+  return fs::weakly_canonical(fs::absolute(path, unknown), unknown).string();
+}
+
+/// `resolved`: of both. Hard links are the same file, too.
+bool same_file(const std::string& a, const std::string& resolved_a, const std::string& b,
+               const std::string& resolved_b) {
+  std::error_code unknown;
+  return resolved_a == resolved_b || fs::equivalent(a, b, unknown);
 }
 
 }  // namespace
 
 Result<void> Outputs::expect(const std::string& path, std::string_view option,
                              const std::string& model_path) {
+  std::error_code unknown;
+  const bool is_new = path != "-" && !fs::exists(path, unknown);
+  const std::string resolved = path == "-" ? path : resolved_path(path);
+  const auto is_this = [&](const File& other) {
+    // What does not exist yet has no second name, and asking the system about each pair of a
+    // thousand frames takes its time.
+    if (is_new || other.is_new) return resolved == other.resolved;
+    return path == "-" || other.path == "-"
+               ? path == other.path
+               : same_file(path, resolved, other.path, other.resolved);
+  };
   for (const File& other : files_) {
-    if (path == "-" ? other.path != "-" : other.path == "-" || !same_file(path, other.path))
-      continue;
+    if (!is_this(other)) continue;
     return Error{ErrorCode::kBadInput,
                  std::string(option) + ": " + (path == "-" ? "standard output" : one_line(path)) +
                      " is asked for twice; give each output a place of its own"};
   }
   if (path != "-") {
     if (auto place = check_place(path); !place) return place;
-    if (!model_path.empty() && same_file(path, model_path)) {
+    if (!model_path.empty() && same_file(path, resolved, model_path, resolved_path(model_path))) {
       return Error{ErrorCode::kBadInput, std::string(option) + ": " + one_line(path) +
                                              " is the model itself; give another name"};
     }
   }
-  std::error_code unknown;
-  files_.push_back({path, path != "-" && !fs::exists(path, unknown)});
+  files_.push_back({path, resolved, is_new});
   return {};
 }
 
@@ -83,11 +95,17 @@ bool Outputs::uses_stdout() const {
 
 Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
   Result<void> done = write();
+  if (!done) remove_written();
   for (File& file : files_) {
     if (done && file.path == path) file.written = true;
-    if (!done && file.written && file.is_new) ::unlink(file.path.c_str());
   }
   return done;
+}
+
+void Outputs::remove_written() {
+  for (const File& file : files_) {
+    if (file.written && file.is_new) ::unlink(file.path.c_str());
+  }
 }
 
 }  // namespace geotherm::app

@@ -26,9 +26,13 @@ class Outputs {
   /// Runs `write`, which writes `path`.
   Result<void> write(const std::string& path, const std::function<Result<void>()>& write);
 
+  /// Removes the files that were made so far, for a command whose work failed between two of them.
+  void remove_written();
+
  private:
   struct File {
     std::string path;
+    std::string resolved;  ///< the same for all names of a file, but for hard links
     bool is_new;
     bool written = false;
   };

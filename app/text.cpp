@@ -5,17 +5,14 @@
 #include <cmath>
 
 namespace geotherm::app {
-namespace {
 
-std::string with_decimals(double value, int decimals) {
+std::string fixed(double value, int decimals) {
   std::array<char, 400> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
                                  std::chars_format::fixed, decimals)
                        .ptr;
   return {buffer.data(), end};
 }
-
-}  // namespace
 
 std::string grouped(std::int64_t number) {
   std::string digits = std::to_string(number);
@@ -35,7 +32,7 @@ std::string significant(double value, int digits) {
 std::string milliseconds(double value) {
   if (!std::isfinite(value)) return significant(value);
   if (value == 0 || value >= 99.95) return grouped(std::llround(value));
-  return with_decimals(value, value < 0.9995 ? 3 : value < 9.995 ? 2 : 1);
+  return fixed(value, value < 0.9995 ? 3 : value < 9.995 ? 2 : 1);
 }
 
 std::string counted(std::int64_t number, std::string_view one, std::string_view many) {

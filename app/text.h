@@ -17,6 +17,9 @@ std::string grouped(std::int64_t number);
 /// 4 significant digits unless said otherwise: "0.01235", "1.5", "3.2e-17", "inf".
 std::string significant(double value, int digits = 4);
 
+/// "1.50" for 2 decimals.
+std::string fixed(double value, int decimals);
+
 /// Three digits where they mean something: "0.412", "8.31", "34.5", "2,330".
 std::string milliseconds(double value);
 

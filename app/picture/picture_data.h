@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "solver/core/types.h"
+#include "solver/heat/distance_result.h"
+#include "solver/mesh/surface_point.h"
+#include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm::app {
 
@@ -24,8 +27,9 @@ struct PictureData {
   Vec3 centre = Vec3::Zero();  ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
-  std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue
-  double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
+  std::vector<float> values;   ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
+  double value_unit = 1;       ///< model units; the largest distance, 1 if there is none above 0
+  double largest_value = 0;    ///< of `values`: 1, or 0 when no distance is above 0
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error
@@ -37,5 +41,20 @@ struct PictureData {
   std::string caption;      ///< model, faces, t, backend
   std::string value_title;  ///< over the colour bar
 };
+
+/// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
+/// that belong to no face are put on one that does.
+PictureData picture_of(const TriangleMesh& mesh);
+
+/// Adds where distance is 0. Precondition: the sources lie on the mesh.
+void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
+
+/// Adds distances; those that are not finite have no value. distances: V.
+void add_distances(PictureData& data, std::span<const double> distances);
+
+/// Adds both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
+/// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where
+/// a is the angle between both in degrees. 0 where either is missing. Cost: O(F).
+void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result);
 
 }  // namespace geotherm::app

@@ -18,6 +18,7 @@ enum class ErrorCode {
   kBudgetEnded,       ///< an iteration budget ended before the tolerance was reached
   kOutOfMemory,       ///< the message says how much was asked for
   kCancelled,         ///< the caller asked to stop
+  kNoDevice,          ///< no device that can draw, or it was lost
 };
 
 /// An expected failure: a code for programs, one sentence with the numbers and the cure for people.

@@ -45,7 +45,8 @@ struct DistanceResult {
   std::vector<std::string> warnings;  ///< one sentence each
 
   /// Only when asked for (QueryOptions::fields).
-  std::vector<double> heat;  ///< V: u, scaled so that its largest value is 1
+  std::vector<double> heat;      ///< V: u, scaled so that its largest value is 1
+  std::vector<double> log_heat;  ///< V: ln of that, right where `heat` underflows; -inf: u <= 0
 };
 
 }  // namespace geotherm

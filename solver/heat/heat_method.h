@@ -18,7 +18,7 @@ namespace geotherm {
 /// What a query computes beside the distances.
 struct QueryOptions {
   bool quality = true;  ///< the quality figures: two matrix products and a pass over the faces
-  bool fields = false;  ///< u (DistanceResult::heat)
+  bool fields = false;  ///< u (DistanceResult::heat and log_heat)
 };
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013): solve

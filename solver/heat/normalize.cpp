@@ -73,6 +73,20 @@ std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& 
   return out;
 }
 
+std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatField& heat,
+                                           Eigen::Index column) {
+  std::vector<double> out(static_cast<std::size_t>(surface.mesh->vertex_count()), -kUnreached);
+  const double largest = std::log(heat.u.col(column).cwiseAbs().maxCoeff());
+  const double step = std::log(heat.step);
+  for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
+    if (!(heat.u(i, column) > 0)) continue;
+    const int level =
+        heat.level.empty() ? 0 : heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)];
+    out[surface.vertex_of_row[i]] = std::log(heat.u(i, column)) + level * step - largest;
+  }
+  return out;
+}
+
 void add_quality_warnings(DistanceResult& result) {
   const Quality& q = result.quality;
   if (q.zero_gradient_faces > 0) {

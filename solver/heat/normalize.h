@@ -22,6 +22,10 @@ Result<void> normalize(const Surface& surface, std::span<double> phi, const Sour
 std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
                                        Eigen::Index column);
 
+/// The natural logarithm of the same, of any level; -inf where u is 0 or below.
+std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatField& heat,
+                                           Eigen::Index column);
+
 /// Appends what a person should know about these quality figures.
 void add_quality_warnings(DistanceResult& result);
 

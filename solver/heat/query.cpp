@@ -90,7 +90,10 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
       inspect_faces(*p.surface.operators, field, phi[c], column, anchors[c], result.quality);
       add_quality_warnings(result);
     }
-    if (query.fields) result.heat = heat_in_file_order(p.surface, heat->field, column);
+    if (query.fields) {
+      result.heat = heat_in_file_order(p.surface, heat->field, column);
+      result.log_heat = log_heat_in_file_order(p.surface, heat->field, column);
+    }
   }
   p.pool.give(std::move(heat->field.u));
   p.pool.give(std::move(answer->phi));

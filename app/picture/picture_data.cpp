@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "app/picture/picture_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/picture/heat_direction.h"
+
+namespace geotherm::app {
+namespace {
+
+PictureData::Vector to_float(const Vec3& v) {
+  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+/// The map from model to scene; in steps that stay within the range of doubles whatever it is.
+class SceneSpace {
+ public:
+  explicit SceneSpace(const TriangleMesh& mesh) {
+    Vec3 low = Vec3::Constant(kUnreached);
+    Vec3 high = -low;
+    for (const Face& face : mesh.faces()) {
+      for (const Index v : face) {
+        low = low.cwiseMin(mesh.positions()[v]);
+        high = high.cwiseMax(mesh.positions()[v]);
+      }
+    }
+    centre_ = 0.5 * low + 0.5 * high;
+    const double half = (0.5 * high - 0.5 * low).maxCoeff();
+    if (half > 0) box_ = half;
+    double radius = 0;
+    for (const Face& face : mesh.faces()) {
+      for (const Index v : face) radius = std::max(radius, in_box(mesh.positions()[v]).norm());
+    }
+    if (radius > 0) radius_ = radius;
+  }
+
+  /// How the data say it: the inverse map.
+  SceneSpace(const Vec3& centre, double model_per_scene) : centre_(centre), box_(model_per_scene) {}
+
+  PictureData::Vector of(const Vec3& p) const { return to_float(in_box(p) / radius_); }
+  const Vec3& centre() const { return centre_; }
+  double model_per_scene() const {
+    return std::min(box_ * radius_, std::numeric_limits<double>::max());
+  }
+
+ private:
+  Vec3 in_box(const Vec3& p) const { return (p - centre_) / box_; }
+
+  Vec3 centre_ = Vec3::Zero();
+  double box_ = 1;     ///< half of the box's longest side
+  double radius_ = 1;  ///< of the model in units of that
+};
+
+Vec3 place_of(const SurfacePoint& point, const TriangleMesh& mesh) {
+  if (point.is_vertex()) return mesh.positions()[point.vertex];
+  Vec3 place = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    place += point.weights[i] * mesh.positions()[mesh.faces()[point.face][i]];
+  }
+  return place;
+}
+
+/// Where an arrow has its full length.
+constexpr double kFullAngle = 90;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  constexpr double kDegrees = 180 / 3.14159265358979323846;
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+}
+
+}  // namespace
+
+PictureData picture_of(const TriangleMesh& mesh) {
+  PictureData data;
+  const SceneSpace scene(mesh);
+  data.centre = scene.centre();
+  data.model_per_scene = scene.model_per_scene();
+  const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
+  data.positions.assign(vertices, scene.of(mesh.positions()[mesh.faces()[0][0]]));
+  data.faces.reserve(static_cast<std::size_t>(mesh.face_count()));
+  for (const Face& face : mesh.faces()) {
+    for (const Index v : face) data.positions[v] = scene.of(mesh.positions()[v]);
+    data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
+                          static_cast<std::uint32_t>(face[2])});
+  }
+  return data;
+}
+
+void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {
+  const SceneSpace scene(data.centre, data.model_per_scene);
+  std::set<Index> on_curves;
+  for (const auto& [from, to] : sources.edges) {
+    data.sources.push_back(
+        {scene.of(mesh.positions()[from]), scene.of(mesh.positions()[to])});
+    on_curves.insert({from, to});
+  }
+  for (const SurfacePoint& point : sources.points) {
+    if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
+    const PictureData::Vector place = scene.of(place_of(point, mesh));
+    data.sources.push_back({place, place});
+  }
+}
+
+void add_distances(PictureData& data, std::span<const double> distances) {
+  double most = 0;
+  for (const double d : distances) {
+    if (std::isfinite(d)) most = std::max(most, d);
+  }
+  data.value_unit = most > 0 ? most : 1;
+  data.largest_value = most > 0 ? 1 : 0;
+  data.value_title = "distance (model units)";
+  data.values.clear();
+  data.values.reserve(distances.size());
+  for (const double d : distances) {
+    data.values.push_back(std::isfinite(d) ? static_cast<float>(d / data.value_unit)
+                                           : kNoPictureValue);
+  }
+}
+
+void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result) {
+  const std::vector<Vec3> heat = heat_directions(mesh, result.log_heat);
+  const std::vector<Vec3> distance = face_gradients(mesh, result.distances);
+  data.heat_directions.clear();
+  data.distance_gradients.clear();
+  for (std::size_t f = 0; f < heat.size(); ++f) {
+    const Vec3 direction = distance[f].stableNormalized();
+    const bool both = !heat[f].isZero(0) && !direction.isZero(0);
+    const double angle = both ? angle_between(heat[f], direction) : 0;
+    const double length = std::min(angle / kFullAngle, 1.0);
+    data.heat_directions.push_back(to_float(heat[f]));
+    data.distance_gradients.push_back(to_float(direction * length));
+  }
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "app/solve_figures.h"
+#include "app/source_spec.h"
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+
+namespace geotherm::app {
+
+/// Distances on a loaded model, and everything there is to say about them. What the library finds
+/// wrong with the mesh is a failure of the work, kBadFile, not of the command line. Errors: those of
+/// resolve_sources and HeatMethod, kCancelled.
+Result<SolveFigures> solve_model(Model model, const HeatOptions& options,
+                                 const std::vector<Source>& sources, const QueryOptions& query = {},
+                                 const Progress& progress = {});
+
+}  // namespace geotherm::app

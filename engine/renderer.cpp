@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "engine/renderer.h"
+
+#include <cassert>
+#include <cstring>
+
+#include "engine/scene/arrow_places.h"
+#include "engine/scene/draw_mesh.h"
+#include "engine/vulkan/frame_recorder.h"
+#include "engine/vulkan/vulkan_error.h"
+
+namespace geotherm::engine {
+
+struct Renderer::State {
+  std::shared_ptr<Device::State> device;
+  int samples;
+  FrameRecorder recorder;
+
+  // Of the model, on this side.
+  std::vector<glm::vec3> positions;
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<std::uint32_t> origin;  ///< DrawMesh::origin
+  std::vector<float> gathered;        ///< values by drawn vertex
+  std::optional<ArrowPlaces> places;  ///< made when arrows first come
+  std::vector<glm::vec3> primary, secondary;
+};
+
+Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+int Renderer::samples() const { return state_->samples; }
+
+Result<Renderer> Renderer::build(const Device& device, int samples) {
+  if (samples != 1 && samples != 4) {
+    return Error{ErrorCode::kBadInput,
+                 "there are 1 or 4 samples a pixel, not " + std::to_string(samples)};
+  }
+  return guarded("preparing to draw", [&]() -> Result<Renderer> {
+    return Renderer(std::unique_ptr<State>(
+        new State{device.state(), samples, FrameRecorder(device.state(), samples), {}, {}, {}, {},
+                  {}, {}, {}}));
+  });
+}
+
+Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
+  return guarded("loading the model", [&]() -> Result<void> {
+    DrawMesh mesh = build_draw_mesh(geometry);
+    std::vector<glm::vec3> positions(geometry.positions.begin(), geometry.positions.end());
+    std::vector<std::array<std::uint32_t, 3>> faces(geometry.faces.begin(), geometry.faces.end());
+    std::vector<float> gathered(mesh.vertices.size(), kNoValue);
+    state_->recorder.set_surface(mesh, gathered);  // the last that can fail
+    State& s = *state_;
+    s.positions = std::move(positions);
+    s.faces = std::move(faces);
+    s.origin = std::move(mesh.origin);
+    s.gathered = std::move(gathered);
+    s.places.reset();
+    s.primary.clear();
+    s.secondary.clear();
+    s.recorder.clear_markers();
+    return {};
+  });
+}
+
+Result<void> Renderer::set_values(std::span<const float> values) {
+  assert(values.size() == state_->positions.size());
+  return guarded("loading distances", [&]() -> Result<void> {
+    State& s = *state_;
+    for (std::size_t i = 0; i < s.origin.size(); ++i) s.gathered[i] = values[s.origin[i]];
+    s.recorder.set_values(s.gathered);
+    return {};
+  });
+}
+
+Result<void> Renderer::set_colours(const ColourTable& table) {
+  return guarded("loading colours", [&]() -> Result<void> {
+    state_->recorder.set_colours(table);
+    return {};
+  });
+}
+
+Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
+                                  std::span<const glm::vec3> secondary) {
+  assert(primary.empty() || primary.size() == state_->faces.size());
+  assert(secondary.empty() || secondary.size() == state_->faces.size());
+  return guarded("loading arrows", [&]() -> Result<void> {
+    State& s = *state_;
+    if (!s.places) s.places = ArrowPlaces({s.positions, s.faces});
+    s.primary.assign(primary.begin(), primary.end());
+    s.secondary.assign(secondary.begin(), secondary.end());
+    return {};
+  });
+}
+
+Result<void> Renderer::set_markers(std::span<const Marker> markers) {
+  return guarded("loading sources", [&]() -> Result<void> {
+    state_->recorder.set_markers(markers);
+    return {};
+  });
+}
+
+Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay& overlay) {
+  return guarded("drawing", [&]() -> Result<void> {
+    State& s = *state_;
+    ArrowSelection arrows;
+    if (s.places) {
+      arrows = select_arrows(*s.places, scene.camera, scene.arrows, scene.pixel_scale, s.primary,
+                             s.secondary);
+    }
+    TargetFrame frame;
+    s.recorder.prepare(arrows, overlay);
+    if (auto begun = target.begin(frame); !begun) return begun;
+    s.recorder.record(frame, target.extent(), scene);
+    return target.end(frame);
+  });
+}
+
+}  // namespace geotherm::engine

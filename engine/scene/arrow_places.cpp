@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/arrow_places.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace geotherm::engine {
+namespace {
+
+constexpr int kLastLevel = 34;  // kCoarsest / 2^17: below a millionth of the model's size
+
+/// 21 bits of each coordinate of a point of [-1, 1]^3, interleaved.
+std::uint64_t morton(const glm::vec3& p) {
+  const auto spread = [](float x) {
+    const float at = std::clamp((x + 1) * 0.5F, 0.0F, 1.0F) * 2097151.0F;
+    auto v = static_cast<std::uint64_t>(at);
+    v = (v | v << 32) & 0x1f00000000ffffULL;
+    v = (v | v << 16) & 0x1f0000ff0000ffULL;
+    v = (v | v << 8) & 0x100f00f00f00f00fULL;
+    v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+    return (v | v << 2) & 0x1249249249249249ULL;
+  };
+  return spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2;
+}
+
+/// The places taken so far on a grid, each cell a linked list.
+class Taken {
+ public:
+  Taken(float cell, std::size_t expected)
+      : cell_(cell), mask_(std::bit_ceil(2 * expected + 16) - 1), first_(mask_ + 1, -1) {}
+
+  void add(const ArrowPlaces::Place& place) {
+    const std::size_t slot = slot_of(key(place.centre));
+    entries_.push_back({place.centre, place.normal, first_[slot]});
+    first_[slot] = static_cast<int>(entries_.size()) - 1;
+  }
+
+  /// No place on the same side of the surface within one cell's width.
+  bool has_room(const ArrowPlaces::Place& place) const {
+    const glm::ivec3 centre = key(place.centre);
+    for (int i = 0; i < 27; ++i) {
+      const glm::ivec3 near = centre + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      for (int e = first_[slot_of(near)]; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
+        const Entry& entry = entries_[static_cast<std::size_t>(e)];
+        const glm::vec3 away = entry.centre - place.centre;
+        if (glm::dot(away, away) < cell_ * cell_ && glm::dot(entry.normal, place.normal) >= 0) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Entry {
+    glm::vec3 centre, normal;
+    int next;
+  };
+  glm::ivec3 key(const glm::vec3& p) const { return glm::ivec3(glm::floor(p / cell_)); }
+  std::size_t slot_of(const glm::ivec3& k) const {
+    const auto mix = static_cast<std::uint64_t>(static_cast<std::uint32_t>(k.x)) * 0x9e3779b1U ^
+                     static_cast<std::uint64_t>(static_cast<std::uint32_t>(k.y)) * 0x85ebca77U ^
+                     static_cast<std::uint64_t>(static_cast<std::uint32_t>(k.z)) * 0xc2b2ae3dU;
+    return (mix ^ mix >> 17) & mask_;
+  }
+
+  float cell_;
+  std::size_t mask_;
+  std::vector<int> first_;
+  std::vector<Entry> entries_;
+};
+
+float spacing_of(int level) {
+  return ArrowPlaces::kCoarsest * std::exp2(-0.5F * static_cast<float>(level));
+}
+
+struct Drafted {
+  ArrowPlaces::Place place;
+  std::uint64_t code;
+};
+
+std::vector<Drafted> draft_places(const SurfaceGeometry& geometry) {
+  std::vector<Drafted> drafts;
+  drafts.reserve(geometry.faces.size());
+  for (std::uint32_t f = 0; f < geometry.faces.size(); ++f) {
+    const auto& t = geometry.faces[f];
+    const glm::dvec3 a = geometry.positions[t[0]];
+    const glm::dvec3 b = geometry.positions[t[1]];
+    const glm::dvec3 c = geometry.positions[t[2]];
+    const glm::dvec3 area = 0.5 * glm::cross(b - a, c - a);
+    const double size = glm::length(area);
+    if (!(size > 0)) continue;
+    const glm::vec3 centre((a + b + c) / 3.0);
+    drafts.push_back({{centre, f, glm::vec3(area / size), static_cast<float>(std::sqrt(size)), 0},
+                      morton(centre)});
+  }
+  std::sort(drafts.begin(), drafts.end(), [](const Drafted& a, const Drafted& b) {
+    return a.code != b.code ? a.code < b.code : a.place.face < b.place.face;
+  });
+  return drafts;
+}
+
+}  // namespace
+
+ArrowPlaces::ArrowPlaces(const SurfaceGeometry& geometry) {
+  std::vector<Drafted> open = draft_places(geometry);
+  places_.reserve(open.size());
+  for (int level = 0; level <= kLastLevel && !open.empty(); ++level) {
+    const float spacing = spacing_of(level);
+    Taken taken(spacing, places_.size() * 4);
+    for (const Place& place : places_) taken.add(place);
+    // Candidates: a few a cell are enough, taken evenly from the Morton order.
+    const int bits = std::max(0, 63 - 3 * (level / 2 + 3));
+    std::vector<Drafted> rest;
+    rest.reserve(open.size());
+    std::uint64_t cell = ~std::uint64_t{0};
+    for (Drafted& draft : open) {
+      const bool candidate = draft.code >> bits != cell;
+      if (candidate) cell = draft.code >> bits;
+      if (candidate && taken.has_room(draft.place)) {
+        draft.place.spacing = spacing;
+        places_.push_back(draft.place);
+        taken.add(draft.place);
+      } else {
+        rest.push_back(draft);
+      }
+    }
+    open.swap(rest);
+  }
+  for (Drafted& left : open) {
+    left.place.spacing = spacing_of(kLastLevel + 1);
+    places_.push_back(left.place);
+  }
+}
+
+ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
+                             const ArrowStyle& style, float scale,
+                             std::span<const glm::vec3> primary,
+                             std::span<const glm::vec3> secondary) {
+  ArrowSelection selection;
+  const bool first = style.primary && !primary.empty();
+  const bool second = style.secondary && !secondary.empty();
+  if (!first && !second) return selection;
+  const float wanted = style.spacing * scale;
+  constexpr float kReach = 1.0F;  // every point is at most this far from the origin
+  const float nearest_depth =
+      std::max(-(camera.view * glm::vec4(0, 0, 0, 1)).z - kReach, 1e-4F);
+  for (const ArrowPlaces::Place& place : places.places()) {
+    if (place.spacing * camera.pixels_per_unit / (camera.orthographic ? 1.0F : nearest_depth) <
+        wanted) {
+      break;  // all that follow are closer together still
+    }
+    const float depth = -(camera.view * glm::vec4(place.centre, 1)).z;
+    if (depth <= 1e-4F) continue;
+    const float per_unit = camera.pixels_per_unit / (camera.orthographic ? 1.0F : depth);
+    if (place.spacing * per_unit < wanted) continue;
+    const glm::vec3 at = camera.project(place.centre);
+    const float margin = 4 * wanted;
+    if (at.x < -margin || at.y < -margin || at.x > camera.extent.x + margin ||
+        at.y > camera.extent.y + margin) {
+      continue;
+    }
+    const float length = std::max(0.92F * wanted / per_unit, 0.55F * place.face_size);
+    const auto add = [&](std::span<const glm::vec3> field, std::vector<ArrowInstance>& to) {
+      const glm::vec3 along = field[place.face] * length;
+      if (along == glm::vec3(0)) return;
+      const glm::vec3 tail = first && second ? place.centre : place.centre - 0.5F * along;
+      to.push_back({tail, along, place.normal});
+    };
+    if (first) add(primary, selection.primary);
+    if (second) add(secondary, selection.secondary);
+  }
+  return selection;
+}
+
+}  // namespace geotherm::engine

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace geotherm::engine {
+
+/// Where arrows may stand: all faces, ordered so that every prefix covers the surface evenly.
+///
+/// Level l keeps its places at least kCoarsest * 2^(-l/2) apart (on one side of the surface) and
+/// contains the levels before it, so that arrows stay where they are while one zooms in and others
+/// appear between them. Dart throwing over the levels; the last level is all remaining faces.
+class ArrowPlaces {
+ public:
+  static constexpr float kCoarsest = 1.0F;  ///< scene units
+
+  ArrowPlaces() = default;
+  explicit ArrowPlaces(const SurfaceGeometry& geometry);  ///< cost: O(F log F)
+
+  struct Place {
+    glm::vec3 centre;
+    std::uint32_t face;
+    glm::vec3 normal;  ///< unit
+    float face_size;   ///< square root of the face's area
+    float spacing;     ///< its neighbours of the same level are at least this far away
+  };
+  const std::vector<Place>& places() const { return places_; }
+
+ private:
+  std::vector<Place> places_;
+};
+
+/// An arrow to draw; lengths in scene units.
+struct ArrowInstance {
+  glm::vec3 tail, along, normal;
+};
+
+struct ArrowSelection {
+  std::vector<ArrowInstance> primary, secondary;
+};
+
+/// The arrows that this view has room for: those whose places are further apart than
+/// style.spacing * scale pixels where they stand, and that are inside the picture. Each is as long
+/// as the room between arrows allows (longer on faces that are larger than that), times the length
+/// of its vector. One field alone is centred on its places; two start from them.
+/// Cost: O(places up to the finest level that shows).
+ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
+                             const ArrowStyle& style, float scale,
+                             std::span<const glm::vec3> primary,
+                             std::span<const glm::vec3> secondary);
+
+}  // namespace geotherm::engine

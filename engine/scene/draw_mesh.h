@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace geotherm::engine {
+
+/// A mesh as the surface pipeline draws it: indexed triangles whose vertices are those of the model,
+/// copied where faces meet sharply (one normal each) and where edges are to be drawn (one label
+/// each).
+struct DrawMesh {
+  struct Vertex {
+    glm::vec3 position;
+    std::array<std::int16_t, 4> normal_and_label;  ///< times 32767; label -1, 0 or 1
+  };
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> origin;                  ///< the model's vertex of each
+  std::vector<std::array<std::uint32_t, 3>> faces;    ///< the model's faces, in their order
+};
+
+/// Faces that meet at more than this angle (degrees) get normals of their own.
+inline constexpr float kCreaseAngle = 40;
+
+/// Every corner's normal is the mean of the normals, weighted by area, of the faces at its vertex
+/// that meet its own face at less than kCreaseAngle, turned to its own face's side: neighbours may
+/// be oriented differently. Faces without area take any normal of their vertices.
+///
+/// The three corners of each face get labels -1, 0 and 1, which is how the shader knows how far it
+/// is from each edge: a vertex is copied when faces need it under several labels (on ordinary meshes
+/// there are about 1.5 copies of each). Cost: O(F).
+DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);
+
+}  // namespace geotherm::engine

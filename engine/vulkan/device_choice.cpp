@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "engine/vulkan/device_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "engine/vulkan/vulkan_error.h"
+
+namespace geotherm::engine {
+namespace {
+
+constexpr vk::Format kColour = vk::Format::eR8G8B8A8Unorm;
+constexpr vk::Format kDepth = vk::Format::eD32Sfloat;
+
+std::string kind_of(vk::PhysicalDeviceType type) {
+  switch (type) {
+    case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete GPU";
+    case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated GPU";
+    case vk::PhysicalDeviceType::eVirtualGpu: return "virtual GPU";
+    case vk::PhysicalDeviceType::eCpu: return "software";
+    default: return "other";
+  }
+}
+
+/// Smaller comes first.
+int rank_of(const DeviceInfo& info) {
+  const std::array kinds = {"discrete GPU", "integrated GPU", "virtual GPU", "software"};
+  const auto place = std::find(kinds.begin(), kinds.end(), info.kind);
+  return static_cast<int>(place - kinds.begin()) + (info.lacks.empty() ? 0 : 100);
+}
+
+std::uint64_t largest_heap(const vk::raii::PhysicalDevice& device) {
+  const auto memory = device.getMemoryProperties();
+  std::uint64_t most = 0;
+  for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+    const vk::MemoryHeap& heap = memory.memoryHeaps[i];
+    if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal) {
+      most = std::max<std::uint64_t>(most, heap.size);
+    }
+  }
+  return most;
+}
+
+bool can(const vk::raii::PhysicalDevice& device, vk::Format format, vk::FormatFeatureFlags use) {
+  return (device.getFormatProperties(format).optimalTilingFeatures & use) == use;
+}
+
+void find_lacks(Candidate& candidate) {
+  const vk::raii::PhysicalDevice& device = candidate.device;
+  std::vector<std::string>& lacks = candidate.info.lacks;
+  const auto families = device.getQueueFamilyProperties();
+  const auto draws = std::find_if(families.begin(), families.end(), [](const auto& family) {
+    return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
+  });
+  if (draws == families.end()) lacks.emplace_back("no queue that draws");
+  candidate.queue_family = static_cast<std::uint32_t>(draws - families.begin());
+
+  const auto limits = device.getProperties().limits;
+  const auto both = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
+  if (!(both & vk::SampleCountFlagBits::e4)) lacks.emplace_back("no 4 samples a pixel");
+  using Use = vk::FormatFeatureFlagBits;
+  if (!can(device, kColour, Use::eColorAttachment | Use::eColorAttachmentBlend)) {
+    lacks.emplace_back("no RGBA8 pictures");
+  }
+  if (!can(device, kDepth, Use::eDepthStencilAttachment)) {
+    lacks.emplace_back("no 32-bit depth");
+  }
+  if (candidate.info.api_major == 1 && candidate.info.api_minor < 3) {
+    lacks.push_back("Vulkan 1." + std::to_string(candidate.info.api_minor) + " where 1.3 is needed");
+    return;  // what follows may only be asked of 1.3
+  }
+  const auto features =
+      device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
+  const auto& v13 = features.get<vk::PhysicalDeviceVulkan13Features>();
+  if (!v13.dynamicRendering) lacks.emplace_back("no dynamic rendering");
+  if (!v13.synchronization2) lacks.emplace_back("no synchronization2");
+}
+
+Candidate examine(vk::raii::PhysicalDevice device) {
+  const auto properties =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  const vk::PhysicalDeviceProperties& base = properties.get<vk::PhysicalDeviceProperties2>().properties;
+  const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
+  Candidate candidate{std::move(device), {}, 0};
+  DeviceInfo& info = candidate.info;
+  info.name = base.deviceName.data();
+  info.kind = kind_of(base.deviceType);
+  info.software = base.deviceType == vk::PhysicalDeviceType::eCpu;
+  if (base.apiVersion >= VK_API_VERSION_1_2) {
+    info.driver = std::string(driver.driverName.data());
+    if (driver.driverInfo[0] != '\0') info.driver += " " + std::string(driver.driverInfo.data());
+  }
+  info.api_major = VK_API_VERSION_MAJOR(base.apiVersion);
+  info.api_minor = VK_API_VERSION_MINOR(base.apiVersion);
+  info.api_patch = VK_API_VERSION_PATCH(base.apiVersion);
+  info.memory = largest_heap(candidate.device);
+  find_lacks(candidate);
+  return candidate;
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// "llvmpipe (software); Old GPU (discrete GPU; refused: no dynamic rendering)".
+std::string in_words(const std::vector<Candidate>& candidates) {
+  std::string text;
+  for (const Candidate& candidate : candidates) {
+    if (!text.empty()) text += ", ";
+    text += candidate.info.name + " (" + candidate.info.kind;
+    std::string reasons;
+    for (const std::string& lack : candidate.info.lacks) {
+      reasons += (reasons.empty() ? "; refused: " : ", ") + lack;
+    }
+    text += reasons + ")";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<Candidate> examine_devices(const vk::raii::Instance& instance) {
+  std::vector<Candidate> candidates;
+  for (vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
+    candidates.push_back(examine(std::move(device)));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return rank_of(a.info) < rank_of(b.info);
+  });
+  if (!candidates.empty() && candidates.front().info.lacks.empty()) {
+    candidates.front().info.chosen = true;
+  }
+  return candidates;
+}
+
+std::size_t choose_device(const std::vector<Candidate>& candidates, const std::string& name) {
+  if (candidates.empty()) {
+    throw Failure({ErrorCode::kNoDevice,
+                   "there is no Vulkan device; install a driver (Debian: mesa-vulkan-drivers, "
+                   "which also draws without a GPU)"});
+  }
+  bool named = false;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const DeviceInfo& info = candidates[i].info;
+    if (lower(info.name).find(lower(name)) == std::string::npos) continue;
+    named = true;
+    if (info.lacks.empty()) return i;
+  }
+  if (!named) {
+    throw Failure({ErrorCode::kNoDevice,
+                   "no device is called '" + name + "'; there are: " + in_words(candidates)});
+  }
+  throw Failure({ErrorCode::kNoDevice, (name.empty() ? "no device can draw: "
+                                                     : "the device '" + name + "' cannot draw: ") +
+                                           in_words(candidates)});
+}
+
+}  // namespace geotherm::engine

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "engine/overlay/overlay.h"
+#include "engine/scene/arrow_places.h"
+#include "engine/scene/colour_map.h"
+#include "engine/scene/draw_mesh.h"
+#include "engine/vulkan/attachments.h"
+#include "engine/vulkan/device_state.h"
+#include "engine/vulkan/pipelines.h"
+#include "engine/vulkan/target_frame.h"
+
+namespace geotherm::engine {
+
+/// What of a renderer lives on the device, and the commands that draw it. Nothing may be drawing
+/// while it is changed. Methods throw and then leave what was there.
+class FrameRecorder {
+ public:
+  FrameRecorder(std::shared_ptr<Device::State> device, int samples);
+
+  void set_surface(const DrawMesh& mesh, std::span<const float> values);
+  void set_values(std::span<const float> values);  ///< as many as set_surface() had
+  void set_colours(const ColourTable& table);
+  void set_markers(std::span<const Marker> markers);
+  void clear_markers() { marker_count_ = 0; }
+
+  /// Uploads what only this frame needs; before the target's begin().
+  void prepare(const ArrowSelection& arrows, const Overlay& overlay);
+  void record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene);
+
+ private:
+  void set_atlas(const GlyphAtlas& atlas);
+  void write_descriptors();
+  void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
+  void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
+  void record_markers(const vk::raii::CommandBuffer& commands);
+  void record_overlay(const vk::raii::CommandBuffer& commands, glm::vec2 extent);
+  template <class Push>
+  void push(const vk::raii::CommandBuffer& commands, const Push& values);
+
+  // Members are destroyed from the last to the first.
+  std::shared_ptr<Device::State> device_;
+  vk::SampleCountFlagBits samples_;
+  Pipelines pipelines_;
+  Attachments attachments_;
+  Buffer frame_, colours_, vertices_, values_, indices_, markers_, arrows_, overlay_;
+  Texture atlas_;
+  std::vector<std::uint8_t> atlas_pixels_;  ///< what is in atlas_
+  std::uint32_t index_count_ = 0, marker_count_ = 0, overlay_count_ = 0;
+  std::uint32_t primary_count_ = 0, secondary_count_ = 0;
+  vk::raii::DescriptorPool pool_ = nullptr;
+  vk::raii::DescriptorSet set_ = nullptr;
+};
+
+}  // namespace geotherm::engine

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "engine/vulkan/frame_uniforms.h"
+
+namespace geotherm::engine {
+
+shared::Frame frame_uniforms(const Scene& scene) {
+  const SurfaceStyle& surface = scene.surface;
+  const float width = surface.range_max - surface.range_min;
+  shared::Frame frame{};
+  frame.clip_from_scene = scene.camera.projection * scene.camera.view;
+  frame.eye_from_scene = scene.camera.view;
+  frame.extent = scene.camera.extent;
+  frame.near_shift = 0.01F;
+  frame.orthographic = scene.camera.orthographic ? 1 : 0;
+  frame.range = {surface.range_min, width != 0 ? 1 / width : 0, surface.line_spacing, 0};
+  frame.plain = {surface.colour, 1};
+  frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
+  frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};
+  frame.marker = {scene.markers.colour, scene.markers.radius * scene.pixel_scale};
+  frame.marker_rim = {scene.markers.rim, 1};
+  return frame;
+}
+
+std::uint32_t surface_features(const Scene& scene) {
+  const SurfaceStyle& surface = scene.surface;
+  std::uint32_t features = 0;
+  if (scene.light == Light::kNone) features |= shared::kNoLight;
+  if (scene.light == Light::kThreePoint) features |= shared::kThreeLights;
+  if (!surface.smooth && scene.light != Light::kNone) features |= shared::kFlat;
+  if (surface.paint == Paint::kMap) features |= shared::kMapped;
+  if (surface.line_spacing > 0) features |= shared::kIsolines;
+  if (surface.wire) features |= shared::kWire;
+  return features;
+}
+
+}  // namespace geotherm::engine

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "engine/vulkan/memory.h"
+
+#include <string>
+#include <utility>
+
+#include "engine/vulkan/vulkan_error.h"
+
+namespace geotherm::engine {
+namespace {
+
+using Flag = vk::MemoryPropertyFlagBits;
+
+std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties& properties, std::uint32_t bits,
+                          vk::MemoryPropertyFlags flags) {
+  for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
+    const bool fits = (bits >> i & 1U) != 0;
+    if (fits && (properties.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  }
+  return VK_MAX_MEMORY_TYPES;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+}
+
+vk::raii::Buffer make_buffer(const MemorySource& source, vk::DeviceSize bytes,
+                             vk::BufferUsageFlags usage) {
+  return {*source.device, {{}, bytes, usage, vk::SharingMode::eExclusive}};
+}
+
+vk::MemoryPropertyFlags needed_for(Home home) {
+  if (home == Home::kDevice) return Flag::eDeviceLocal;
+  return Flag::eHostVisible | Flag::eHostCoherent;
+}
+
+vk::MemoryPropertyFlags wished_for(Home home) {
+  if (home == Home::kDevice) return Flag::eHostVisible | Flag::eHostCoherent;
+  if (home == Home::kReadBack) return Flag::eHostCached;
+  return {};
+}
+
+vk::ImageAspectFlags aspect_of(vk::Format format) {
+  return format == vk::Format::eD32Sfloat ? vk::ImageAspectFlagBits::eDepth
+                                          : vk::ImageAspectFlagBits::eColor;
+}
+
+}  // namespace
+
+void MemoryBudget::take(std::uint64_t bytes) {
+  const std::uint64_t used = used_ += bytes;
+  if (limit_ > 0 && used > limit_) {
+    used_ -= bytes;
+    throw Failure({ErrorCode::kOutOfMemory,
+                   "the device's memory: " + megabytes(bytes) + " more than the " +
+                       megabytes(used - bytes) + " in use exceed the limit of " +
+                       megabytes(limit_) +
+                       "; try a smaller picture, --samples 1 or a mesh with fewer faces"});
+  }
+  std::uint64_t peak = peak_;
+  while (used > peak && !peak_.compare_exchange_weak(peak, used)) {
+  }
+}
+
+Memory::Memory(const MemorySource& source, const vk::MemoryRequirements& requirements,
+               vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wished) {
+  std::uint32_t type = memory_type(source.properties, requirements.memoryTypeBits, needed | wished);
+  if (type == VK_MAX_MEMORY_TYPES) {
+    type = memory_type(source.properties, requirements.memoryTypeBits, needed);
+  }
+  if (type == VK_MAX_MEMORY_TYPES) {
+    throw Failure({ErrorCode::kNoDevice,
+                   "the device has no memory of the kind that is needed (" +
+                       vk::to_string(needed) + "); try another one of geotherm devices"});
+  }
+  source.budget->take(requirements.size);
+  budget_ = source.budget;  // from here on the destructor gives it back
+  bytes_ = requirements.size;
+  try {
+    memory_ = vk::raii::DeviceMemory(*source.device, {requirements.size, type});
+    if (source.properties.memoryTypes[type].propertyFlags & Flag::eHostVisible) {
+      mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+    }
+  } catch (...) {
+    budget_->give_back(bytes_);  // no destructor runs for what was not made
+    throw;
+  }
+}
+
+Memory::Memory(Memory&& other) noexcept { *this = std::move(other); }
+
+Memory& Memory::operator=(Memory&& other) noexcept {
+  std::swap(memory_, other.memory_);
+  std::swap(budget_, other.budget_);
+  std::swap(bytes_, other.bytes_);
+  std::swap(mapped_, other.mapped_);
+  return *this;
+}
+
+Memory::~Memory() {
+  if (budget_) budget_->give_back(bytes_);
+}
+
+Buffer::Buffer(const MemorySource& source, vk::DeviceSize size, vk::BufferUsageFlags usage,
+               Home home)
+    : buffer(make_buffer(source, size, usage)), bytes(size) {
+  memory = Memory(source, buffer.getMemoryRequirements(), needed_for(home), wished_for(home));
+  buffer.bindMemory(memory.handle(), 0);
+}
+
+Texture::Texture(const MemorySource& source, vk::Extent2D size, vk::Format format,
+                 vk::ImageUsageFlags usage, vk::SampleCountFlagBits samples)
+    : extent(size) {
+  image = vk::raii::Image(*source.device,
+                          {{},
+                           vk::ImageType::e2D,
+                           format,
+                           {size.width, size.height, 1},
+                           1,
+                           1,
+                           samples,
+                           vk::ImageTiling::eOptimal,
+                           usage,
+                           vk::SharingMode::eExclusive,
+                           {},
+                           vk::ImageLayout::eUndefined});
+  memory = Memory(source, image.getMemoryRequirements(), Flag::eDeviceLocal, {});
+  image.bindMemory(memory.handle(), 0);
+  view = vk::raii::ImageView(*source.device,
+                             {{},
+                              *image,
+                              vk::ImageViewType::e2D,
+                              format,
+                              {},
+                              {aspect_of(format), 0, 1, 0, 1}});
+}
+
+}  // namespace geotherm::engine

@@ -1,0 +1,45 @@
+#version 460
+// SPDX-License-Identifier: MIT
+// Sources: a stadium of constant width on screen about the segment from one end to the other (a
+// disc where they coincide). Four vertices, one instance a marker.
+#extension GL_GOOGLE_include_directive : require
+#include "frame.glsl"
+
+layout(location = 0) in vec3 from;
+layout(location = 1) in vec3 to;
+
+layout(location = 0) out vec2 at;            // pixels, from the segment's first end
+layout(location = 1) flat out vec2 segment;  // its other end, pixels
+
+vec2 pixels(vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * frame.extent; }
+
+void main() {
+  vec4 a = frame.clip_from_scene * vec4(from, 1.0);
+  vec4 b = frame.clip_from_scene * vec4(to, 1.0);
+  // A segment that passes the eye is cut where it comes too close.
+  const float kNearest = 1e-4;
+  if (a.w < kNearest && b.w < kNearest) {
+    gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
+    at = segment = vec2(0.0);
+    return;
+  }
+  if (a.w < kNearest) a = mix(a, b, (kNearest - a.w) / (b.w - a.w));
+  if (b.w < kNearest) b = mix(b, a, (kNearest - b.w) / (a.w - b.w));
+  vec2 pa = pixels(a);
+  vec2 pb = pixels(b);
+  vec2 d = pb - pa;
+  float size = length(d);
+  vec2 along = size > 1e-3 ? d / size : vec2(1.0, 0.0);
+  vec2 across = vec2(-along.y, along.x);
+  float reach = frame.marker.w + 2.0;
+  bool second = (gl_VertexIndex & 1) != 0;
+  float side = (gl_VertexIndex & 2) != 0 ? 1.0 : -1.0;
+  vec2 p = (second ? pb + along * reach : pa - along * reach) + side * across * reach;
+  at = p - pa;
+  segment = d;
+  vec4 end = second ? b : a;
+  // Nearer to the eye by a little: a marker lies on the surface, not in it.
+  float depth = min(end.z / end.w + frame.near_shift * (1.0 - frame.orthographic) * end.z / end.w +
+                        frame.near_shift * frame.orthographic, 1.0);
+  gl_Position = vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What C++ and GLSL have in common: structs as they lie in memory (std140), and numbers of bindings
+// and variants. Included by both.
+#ifndef GEOTHERM_SHADERS_SHARED_H
+#define GEOTHERM_SHADERS_SHARED_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace geotherm::engine::shared {
+using mat4 = glm::mat4;
+using vec2 = glm::vec2;
+using vec4 = glm::vec4;
+using uint = std::uint32_t;
+#define SHARED_CONSTANT constexpr uint
+#else
+#define SHARED_CONSTANT const uint
+#endif
+
+// Bindings of descriptor set 0.
+SHARED_CONSTANT kFrameBinding = 0;    // Frame
+SHARED_CONSTANT kColoursBinding = 1;  // Colours
+SHARED_CONSTANT kAtlasBinding = 2;    // coverage of letters
+
+// Constant 0 of the surface's fragment shader: what is switched on.
+SHARED_CONSTANT kFlat = 1;       // shaded by the face's own normal
+SHARED_CONSTANT kMapped = 2;     // painted by the colour map
+SHARED_CONSTANT kIsolines = 4;   // lines at multiples of a value
+SHARED_CONSTANT kWire = 8;       // edges of the triangles
+SHARED_CONSTANT kThreeLights = 16;
+SHARED_CONSTANT kNoLight = 32;
+
+SHARED_CONSTANT kColourSteps = 256;
+
+// Everything that is the same for all of one frame. Lengths on screen in pixels.
+struct Frame {
+  mat4 clip_from_scene;
+  mat4 eye_from_scene;
+  vec2 extent;        // of the whole picture
+  float near_shift;   // see depth_towards_eye() in the vertex shaders
+  float orthographic; // 1 or 0
+  vec4 range;         // value at the map's lower end, 1 / width of the range, line spacing, -
+  vec4 plain;         // colour of the surface
+  vec4 line;          // colour, width
+  vec4 wire;          // colour, width
+  vec4 marker;        // colour, radius
+  vec4 marker_rim;    // colour, -
+};
+
+struct Colours {
+  vec4 steps[kColourSteps];
+};
+
+// Pushed with each draw of arrows.
+struct ArrowPush {
+  vec4 colour;
+};
+
+// Pushed with each draw of markers.
+struct MarkerPush {
+  float opacity;  // of those that are hidden by the surface, or 1
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Frame) == 2 * 64 + 16 + 6 * 16);
+static_assert(offsetof(Frame, extent) == 128);
+static_assert(offsetof(Frame, near_shift) == 136);
+static_assert(offsetof(Frame, orthographic) == 140);
+static_assert(offsetof(Frame, range) == 144);
+static_assert(offsetof(Frame, marker_rim) == 224);
+static_assert(sizeof(Colours) == 16 * kColourSteps);
+static_assert(sizeof(ArrowPush) == 16);
+static_assert(sizeof(MarkerPush) == 4);
+}  // namespace geotherm::engine::shared
+#endif
+#undef SHARED_CONSTANT
+#endif
