@@ -11,9 +11,11 @@
 #include <system_error>
 
 #include "app/cmd_compare.h"
+#include "app/cmd_devices.h"
 #include "app/cmd_generate.h"
 #include "app/cmd_info.h"
 #include "app/cmd_lists.h"
+#include "app/cmd_render.h"
 #include "app/cmd_solve.h"
 #include "app/load_model.h"
 #include "app/progress_bar.h"
@@ -22,9 +24,9 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::array kCommands = {"solve", "info", "compare", "generate", "backends", "models"};
-constexpr std::array kCommandsToCome = {"view",     "render", "path",   "study",
-                                        "isolines", "sample", "devices"};
+constexpr std::array kCommands = {"solve",    "info",     "compare", "render",
+                                  "generate", "backends", "devices", "models"};
+constexpr std::array kCommandsToCome = {"view", "path", "study", "isolines", "sample"};
 
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
@@ -100,7 +102,7 @@ int exit_code(ErrorCode code) {
   return code == ErrorCode::kBadInput || code == ErrorCode::kNotAvailable ? 2 : 1;
 }
 
-int run_command_line(std::vector<std::string> arguments) {
+int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
     return fail(2, problem);
   }
@@ -114,27 +116,37 @@ int run_command_line(std::vector<std::string> arguments) {
   SolveArguments solve;
   InfoArguments info;
   CompareArguments compare;
+  RenderArguments render;
   GenerateArguments generate;
+  DevicesArguments devices;
   CLI::App* const solve_app =
       root.add_subcommand("solve", "Distance from a source set to every vertex.");
   CLI::App* const info_app =
       root.add_subcommand("info", "What a mesh is, and what is wrong with it.");
   CLI::App* const compare_app =
       root.add_subcommand("compare", "The same work through several backends, side by side.");
+  CLI::App* const render_app =
+      root.add_subcommand("render", "Pictures, without a display and without a window.");
   CLI::App* const generate_app = root.add_subcommand("generate", "Writes a bundled model.");
   CLI::App* const backends_app =
       root.add_subcommand("backends", "The linear solvers of this build, the default first.");
+  CLI::App* const devices_app =
+      root.add_subcommand("devices", "What can draw on this machine, the default marked.");
   CLI::App* const models_app = root.add_subcommand("models", "The bundled models.");
   add_solve_options(*solve_app, solve);
   add_info_options(*info_app, info);
   add_compare_options(*compare_app, compare);
+  add_render_options(*render_app, render);
   add_generate_options(*generate_app, generate);
+  add_devices_options(*devices_app, devices);
   backends_app->footer("Example:\n  geotherm backends");
   models_app->footer("Example:\n  geotherm models");
 
   for (CLI::App* command : root.get_subcommands({})) wrap_descriptions(*command);
 
   const std::vector<std::string> words = arguments;
+  render.command = shell_command("geotherm", words);
+  complete_bare_fit(arguments);
   try {
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes them in
     root.parse(arguments);
@@ -148,6 +160,12 @@ int run_command_line(std::vector<std::string> arguments) {
   if (solve_app->parsed()) return run_with_bar(solve, run_solve);
   if (info_app->parsed()) return run_with_bar(info, run_info);
   if (compare_app->parsed()) return run_with_bar(compare, run_compare);
+  if (render_app->parsed()) {
+    return run_with_bar(render, [&drawing](const RenderArguments& a, const Progress& progress) {
+      return run_render(a, drawing, progress);
+    });
+  }
+  if (devices_app->parsed()) return finish(run_devices(devices, drawing));
   if (generate_app->parsed()) return run_with_bar(generate, run_generate);
   if (backends_app->parsed()) return print({list_backends(), {}});
   return print({list_models(), {}});

@@ -36,6 +36,8 @@ std::string status_name(ErrorCode code) {
       return "out of memory";
     case ErrorCode::kCancelled:
       return "cancelled";
+    case ErrorCode::kNoDevice:
+      return "no device";
   }
   return "failed";
 }

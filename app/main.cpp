@@ -8,6 +8,7 @@
 #include <new>
 
 #include "app/command_line.h"
+#include "app/main_drawing/make_drawing.h"
 
 namespace {
 
@@ -23,7 +24,8 @@ void occupy_closed_streams() {
 
 int run(int argc, char** argv) {
   try {
-    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc});
+    const std::unique_ptr<geotherm::app::Drawing> drawing = geotherm::app::make_drawing();
+    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing);
   } catch (const std::bad_alloc&) {
     std::fputs("geotherm: error: not enough memory; try a smaller mesh or --backend cg\n", stderr);
   } catch (const std::exception& failure) {

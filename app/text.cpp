@@ -59,6 +59,28 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return out;
 }
 
+std::string shell_command(std::string program, const std::vector<std::string>& words) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+  for (const std::string& word : words) {
+    program += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      program += word;
+      continue;
+    }
+    program += '\'';
+    for (const char c : word) {
+      if (c == '\'') {
+        program += "'\\''";
+      } else {
+        program += c;
+      }
+    }
+    program += '\'';
+  }
+  return program;
+}
+
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';

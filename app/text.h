@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 // Numbers to text and back, the same in every locale.
 namespace geotherm::app {
@@ -51,6 +52,9 @@ std::optional<Number> number_in(std::string_view text) {
 
 /// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
 std::string wrapped(const std::string& text, std::size_t width);
+
+/// A command as it can be given to a shell again: words quoted where they need it.
+std::string shell_command(std::string program, const std::vector<std::string>& words);
 
 /// Fit for one line: control characters become '?'.
 std::string one_line(std::string text);

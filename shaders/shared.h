@@ -21,7 +21,7 @@ using uint = std::uint32_t;
 
 // Bindings of descriptor set 0.
 SHARED_CONSTANT kFrameBinding = 0;    // Frame
-SHARED_CONSTANT kColoursBinding = 1;  // Colours
+SHARED_CONSTANT kColoursBinding = 1;  // the colour map
 SHARED_CONSTANT kAtlasBinding = 2;    // coverage of letters
 
 // Constant 0 of the surface's fragment shader: what is switched on.
@@ -32,7 +32,8 @@ SHARED_CONSTANT kWire = 8;       // edges of the triangles
 SHARED_CONSTANT kThreeLights = 16;
 SHARED_CONSTANT kNoLight = 32;
 
-SHARED_CONSTANT kColourSteps = 256;
+// Evenly over the colour map; as many as every device takes in one uniform buffer.
+SHARED_CONSTANT kColourSteps = 1024;
 
 // Everything that is the same for all of one frame. Lengths on screen in pixels.
 struct Frame {
@@ -41,16 +42,12 @@ struct Frame {
   vec2 extent;        // of the whole picture
   float near_shift;   // see depth_towards_eye() in the vertex shaders
   float orthographic; // 1 or 0
-  vec4 range;         // value at the map's lower end, 1 / width of the range, line spacing, -
+  vec4 range;         // value at the map's lower end, 1 / width of the range, line spacing, 1 / spacing
   vec4 plain;         // colour of the surface
   vec4 line;          // colour, width
   vec4 wire;          // colour, width
   vec4 marker;        // colour, radius
   vec4 marker_rim;    // colour, -
-};
-
-struct Colours {
-  vec4 steps[kColourSteps];
 };
 
 // Pushed with each draw of arrows.
@@ -70,7 +67,6 @@ static_assert(offsetof(Frame, near_shift) == 136);
 static_assert(offsetof(Frame, orthographic) == 140);
 static_assert(offsetof(Frame, range) == 144);
 static_assert(offsetof(Frame, marker_rim) == 224);
-static_assert(sizeof(Colours) == 16 * kColourSteps);
 static_assert(sizeof(ArrowPush) == 16);
 static_assert(sizeof(MarkerPush) == 4);
 }  // namespace geotherm::engine::shared

@@ -9,7 +9,9 @@
 
 layout(constant_id = 0) const uint features = 0;
 
-layout(std140, set = 0, binding = kColoursBinding) uniform ColoursBlock { Colours colours; };
+layout(std140, set = 0, binding = kColoursBinding) uniform ColoursBlock {
+  vec4 colours[kColourSteps];
+};
 
 layout(location = 0) in vec3 eye_normal;
 layout(location = 1) in vec3 eye_position;
@@ -18,37 +20,35 @@ layout(location = 3) in vec2 corner;
 
 layout(location = 0) out vec4 colour;
 
-const float kPi = 3.14159265;
 const float kNoValueBelow = -1e38;
 const vec3 kNoValueColour = vec3(0.62);
 
-float screen_gradient(float x) { return length(vec2(dFdx(x), dFdy(x))); }
-
 vec3 map_colour(float x) {
-  float at = clamp(x, 0.0, 1.0) * float(kColourSteps - 1);
-  uint below = min(uint(at), kColourSteps - 2);
-  return mix(colours.steps[below].rgb, colours.steps[below + 1].rgb, at - float(below));
+  return colours[uint(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5)].rgb;
 }
 
 // Share of the pixel that lines at the multiples of `spacing` cover, the zeros of
-// sin(pi value / spacing). There is no line at 0, where the sources are.
-float isolines(float v, float gradient) {
-  float spacing = frame.range.z;
-  float width = frame.line.w;
-  float apart = spacing / max(gradient, 1e-30);  // pixels from line to line
-  float away = abs(sin(kPi * v / spacing)) * apart / kPi;
-  float cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0) * step(0.5 * spacing, v);
-  float mean = min(width / apart, 1.0);
-  return mix(mean, cover, smoothstep(2.5, 6.0, apart));
+// sin(pi v / spacing). There is no line at 0, where the sources are.
+float isolines(float v) {
+  float dx = dFdx(v);
+  float dy = dFdy(v);
+  float per_pixel = sqrt(dx * dx + dy * dy) + 1e-20;
+  float near = max(round(v * frame.range.w), 1.0) * frame.range.z;  // the nearest line
+  float half_width = 0.5 * frame.line.w;
+  float cover = clamp(half_width + 0.5 - abs(v - near) / per_pixel, 0.0, 1.0);
+  float apart = frame.range.z / per_pixel;  // pixels from line to line
+  return mix(min(2.0 * half_width / apart, 1.0), cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
 float edges(vec3 b) {
   float width = frame.wire.w;
-  vec3 gradient = vec3(screen_gradient(b.x), screen_gradient(b.y), screen_gradient(b.z));
-  vec3 height = 1.0 / max(gradient, 1e-30);  // pixels
+  vec3 dx = dFdx(b);
+  vec3 dy = dFdy(b);
+  vec3 height = inversesqrt(max(dx * dx + dy * dy, 1e-30));  // pixels
   vec3 cover = clamp(0.5 * width + 0.5 - b * height, 0.0, 1.0);
-  cover *= smoothstep(2.0 * width, 7.0 * width, height);  // not where triangles are a few pixels
+  // Not where triangles are a few pixels high.
+  cover *= clamp(height * (0.2 / width) - 0.4, 0.0, 1.0);
   return max(cover.x, max(cover.y, cover.z));
 }
 
@@ -70,12 +70,11 @@ void main() {
   vec3 c = frame.plain.rgb;
   float lines = 0.0;
   if ((features & (kMapped | kIsolines)) != 0) {
-    float gradient = screen_gradient(value);
     bool known = value > kNoValueBelow;
     if ((features & kMapped) != 0) {
       c = known ? map_colour((value - frame.range.x) * frame.range.y) : kNoValueColour;
     }
-    if ((features & kIsolines) != 0 && known) lines = isolines(value, gradient);
+    if ((features & kIsolines) != 0 && known) lines = isolines(value);
   }
   float wire = 0.0;
   if ((features & kWire) != 0) wire = edges(vec3(corner, 1.0 - corner.x - corner.y));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_data.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -21,10 +21,10 @@ constexpr int kWhite = 3;  // side of the white patch; its middle stays white wh
 /// A glyph of the font before it has a place in the atlas.
 struct Shape {
   char32_t letter = kMalformed;
-  int index = 0;                 // in the font; 0: the box
-  int left = 0, top = 0;         // from the pen on the base line
+  int index = 0;          // in the font; 0: the box
+  int left = 0, top = 0;  // from the pen on the base line
   int width = 0, height = 0;
-  int x = 0, y = 0;              // in the atlas
+  int x = 0, y = 0;  // in the atlas
 };
 
 struct Font {
@@ -35,6 +35,11 @@ struct Font {
   explicit Font(float line_height) {
     stbtt_InitFont(&info, embedded::legend_font().data(), 0);
     scale = stbtt_ScaleForPixelHeight(&info, line_height);
+    // Low letters of a whole number of pixels have sharp edges above as well as on the base line.
+    int left = 0, bottom = 0, right = 0, top = 0;
+    stbtt_GetCodepointBox(&info, 'x', &left, &bottom, &right, &top);
+    const float low_letter = scale * static_cast<float>(top);
+    if (low_letter > 0) scale *= std::max(1.0F, std::round(low_letter)) / low_letter;
     int up = 0, down = 0, gap = 0;
     stbtt_GetFontVMetrics(&info, &up, &down, &gap);
     ascent = std::ceil(scale * static_cast<float>(up));
@@ -130,12 +135,14 @@ GlyphAtlas GlyphAtlas::build(float height, const std::vector<std::string>& texts
   for (const Shape& shape : shapes) {
     const glm::vec2 corner(shape.x, shape.y);
     const glm::vec2 extent(shape.width, shape.height);
-    atlas.glyphs_.emplace_back(
-        shape.letter, Glyph{corner / size, (corner + extent) / size,
-                            {shape.left, shape.top}, extent, font.advance(shape)});
+    atlas.glyphs_.emplace_back(shape.letter, Glyph{corner / size,
+                                                   (corner + extent) / size,
+                                                   {shape.left, shape.top},
+                                                   extent,
+                                                   font.advance(shape)});
     if (shape.width <= 0 || shape.height <= 0) continue;
-    stbtt_MakeGlyphBitmap(&font.info, at(shape.x, shape.y), shape.width, shape.height,
-                          atlas.width_, font.scale, font.scale, shape.index);
+    stbtt_MakeGlyphBitmap(&font.info, at(shape.x, shape.y), shape.width, shape.height, atlas.width_,
+                          font.scale, font.scale, shape.index);
   }
   return atlas;
 }

@@ -74,7 +74,7 @@ Column lay_out_column(const Legend& legend, const GlyphAtlas& atlas, const Measu
   for (const Tick& tick : legend.ticks) labels = std::max(labels, atlas.width_of(tick.label));
   column.width = label_offset + labels;
 
-  const float title_width = std::max(column.width, std::min(7.5F * m.line, 0.22F * extent.x));
+  const float title_width = std::max(column.width, std::min(7.5F * m.line, 0.3F * extent.x));
   column.title = wrapped_lines(atlas, legend.title, title_width, 3);
   for (const std::string& line : column.title) {
     column.width = std::max(column.width, atlas.width_of(line));
@@ -84,10 +84,10 @@ Column lay_out_column(const Legend& legend, const GlyphAtlas& atlas, const Measu
 
   // The column is centred in what is free; labels at the bar's ends reach half a line farther.
   const float half_line = std::ceil(atlas.line_height() / 2);
-  const float title_height =
-      column.title.empty() ? half_line
-                           : atlas.line_height() * static_cast<float>(column.title.size()) +
-                                 std::round(0.6F * m.line);
+  const float title_height = column.title.empty()
+                                 ? half_line
+                                 : atlas.line_height() * static_cast<float>(column.title.size()) +
+                                       std::round(0.6F * m.line);
   const float free = bottom - m.margin;
   const float bar = std::floor(std::min(18 * m.line, free - title_height - half_line));
   column.title_top = m.margin + std::floor((free - title_height - bar - half_line) / 2);
@@ -156,8 +156,8 @@ void draw_column(const Legend& legend, const Column& column, float stroke, Overl
   for (const Tick* tick : column.ticks) {
     const float top = stroke_top(column, tick->position, stroke);
     overlay.add_rectangle({right, top}, {right + column.tick_length, top + stroke}, ink);
-    overlay.add_text({column.label_left, top + std::ceil((digit_height + stroke) / 2)},
-                     tick->label, ink);
+    overlay.add_text({column.label_left, top + std::ceil((digit_height + stroke) / 2)}, tick->label,
+                     ink);
   }
 }
 

@@ -21,15 +21,16 @@ struct Legend {
   std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
   std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;
-  std::string title;    ///< over the bar: what the values are, and their unit
-  std::string caption;  ///< one line along the lower edge; cut with an ellipsis where it is too long
-  glm::vec3 ink{0};     ///< colour of letters and frames
-  float scale = 1;      ///< of letters and bar; 1 suits a picture 720 pixels high
+  std::string title;  ///< over the bar: what the values are, and their unit
+  std::string
+      caption;       ///< one line along the lower edge; cut with an ellipsis where it is too long
+  glm::vec3 ink{0};  ///< colour of letters and frames
+  float scale = 1;   ///< of letters and bar; 1 suits a picture 720 pixels high
 };
 
 struct LegendLayout {
   Overlay overlay;
-  Insets insets;  ///< what the legend takes of the picture's sides
+  Insets insets;  ///< what the legend takes of the picture's sides; 0 where it has nothing
 };
 
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the

@@ -17,8 +17,7 @@ void add_quad(std::vector<Overlay::Vertex>& vertices, const Corner& min, const C
               const glm::vec4& top, const glm::vec4& bottom) {
   const Overlay::Vertex top_left{min.position, min.uv, top};
   const Overlay::Vertex top_right{{max.position.x, min.position.y}, {max.uv.x, min.uv.y}, top};
-  const Overlay::Vertex bottom_left{
-      {min.position.x, max.position.y}, {min.uv.x, max.uv.y}, bottom};
+  const Overlay::Vertex bottom_left{{min.position.x, max.position.y}, {min.uv.x, max.uv.y}, bottom};
   const Overlay::Vertex bottom_right{max.position, max.uv, bottom};
   vertices.insert(vertices.end(),
                   {top_left, bottom_left, top_right, top_right, bottom_left, bottom_right});

@@ -14,18 +14,18 @@ namespace geotherm::engine {
 class GlyphAtlas {
  public:
   GlyphAtlas() = default;
-  /// `height`: of a line of text in pixels, 4 to 400. Texts are UTF-8; what is not, and letters
-  /// that the font lacks, show as a box.
+  /// `height`: of a line of text in pixels, 4 to 400; adapted a little so that letters are sharp.
+  /// Texts are UTF-8; what is not, and letters that the font lacks, show as a box.
   static GlyphAtlas build(float height, const std::vector<std::string>& texts);
 
   struct Glyph {
-    glm::vec2 uv_min, uv_max;    ///< in the image, 0 to 1
-    glm::vec2 offset, size;      ///< of its quad from the pen on the base line, pixels
+    glm::vec2 uv_min, uv_max;  ///< in the image, 0 to 1
+    glm::vec2 offset, size;    ///< of its quad from the pen on the base line, pixels
     float advance = 0;
   };
   const Glyph& glyph(char32_t letter) const;
   float line_height() const { return line_height_; }
-  float ascent() const { return ascent_; }  ///< base line below the top of a line
+  float ascent() const { return ascent_; }          ///< base line below the top of a line
   glm::vec2 white_uv() const { return white_uv_; }  ///< a texel of full coverage
   float width_of(std::string_view text) const;
 
@@ -48,7 +48,7 @@ struct Overlay {
     glm::vec2 uv;        ///< in the atlas
     glm::vec4 colour;    ///< sRGB, alpha not multiplied in
   };
-  std::vector<Vertex> vertices;       ///< three a triangle
+  std::vector<Vertex> vertices;  ///< three a triangle
   GlyphAtlas atlas;
 
   void add_rectangle(glm::vec2 min, glm::vec2 max, const glm::vec4& colour);

@@ -11,8 +11,8 @@ namespace geotherm::engine {
 
 inline constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
 
-/// The text, or as many of its letters as fit into `width` pixels with an ellipsis after them; empty
-/// where not even that fits. The atlas must hold kEllipsis.
+/// The text, or as many of its letters as fit into `width` pixels with an ellipsis after them;
+/// empty where not even that fits. The atlas must hold kEllipsis.
 std::string cut_to_width(const GlyphAtlas& atlas, std::string_view text, float width);
 
 /// The text in lines of at most `width` pixels, broken at blanks. Words that are longer, and the

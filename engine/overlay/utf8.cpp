@@ -8,7 +8,7 @@ namespace geotherm::engine {
 char32_t take_letter(std::string_view& text) {
   const auto byte = [&](std::size_t i) -> char32_t { return static_cast<unsigned char>(text[i]); };
   const char32_t lead = byte(0);
-  const std::size_t length = lead < 0x80          ? 1
+  const std::size_t length = lead < 0x80           ? 1
                              : (lead >> 5) == 0x6  ? 2
                              : (lead >> 4) == 0xE  ? 3
                              : (lead >> 3) == 0x1E ? 4

@@ -102,37 +102,74 @@ std::vector<Drafted> draft_places(const SurfaceGeometry& geometry) {
   return drafts;
 }
 
+/// The first draft after `from` that lies in a later cell; cells are what the upper bits say.
+std::size_t next_cell(const std::vector<Drafted>& drafts, std::size_t from, int bits) {
+  const std::uint64_t cell = drafts[from].code >> bits;
+  const auto is_here = [&](std::size_t i) { return drafts[i].code >> bits == cell; };
+  std::size_t step = 1;
+  while (from + step < drafts.size() && is_here(from + step)) step *= 2;
+  std::size_t low = from + step / 2;  // in the cell
+  std::size_t high = std::min(from + step, drafts.size());
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (is_here(middle) ? low : high) = middle;
+  }
+  return high;
+}
+
+/// Throws darts: the first open draft of each of the small cells is tried.
+class DartBoard {
+ public:
+  explicit DartBoard(std::vector<Drafted> drafts)
+      : drafts_(std::move(drafts)), chosen_(drafts_.size()) {
+    places_.reserve(drafts_.size());
+  }
+
+  /// So full that what is left lies next to what was taken.
+  bool full() const { return 4 * places_.size() >= drafts_.size(); }
+
+  void throw_level(int level) {
+    const float spacing = spacing_of(level);
+    Taken taken(spacing, places_.size() * 4);
+    for (const ArrowPlaces::Place& place : places_) taken.add(place);
+    // Cells a quarter of the spacing wide hold more than enough candidates.
+    const int bits = std::max(0, 63 - 3 * (level / 2 + 3));
+    for (std::size_t i = 0, end = 0; i < drafts_.size(); i = end) {
+      end = next_cell(drafts_, i, bits);
+      while (i < end && chosen_[i]) ++i;
+      if (i == end || !taken.has_room(drafts_[i].place)) continue;
+      taken.add(drafts_[i].place);
+      take(i, spacing);
+    }
+  }
+
+  /// The rest, about twice as close together as the last level.
+  std::vector<ArrowPlaces::Place> finish() {
+    const float spacing = places_.empty() ? spacing_of(0) : 0.5F * places_.back().spacing;
+    for (std::size_t i = 0; i < drafts_.size(); ++i) {
+      if (!chosen_[i]) take(i, spacing);
+    }
+    return std::move(places_);
+  }
+
+ private:
+  void take(std::size_t i, float spacing) {
+    chosen_[i] = 1;
+    places_.push_back(drafts_[i].place);
+    places_.back().spacing = spacing;
+  }
+
+  std::vector<Drafted> drafts_;
+  std::vector<char> chosen_;
+  std::vector<ArrowPlaces::Place> places_;
+};
+
 }  // namespace
 
 ArrowPlaces::ArrowPlaces(const SurfaceGeometry& geometry) {
-  std::vector<Drafted> open = draft_places(geometry);
-  places_.reserve(open.size());
-  for (int level = 0; level <= kLastLevel && !open.empty(); ++level) {
-    const float spacing = spacing_of(level);
-    Taken taken(spacing, places_.size() * 4);
-    for (const Place& place : places_) taken.add(place);
-    // Candidates: a few a cell are enough, taken evenly from the Morton order.
-    const int bits = std::max(0, 63 - 3 * (level / 2 + 3));
-    std::vector<Drafted> rest;
-    rest.reserve(open.size());
-    std::uint64_t cell = ~std::uint64_t{0};
-    for (Drafted& draft : open) {
-      const bool candidate = draft.code >> bits != cell;
-      if (candidate) cell = draft.code >> bits;
-      if (candidate && taken.has_room(draft.place)) {
-        draft.place.spacing = spacing;
-        places_.push_back(draft.place);
-        taken.add(draft.place);
-      } else {
-        rest.push_back(draft);
-      }
-    }
-    open.swap(rest);
-  }
-  for (Drafted& left : open) {
-    left.place.spacing = spacing_of(kLastLevel + 1);
-    places_.push_back(left.place);
-  }
+  DartBoard board(draft_places(geometry));
+  for (int level = 0; level <= kLastLevel && !board.full(); ++level) board.throw_level(level);
+  places_ = board.finish();
 }
 
 ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
@@ -163,10 +200,11 @@ ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
       continue;
     }
     const float length = std::max(0.92F * wanted / per_unit, 0.55F * place.face_size);
+    glm::vec3 tail = place.centre;
     const auto add = [&](std::span<const glm::vec3> field, std::vector<ArrowInstance>& to) {
       const glm::vec3 along = field[place.face] * length;
       if (along == glm::vec3(0)) return;
-      const glm::vec3 tail = first && second ? place.centre : place.centre - 0.5F * along;
+      if (tail == place.centre) tail -= 0.5F * along;
       to.push_back({tail, along, place.normal});
     };
     if (first) add(primary, selection.primary);

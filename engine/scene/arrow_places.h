@@ -13,7 +13,8 @@ namespace geotherm::engine {
 ///
 /// Level l keeps its places at least kCoarsest * 2^(-l/2) apart (on one side of the surface) and
 /// contains the levels before it, so that arrows stay where they are while one zooms in and others
-/// appear between them. Dart throwing over the levels; the last level is all remaining faces.
+/// appear between them. Dart throwing over the levels until a quarter of the faces stands; the rest
+/// is one last level.
 class ArrowPlaces {
  public:
   static constexpr float kCoarsest = 1.0F;  ///< scene units
@@ -46,7 +47,7 @@ struct ArrowSelection {
 /// The arrows that this view has room for: those whose places are further apart than
 /// style.spacing * scale pixels where they stand, and that are inside the picture. Each is as long
 /// as the room between arrows allows (longer on faces that are larger than that), times the length
-/// of its vector. One field alone is centred on its places; two start from them.
+/// of its vector. The first field's are centred on their places; the second's have the same tails.
 /// Cost: O(places up to the finest level that shows).
 ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
                              const ArrowStyle& style, float scale,

@@ -91,8 +91,8 @@ struct Box {
 };
 
 std::optional<Box> box_of(std::span<const glm::vec3> points, const Axes& axes) {
-  const auto [x1, x0, y1, y0, z1, z0] = supports<6>(
-      points, {axes.right, -axes.right, axes.up, -axes.up, axes.back, -axes.back});
+  const auto [x1, x0, y1, y0, z1, z0] =
+      supports<6>(points, {axes.right, -axes.right, axes.up, -axes.up, axes.back, -axes.back});
   if (!std::isfinite(x1.reach)) return std::nullopt;
   return Box{{-x0.reach, -y0.reach, -z0.reach}, {x1.reach, y1.reach, z1.reach}};
 }
@@ -139,10 +139,8 @@ double centred(std::span<const glm::vec3> points, const dvec3& side, const dvec3
                double distance) {
   double tangent = 0;
   for (int step = 0;; ++step) {
-    const auto [right, left] =
-        supports<2>(points, {side + tangent * back, -side + tangent * back});
-    const double depths =
-        2 * distance - glm::dot(back, right.point) - glm::dot(back, left.point);
+    const auto [right, left] = supports<2>(points, {side + tangent * back, -side + tangent * back});
+    const double depths = 2 * distance - glm::dot(back, right.point) - glm::dot(back, left.point);
     const double next = glm::dot(side, right.point - left.point) / depths;
     if (step == 8 || !(next > tangent * (1 + 1e-9))) return (right.reach - left.reach) / 2;
     tangent = next;
@@ -157,9 +155,9 @@ Placement place_perspective(std::span<const glm::vec3> points, const Box& box, c
   const auto [right, left, top, bottom] =
       supports<4>(points, {axes.right + x, x - axes.right, axes.up + y, y - axes.up});
   dvec3 eye(0);
-  eye.z = std::max({least_distance(right, left, tangents.x),
-                    least_distance(top, bottom, tangents.y),
-                    box.max.z + kClosestEye * box.radius()});
+  eye.z =
+      std::max({least_distance(right, left, tangents.x), least_distance(top, bottom, tangents.y),
+                box.max.z + kClosestEye * box.radius()});
   eye.x = centred(points, axes.right, axes.back, eye.z);
   eye.y = centred(points, axes.up, axes.back, eye.z);
   return {eye, pixels_per_tangent};

@@ -43,10 +43,11 @@ struct Camera {
   glm::vec3 to_eye(const glm::vec3& point) const;
 };
 
-/// A camera that shows `points` (scene space) fitted as the orbit says. Tight fits solve for the
-/// frustum planes that touch the points: O(points), no iteration. Never fails: a single point, no
-/// point, points that are not finite (left out) and an extent smaller than its insets give a sane
-/// camera.
+/// A camera that shows `points` (scene space) fitted as the orbit says into what the insets leave.
+/// Tight fits solve for the frustum planes that touch the points, exactly and in O(points). Zoom and
+/// pan are those of a lens: the eye stays where the fit put it, zoom scales about the centre of what
+/// the insets leave. Never fails: a single point, no point, points that are not finite (left out) and
+/// an extent smaller than its insets give a sane camera.
 Camera make_camera(const Orbit& orbit, std::span<const glm::vec3> points, glm::vec2 extent,
                    const Insets& insets = {});
 

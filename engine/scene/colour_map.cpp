@@ -75,8 +75,8 @@ Library build_library() {
   Library library;
   for (const auto bytes :
        {colour_map_red_blue(), colour_map_viridis(), colour_map_cividis(), colour_map_magma(),
-        colour_map_inferno(), colour_map_plasma(), colour_map_turbo(),
-        colour_map_red_yellow_blue(), colour_map_cool_warm(), colour_map_grey()}) {
+        colour_map_inferno(), colour_map_plasma(), colour_map_turbo(), colour_map_red_yellow_blue(),
+        colour_map_cool_warm(), colour_map_grey()}) {
     library.owned.push_back(parse(bytes));
   }
   for (const OwnedMap& owned : library.owned) {
@@ -112,7 +112,7 @@ ColourTable colour_table(const ColourMap& map, bool reversed) {
   ColourTable table;
   for (int i = 0; i < kColourSteps; ++i) {
     const float x = static_cast<float>(i) / (kColourSteps - 1);
-    table[i] = glm::vec4(colour_at(map, x, reversed), 1);
+    table[static_cast<std::size_t>(i)] = glm::vec4(colour_at(map, x, reversed), 1);
   }
   return table;
 }

@@ -23,7 +23,8 @@ std::span<const ColourMap> colour_maps();
 /// Null when there is no such name.
 const ColourMap* find_colour_map(std::string_view name);
 
-inline constexpr int kColourSteps = 256;
+/// Fine enough to take the nearest one.
+inline constexpr int kColourSteps = 1024;
 using ColourTable = std::array<glm::vec4, kColourSteps>;
 
 /// sRGB colour at x in [0, 1] (outside: the nearest end), linear between control points.

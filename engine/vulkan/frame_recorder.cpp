@@ -67,7 +67,7 @@ void FrameRecorder::set_values(std::span<const float> values) {
 }
 
 void FrameRecorder::set_colours(const ColourTable& table) {
-  static_assert(sizeof(ColourTable) == sizeof(shared::Colours));
+  static_assert(kColourSteps == shared::kColourSteps);
   device_->update(colours_, bytes_of(table));
 }
 

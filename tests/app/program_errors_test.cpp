@@ -38,10 +38,10 @@ void write_files(const TemporaryDirectory& folder) {
 const std::vector<Failure>& failures() {
   static const std::vector<Failure> kFailures = {
       // The command line.
-      {"NoCommand", {}, 2, {"no command", "solve, info, compare"}},
+      {"NoCommand", {}, 2, {"no command", "solve, info, compare, render"}},
       {"ModelAlone", {"bunny"}, 2, {"no viewer", "there are solve", "solve bunny"}},
       {"FileAlone", {"triangle.obj"}, 2, {"no viewer"}},
-      {"CommandToCome", {"render", "bunny"}, 2, {"no command 'render'", "there are solve"}},
+      {"CommandToCome", {"sample", "bunny"}, 2, {"no command 'sample'", "there are solve"}},
       {"CommandToComePath", {"path", "bunny"}, 2, {"no command 'path'"}},
       {"UnknownCommand", {"frobnicate"}, 2, {"'frobnicate'", "there are solve"}},
       {"UnknownFlag", {"--frob"}, 2, {"--frob", "--help"}},

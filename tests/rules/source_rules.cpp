@@ -39,6 +39,7 @@ struct Permission {
 const std::vector<Permission>& permissions() {
   static const std::vector<Permission> kPermissions = {
       {"app/main.cpp", {"solver", "engine", "shaders", "app", "ui"}, {"any"}, {}},
+      {"app/main_drawing", {"solver", "engine", "app"}, {"std", "glm"}, {}},
       {"solver/core", {"solver/core"}, {"std", "eigen"}, {"posix"}},
       {"solver/mesh", {"solver/core", "solver/mesh"}, {"std", "eigen"}, {"posix"}},
       {"solver/linear", {"solver/core", "solver/linear"}, {"std", "eigen"}, {"posix", "algebra"}},
@@ -47,9 +48,12 @@ const std::vector<Permission>& permissions() {
        {"std", "eigen"},
        {}},
       {"solver", {"solver"}, {"std", "eigen"}, {}},
-      {"engine", {"engine", "shaders"}, {"std", "vulkan", "glm"}, {"glfw", "imgui", "imgui end"}},
+      {"engine",
+       {"engine", "shaders", "solver/core"},
+       {"std", "vulkan", "glm"},
+       {"posix", "stb", "embedded", "glfw", "imgui", "imgui end"}},
       {"shaders", {"shaders"}, {"std"}, {}},
-      {"app", {"app", "solver"}, {"std", "cli11", "json"}, {"posix"}},
+      {"app", {"app", "solver"}, {"std", "cli11", "json"}, {"posix", "png"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
       {"bench", {"solver", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
       {"tests", {"solver", "engine", "shaders", "app", "ui", "tests", "bench"}, {"any"}, {}},
@@ -104,6 +108,10 @@ constexpr LibraryPrefix kLibraries[] = {
     {"imgui_internal.h", "imgui"},
     {"CLI/", "cli11"},
     {"nlohmann/", "json"},
+    {"png.h", "png"},
+    {"stb_", "stb"},
+    {"stb/", "stb"},
+    {"embedded/", "embedded"},  // made while building, from files that travel in the program
 };
 
 /// The library a header belongs to; "?" for one that is not known here.

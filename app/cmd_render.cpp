@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "app/cmd_render.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/outputs.h"
+#include "app/picture/picture_text.h"
+#include "app/picture/turntable.h"
+#include "app/picture_report.h"
+#include "app/solve_model.h"
+#include "app/text.h"
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/io/file_extension.h"
+#include "solver/mesh/write_file.h"
+
+namespace geotherm::app {
+namespace {
+
+Result<void> check_output(const RenderArguments& arguments, const PictureSettings& settings) {
+  const std::string& path = arguments.output;
+  if (path == "-" && settings.turntable > 0) {
+    return Error{ErrorCode::kBadInput,
+                 "--turntable: several pictures cannot go to standard output; give -o FILE.png"};
+  }
+  const std::string extension = io::file_extension(path);
+  if (path == "-" || extension == ".png") return {};
+  return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
+                                         ".png, not '" + one_line(extension) +
+                                         "'; give -o FILE.png"};
+}
+
+Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
+                            Outputs& outputs) {
+  if (auto known = check_output(arguments, settings); !known) return known;
+  const std::string model = is_bundled(arguments.model) ? "" : arguments.model;
+  for (const std::string& path : frame_paths(arguments.output, settings)) {
+    if (auto expected = outputs.expect(path, "--output", model); !expected) return expected;
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json", model);
+}
+
+bool needs_sources(View view) {
+  return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
+}
+
+Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {
+  auto sources = sources_of(arguments.sources);
+  if (!sources || !sources->empty() || !needs_sources(view)) return sources;
+  return Error{ErrorCode::kBadInput,
+               "no source was given, which --view " + to_text(view) +
+                   " needs; say where distance is 0, such as -s 17 or -s boundary, or choose "
+                   "--view smooth"};
+}
+
+/// A mesh without any area has no distances but may be looked at all the same.
+bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
+
+/// Solves where sources are given, and fills the data.
+Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions& options,
+                            const std::vector<Source>& sources, const Progress& progress,
+                            PictureFigures& figures, std::vector<std::string>& warnings) {
+  auto model = load_model(arguments.model, progress);
+  if (!model) return model.error();
+  const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
+  figures.model = model->name;
+  figures.vertices = mesh->vertex_count();
+  figures.faces = mesh->face_count();
+  warnings = model->notes;
+  PictureData data = picture_of(*mesh);
+  if (sources.empty()) return data;
+
+  const View view = figures.settings.view;
+  QueryOptions query;
+  query.fields = view == View::kHeatGradient || view == View::kGradientError;
+  auto solved = solve_model(*std::move(model), options, sources, query, progress);
+  if (!solved && (solved.error().code != ErrorCode::kBadFile || has_area(*mesh))) {
+    return solved.error();
+  }
+  if (!solved) {
+    warnings.push_back("there are no distances, the surface is drawn in grey: " +
+                       solved.error().message);
+    add_distances(data, std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
+    return data;
+  }
+  warnings = solved->warnings;
+  add_sources(data, *mesh, solved->sources);
+  add_distances(data, solved->result.distances);
+  if (query.fields) add_fields(data, *mesh, solved->result);
+  figures.solve = *std::move(solved);
+  return data;
+}
+
+/// Draws, encodes and writes every frame; `standard_output` takes the picture of "-".
+Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progress& progress,
+                         Outputs& outputs, PictureFigures& figures, std::string& standard_output) {
+  const int frames = frame_count(figures.settings);
+  const auto announce = [&](int frame) -> Result<void> {
+    if (report(progress, "drawing", static_cast<double>(frame) / frames)) return {};
+    return Error{ErrorCode::kCancelled, "the work was cancelled"};
+  };
+  Stopwatch watch;
+  const auto take_frame = [&](int frame, const DrawnPicture& picture) -> Result<void> {
+    figures.draw_ms += watch.lap();
+    auto bytes = png_bytes(picture, picture_texts(figures, frame));
+    if (!bytes) return bytes.error();
+    const std::string& path = figures.paths[static_cast<std::size_t>(frame)];
+    const auto written = outputs.write(path, [&]() -> Result<void> {
+      if (path != "-") return write_file(path, *bytes);
+      standard_output = *std::move(bytes);
+      return {};
+    });
+    if (!written) return written;
+    figures.write_ms += watch.lap();
+    return announce(frame + 1);
+  };
+  if (auto going = announce(0); !going) return going;
+  Result<void> drawn = drawing.draw(data, figures.settings, take_frame);
+  if (!drawn) outputs.remove_written();
+  return drawn;
+}
+
+/// How the sources were given, for the picture's file.
+std::vector<std::string> typed_sources(const SourceArguments& arguments) {
+  std::vector<std::string> typed = arguments.sources;
+  if (!arguments.file.empty()) {
+    typed.push_back((arguments.curve ? "curve of " : "file ") + arguments.file);
+  }
+  return typed;
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderArguments& arguments) {
+  command
+      .add_option("MODEL", arguments.model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  command.add_option("-o,--output", arguments.output, "the picture, .png; - is standard output")
+      ->type_name("FILE")
+      ->required();
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  add_picture_options(command, arguments.picture);
+  add_source_options(command, arguments.sources);
+  add_backend_option(command, arguments.heat);
+  add_heat_options(command, arguments.heat);
+  command.footer(
+      "Examples:\n"
+      "  geotherm render model.obj -s 17 --view contours -o out.png\n"
+      "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
+      "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png");
+}
+
+Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
+                                 const Progress& progress) {
+  const std::vector<std::string> colour_maps = drawing.colour_maps();
+  const auto settings = picture_settings(arguments.picture, colour_maps);
+  if (!settings) return settings.error();
+  const auto options = heat_options(arguments.heat);
+  if (!options) return options.error();
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, *settings, outputs); !expected) {
+    return expected.error();
+  }
+  const auto sources = sources_for(arguments, settings->view);
+  if (!sources) return sources.error();
+  auto device = drawing.open(*settings);
+  if (!device) return device.error();
+
+  PictureFigures figures;
+  figures.model_argument = arguments.model;
+  figures.sources = typed_sources(arguments.sources);
+  figures.command = arguments.command;
+  figures.settings = *settings;
+  figures.device = *std::move(device);
+  figures.paths = frame_paths(arguments.output, *settings);
+  CommandOutput out;
+  auto data = prepare(arguments, *options, *sources, progress, figures, out.warnings);
+  if (!data) return data.error();
+  figures.scale = picture_scale(*data, *settings);
+  data->caption = caption_of(figures);
+  if (auto drawn = draw_frames(drawing, *data, progress, outputs, figures, out.text); !drawn) {
+    return drawn.error();
+  }
+  if (!arguments.json.empty()) {
+    std::string text = to_text(picture_json(figures));
+    const auto written = outputs.write(arguments.json, [&]() -> Result<void> {
+      if (arguments.json != "-") return write_file(arguments.json, text);
+      out.text = std::move(text);
+      return {};
+    });
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = picture_table(figures);
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "app/command_output.h"
+#include "app/drawing.h"
+#include "app/options.h"
+#include "app/picture/picture_options.h"
+#include "solver/core/progress.h"
+
+namespace geotherm::app {
+
+struct RenderArguments {
+  std::string model;
+  SourceArguments sources;
+  HeatArguments heat;
+  PictureArguments picture;
+  std::string output;
+  std::string json;
+  bool quiet = false;
+  std::string command;  ///< all that was typed, for the picture's file
+};
+
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+/// Pictures of a model, solved first where sources are given. Opens the device before it reads the
+/// model; leaves no frame behind when one fails. Errors: those of the options, the drawing, the
+/// solve and the files.
+Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
+                                 const Progress& progress = {});
+
+}  // namespace geotherm::app

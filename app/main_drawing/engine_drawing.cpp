@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Drawing by the engine: the one place where pictures and the renderer meet.
+#include <optional>
+
+#include "app/main_drawing/make_drawing.h"
+#include "app/main_drawing/picture_scene.h"
+#include "app/picture/turntable.h"
+#include "engine/device.h"
+#include "engine/picture.h"
+#include "engine/renderer.h"
+
+namespace geotherm::app {
+namespace {
+
+DrawingDevice in_our_words(const engine::DeviceInfo& info) {
+  DrawingDevice device;
+  device.name = info.name;
+  device.kind = info.kind;
+  device.driver = info.driver;
+  device.api = "Vulkan " + std::to_string(info.api_major) + "." + std::to_string(info.api_minor) +
+               "." + std::to_string(info.api_patch);
+  device.memory_mb = static_cast<double>(info.memory) / (1024.0 * 1024.0);
+  device.software = info.software;
+  device.chosen = info.chosen;
+  device.lacks = info.lacks;
+  return device;
+}
+
+std::vector<glm::vec3> vectors(const std::vector<PictureData::Vector>& all) {
+  std::vector<glm::vec3> out;
+  out.reserve(all.size());
+  for (const auto& [x, y, z] : all) out.emplace_back(x, y, z);
+  return out;
+}
+
+Result<void> upload(engine::Renderer& renderer, const PictureData& data,
+                    const PictureSettings& settings, std::span<const glm::vec3> positions) {
+  if (auto done = renderer.set_surface({positions, data.faces}); !done) return done;
+  if (!data.values.empty()) {
+    if (auto done = renderer.set_values(data.values); !done) return done;
+  }
+  if (const engine::ColourMap* map = engine::find_colour_map(settings.colour_map)) {
+    const engine::ColourTable table = engine::colour_table(*map, settings.reverse);
+    if (auto done = renderer.set_colours(table); !done) return done;
+  }
+  if (!data.heat_directions.empty()) {
+    const auto done =
+        renderer.set_arrows(vectors(data.heat_directions), vectors(data.distance_gradients));
+    if (!done) return done;
+  }
+  std::vector<engine::Marker> markers;
+  for (const auto& [from, to] : data.sources) {
+    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
+  }
+  return renderer.set_markers(markers);
+}
+
+class EngineDrawing final : public Drawing {
+ public:
+  std::vector<std::string> colour_maps() const override {
+    std::vector<std::string> names;
+    for (const engine::ColourMap& map : engine::colour_maps()) names.emplace_back(map.name);
+    return names;
+  }
+
+  Result<std::vector<DrawingDevice>> devices() override {
+    const auto found = engine::list_devices();
+    if (!found) return found.error();
+    std::vector<DrawingDevice> out;
+    for (const engine::DeviceInfo& info : *found) out.push_back(in_our_words(info));
+    return out;
+  }
+
+  Result<DrawingDevice> open(const PictureSettings& settings) override {
+    engine::DeviceOptions options;
+    options.name = settings.device;
+    auto device = engine::Device::open(options);
+    if (!device) return device.error();
+    auto renderer = engine::Renderer::build(*device, settings.samples);
+    if (!renderer) return renderer.error();
+    renderer_.reset();  // before the device that it draws on
+    device_ = *std::move(device);
+    renderer_ = *std::move(renderer);
+    return in_our_words(device_->info());
+  }
+
+  Result<void> draw(const PictureData& data, const PictureSettings& settings,
+                    const TakeFrame& frame) override {
+    if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
+    const std::vector<glm::vec3> positions = vectors(data.positions);
+    if (auto done = upload(*renderer_, data, settings, positions); !done) return done;
+    const PictureScale scale = picture_scale(data, settings);
+    const glm::vec2 extent(settings.width, settings.height);
+    const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
+    engine::Scene scene = scene_of(data, settings, scale);
+    for (int i = 0; i < frame_count(settings); ++i) {
+      scene.camera = camera_of(frame_camera(settings, i), positions, extent, layout.insets);
+      auto image = engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
+      if (!image) return image.error();
+      const DrawnPicture picture{image->width, image->height, std::move(image->pixels)};
+      if (auto taken = frame(i, picture); !taken) return taken;
+    }
+    return {};
+  }
+
+ private:
+  // In the order of creation; the renderer goes before the device.
+  std::optional<engine::Device> device_;
+  std::optional<engine::Renderer> renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> make_drawing() { return std::make_unique<EngineDrawing>(); }
+
+}  // namespace geotherm::app

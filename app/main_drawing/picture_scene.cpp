@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "app/main_drawing/picture_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/text.h"
+#include "engine/scene/colour_map.h"
+
+namespace geotherm::app {
+namespace {
+
+/// The picture's smaller side that widths in pixels are meant for.
+constexpr float kUsualSide = 720;
+/// Lines of a small picture stay visible.
+constexpr float kLeastScale = 0.75F;
+/// More isolines than this tell nothing on a bar.
+constexpr double kMostLinesOnBar = 200;
+
+constexpr glm::vec3 kDarkInk{0.10F, 0.11F, 0.13F};
+constexpr glm::vec3 kLightInk{0.90F, 0.91F, 0.93F};
+constexpr glm::vec4 kWhite{1, 1, 1, 1};
+constexpr glm::vec4 kDark{0.10F, 0.11F, 0.13F, 1};
+constexpr glm::vec4 kNothing{1, 1, 1, 0};
+
+/// Model units as the engine's values; kept within what shaders can compute with.
+float value_of(const PictureData& data, double distance) {
+  constexpr double kLargest = 1e18;
+  return static_cast<float>(std::clamp(distance / data.value_unit, -kLargest, kLargest));
+}
+
+engine::Light light_of(PictureLight light) {
+  switch (light) {
+    case PictureLight::kHeadlight:
+      return engine::Light::kHeadlight;
+    case PictureLight::kThreePoint:
+      return engine::Light::kThreePoint;
+    case PictureLight::kNone:
+      break;
+  }
+  return engine::Light::kNone;
+}
+
+glm::vec4 background_of(PictureBackground background) {
+  switch (background) {
+    case PictureBackground::kDark:
+      return kDark;
+    case PictureBackground::kTransparent:
+      return kNothing;
+    case PictureBackground::kLight:
+      break;
+  }
+  return kWhite;
+}
+
+engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& settings,
+                                const PictureScale& scale) {
+  engine::SurfaceStyle style;
+  style.smooth = settings.view != View::kFlat && settings.view != View::kWireframe;
+  style.wire = settings.view == View::kWireframe;
+  if (settings.view != View::kContours || data.values.empty()) return style;
+  style.paint = engine::Paint::kMap;
+  style.range_min = value_of(data, scale.min);
+  style.range_max = value_of(data, scale.max);
+  style.line_spacing = value_of(data, scale.spacing);
+  return style;
+}
+
+/// Whether a view is about where distance is 0.
+bool shows_sources(View view) {
+  return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
+}
+
+}  // namespace
+
+engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
+                         const PictureScale& scale) {
+  engine::Legend legend;
+  legend.ink = settings.background == PictureBackground::kDark ? kLightInk : kDarkInk;
+  if (settings.caption) legend.caption = data.caption;
+  const engine::ColourMap* map = engine::find_colour_map(settings.colour_map);
+  if (!scale.bar || map == nullptr) return legend;
+  legend.bar = true;
+  legend.title = data.value_title;
+  for (const glm::vec4& colour : engine::colour_table(*map, settings.reverse)) {
+    legend.colours.emplace_back(colour);
+  }
+  const double width = scale.max - scale.min;
+  const auto position = [&](double distance) {
+    return static_cast<float>(std::clamp((distance - scale.min) / width, 0.0, 1.0));
+  };
+  for (std::size_t i = 0; i < scale.ticks.values.size(); ++i) {
+    legend.ticks.push_back({position(scale.ticks.values[i]), scale.ticks.labels[i]});
+  }
+  if (!(scale.spacing > 0) || width / scale.spacing > kMostLinesOnBar) return legend;
+  const double first = std::floor(scale.min / scale.spacing) + 1;
+  for (double i = first; i * scale.spacing < scale.max; ++i) {
+    legend.lines.push_back(position(i * scale.spacing));
+  }
+  return legend;
+}
+
+engine::Camera camera_of(const CameraSettings& camera, std::span<const glm::vec3> points,
+                         glm::vec2 extent, const engine::Insets& insets) {
+  engine::Orbit orbit;
+  orbit.azimuth = static_cast<float>(camera.azimuth);
+  orbit.elevation = static_cast<float>(camera.elevation);
+  orbit.zoom = static_cast<float>(camera.zoom);
+  orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
+  orbit.orthographic = camera.orthographic;
+  orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
+  return engine::make_camera(orbit, points, extent, insets);
+}
+
+engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
+                       const PictureScale& scale) {
+  engine::Scene scene;
+  scene.light = light_of(settings.light);
+  scene.background = background_of(settings.background);
+  scene.surface = surface_of(data, settings, scale);
+  scene.arrows.primary =
+      settings.view == View::kHeatGradient || settings.view == View::kGradientError;
+  scene.arrows.secondary = settings.view == View::kGradientError;
+  scene.markers.visible = settings.markers && shows_sources(settings.view);
+  const auto side = static_cast<float>(std::min(settings.width, settings.height));
+  scene.pixel_scale = std::max(side / kUsualSide, kLeastScale);
+  return scene;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "app/picture/picture_scale.h"
+#include "engine/overlay/legend.h"
+#include "engine/scene/scene.h"
+
+// Settings of a picture in the engine's words.
+namespace geotherm::app {
+
+engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
+                         const PictureScale& scale);
+
+/// What the eye sees of `points`, which lie in scene space.
+engine::Camera camera_of(const CameraSettings& camera, std::span<const glm::vec3> points,
+                         glm::vec2 extent, const engine::Insets& insets);
+
+/// All of the scene but its camera.
+engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
+                       const PictureScale& scale);
+
+}  // namespace geotherm::app

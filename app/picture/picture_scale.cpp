@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/picture/picture_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm::app {
+namespace {
+
+/// Labels keep their distance on a bar of any length with so many.
+constexpr int kMostTicks = 7;
+
+}  // namespace
+
+PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
+  const double largest = data.largest_value * data.value_unit;
+  const bool has_range = settings.range_min || settings.range_max;
+  PictureScale scale;
+  scale.min = settings.range_min.value_or(0);
+  scale.max = settings.range_max.value_or(largest > 0 ? largest : 1);
+  if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
+    const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
+    if (settings.range_max) {
+      scale.min = scale.max - width;
+    } else {
+      scale.max = scale.min + width;
+    }
+  }
+  const bool coloured = settings.view == View::kContours && !data.values.empty();
+  // Where all distances are 0 an isoline would be all of the surface.
+  if (coloured && largest > 0) {
+    scale.spacing = settings.line_spacing.value_or(round_spacing(scale.max - scale.min));
+  }
+  scale.bar = settings.bar && coloured && (largest > 0 || has_range);
+  if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMostTicks, scale.spacing);
+  return scale;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_settings.h"
+#include "app/picture/ticks.h"
+
+namespace geotherm::app {
+
+/// What the colours of a picture stand for, in model units: the settings with the data's say where
+/// they leave it open.
+struct PictureScale {
+  double min = 0, max = 1;  ///< at the ends of the colour map; min < max
+  double spacing = 0;       ///< of isolines; 0: none
+  bool bar = false;         ///< there is something to read off a colour bar, and it is wanted
+  Ticks ticks;              ///< of the bar
+};
+
+PictureScale picture_scale(const PictureData& data, const PictureSettings& settings);
+
+}  // namespace geotherm::app

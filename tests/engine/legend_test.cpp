@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "engine/overlay/legend.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+using glm::vec2;
+using glm::vec3;
+
+constexpr vec3 kInk(0.1F, 0.2F, 0.3F);  // no colour of the bar below
+
+Legend sample() {
+  Legend legend;
+  legend.bar = true;
+  legend.colours = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};
+  legend.ticks = {{0, "0"}, {0.25F, "0.5"}, {0.5F, "1"}, {0.75F, "1.5"}, {1, "2"}};
+  for (int i = 0; i <= 20; ++i) legend.lines.push_back(static_cast<float>(i) / 20);
+  legend.title = "geodesic distance (mm)";
+  legend.caption =
+      "gargoyle \xC2\xB7 200,000 faces \xC2\xB7 t = 1.2e-4 (mean-edge, m = 1) \xC2\xB7 cholmod";
+  legend.ink = kInk;
+  return legend;
+}
+
+struct Box {
+  vec2 min, max;
+};
+
+/// The quads that letters (or, without `letters`, plain shapes) cover.
+std::vector<Box> quads(const Overlay& overlay, bool letters) {
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < overlay.vertices.size(); i += 6) {
+    if ((overlay.vertices[i].uv == overlay.atlas.white_uv()) == letters) continue;
+    Box box{overlay.vertices[i].position, overlay.vertices[i].position};
+    for (std::size_t k = i; k < i + 6; ++k) {
+      box.min = glm::min(box.min, overlay.vertices[k].position);
+      box.max = glm::max(box.max, overlay.vertices[k].position);
+    }
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return glm::all(glm::lessThan(a.min, b.max)) && glm::all(glm::lessThan(b.min, a.max));
+}
+
+/// Quads with a colour that only the bar has.
+int bar_quads(const Overlay& overlay) {
+  return static_cast<int>(
+             std::count_if(overlay.vertices.begin(), overlay.vertices.end(),
+                           [](const Overlay::Vertex& v) { return vec3(v.colour) != kInk; })) /
+         6;
+}
+
+class LegendOfSize : public testing::TestWithParam<vec2> {
+ protected:
+  vec2 extent() const { return GetParam(); }
+  float side() const { return std::min(extent().x, extent().y); }
+};
+
+TEST_P(LegendOfSize, StaysInsideThePicture) {
+  for (const float scale : {0.2F, 1.0F, 1.7F, 5.0F, 40.0F}) {
+    Legend legend = sample();
+    legend.scale = scale;
+    const LegendLayout layout = lay_out(legend, extent());
+    for (const Overlay::Vertex& v : layout.overlay.vertices) {
+      ASSERT_TRUE(v.position.x >= 0 && v.position.x <= extent().x) << scale << " " << v.position.x;
+      ASSERT_TRUE(v.position.y >= 0 && v.position.y <= extent().y) << scale << " " << v.position.y;
+      ASSERT_TRUE(v.uv.x >= 0 && v.uv.x <= 1 && v.uv.y >= 0 && v.uv.y <= 1);
+    }
+  }
+}
+
+TEST_P(LegendOfSize, LeavesTheModelWhatItsInsetsSay) {
+  for (const float scale : {0.5F, 1.0F, 2.0F}) {
+    Legend legend = sample();
+    legend.scale = scale;
+    const auto [overlay, insets] = lay_out(legend, extent());
+    const Box model{{insets.left, insets.top},
+                    {extent().x - insets.right, extent().y - insets.bottom}};
+    EXPECT_GE(model.max.x, extent().x / 3);
+    EXPECT_GE(model.max.y, extent().y / 2);
+    for (const bool letters : {false, true}) {
+      for (const Box& box : quads(overlay, letters)) ASSERT_FALSE(overlap(box, model)) << scale;
+    }
+  }
+}
+
+TEST_P(LegendOfSize, HasNoTwoLettersInOnePlace) {
+  Legend legend = sample();
+  for (int i = 0; i <= 40; ++i) {  // far too many
+    legend.ticks.push_back({static_cast<float>(i) / 40, std::to_string(i)});
+  }
+  const LegendLayout layout = lay_out(legend, extent());
+  const std::vector<Box> letters = quads(layout.overlay, true);
+  for (std::size_t i = 0; i < letters.size(); ++i) {
+    for (std::size_t k = i + 1; k < letters.size(); ++k) {
+      // Neighbours of a word may share a column of pixels.
+      const Box shrunk{letters[k].min + vec2(1, 0), letters[k].max - vec2(1, 0)};
+      ASSERT_FALSE(overlap(letters[i], shrunk)) << i << " " << k;
+    }
+  }
+}
+
+TEST_P(LegendOfSize, HasABarWhereThereIsRoom) {
+  const LegendLayout layout = lay_out(sample(), extent());
+  if (side() >= 300) {
+    EXPECT_EQ(bar_quads(layout.overlay), 2);
+    EXPECT_GT(layout.insets.right, 0);
+  } else if (side() < 160) {
+    EXPECT_EQ(bar_quads(layout.overlay), 0);
+    EXPECT_EQ(layout.insets.right, 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, LegendOfSize,
+                         testing::Values(vec2(1280, 720), vec2(640, 480), vec2(400, 300),
+                                         vec2(1920, 1080), vec2(3840, 2160), vec2(600, 900),
+                                         vec2(16384, 16384), vec2(16384, 200), vec2(200, 4000),
+                                         vec2(333, 301), vec2(180, 170), vec2(160, 160),
+                                         vec2(159, 800), vec2(100, 100), vec2(64, 48), vec2(7, 5),
+                                         vec2(1, 1)),
+                         [](const auto& param_info) {
+                           return std::to_string(static_cast<int>(param_info.param.x)) + "x" +
+                                  std::to_string(static_cast<int>(param_info.param.y));
+                         });
+
+TEST(Legend, WithoutPartsTakesNothing) {
+  const LegendLayout layout = lay_out({}, {1280, 720});
+  EXPECT_TRUE(layout.overlay.vertices.empty());
+  EXPECT_EQ(layout.insets.left + layout.insets.top, 0);
+  EXPECT_EQ(layout.insets.right + layout.insets.bottom, 0);
+}
+
+TEST(Legend, OfACaptionAloneTakesTheLowerEdgeOnly) {
+  Legend legend;
+  legend.caption = "sphere";
+  const LegendLayout layout = lay_out(legend, {1280, 720});
+  EXPECT_FALSE(layout.overlay.vertices.empty());
+  EXPECT_EQ(layout.insets.right, 0);
+  EXPECT_GT(layout.insets.bottom, 20);
+  EXPECT_LT(layout.insets.bottom, 60);
+}
+
+TEST(Legend, HasTheLastColourAtTheTop) {
+  const LegendLayout layout = lay_out(sample(), {1280, 720});
+  float red = 0;
+  float blue = 0;
+  for (const Overlay::Vertex& v : layout.overlay.vertices) {
+    if (vec3(v.colour) == vec3(1, 0, 0)) red = v.position.y;
+    if (vec3(v.colour) == vec3(0, 0, 1)) blue = v.position.y;
+  }
+  EXPECT_GT(red, blue + 100);
+}
+
+TEST(Legend, GrowsWithThePictureAndItsScale) {
+  const float small = lay_out(sample(), {1280, 720}).insets.right;
+  const float large = lay_out(sample(), {2560, 1440}).insets.right;
+  EXPECT_NEAR(large, 2 * small, 0.1F * large);
+  Legend scaled = sample();
+  scaled.scale = 2;
+  EXPECT_NEAR(lay_out(scaled, {1280, 720}).insets.right, large, 0.1F * large);
+}
+
+TEST(Legend, KeepsEveryTickThatHasRoom) {
+  Legend legend = sample();
+  legend.title.clear();
+  legend.caption.clear();
+  legend.lines.clear();
+  legend.ticks = {{0, "0"}, {0.5F, "5"}, {0.505F, "6"}, {1, "9"}};
+  EXPECT_EQ(quads(lay_out(legend, {1280, 720}).overlay, true).size(), 3U);
+}
+
+TEST(Legend, IgnoresPlacesThatAreNotOnTheBar) {
+  Legend legend = sample();
+  const std::size_t plain = lay_out(legend, {1280, 720}).overlay.vertices.size();
+  for (const float place : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN(),
+                            std::numeric_limits<float>::infinity()}) {
+    legend.ticks.push_back({place, "3"});
+    legend.lines.push_back(place);
+  }
+  EXPECT_EQ(lay_out(legend, {1280, 720}).overlay.vertices.size(), plain);
+}
+
+TEST(Legend, LeavesIsolinesOutThatWouldHideTheBar) {
+  Legend legend = sample();
+  legend.lines.clear();
+  const std::size_t none = lay_out(legend, {1280, 720}).overlay.vertices.size();
+  for (int i = 0; i <= 1000; ++i) legend.lines.push_back(static_cast<float>(i) / 1000);
+  EXPECT_EQ(lay_out(legend, {1280, 720}).overlay.vertices.size(), none);
+}
+
+TEST(Legend, CutsACaptionThatIsTooLong) {
+  Legend legend;
+  legend.caption = std::string(5000, 'm');
+  const LegendLayout layout = lay_out(legend, {640, 480});
+  const std::vector<Box> letters = quads(layout.overlay, true);
+  EXPECT_LT(letters.size(), 100U);
+  EXPECT_GT(letters.back().max.x, 600);  // it uses the line
+  EXPECT_LT(letters.back().max.x, 640);
+  EXPECT_LT(letters.back().max.y - letters.back().min.y, 4);  // dots, not an m
+}
+
+TEST(Legend, WithLabelsTooWideForThePictureHasNoBar) {
+  Legend legend = sample();
+  legend.ticks.push_back({0.4F, std::string(60, '8')});
+  EXPECT_EQ(bar_quads(lay_out(legend, {400, 300}).overlay), 0);
+}
+
+TEST(Legend, SurvivesSizesThatAreNone) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  for (const vec2 extent : {vec2(0, 0), vec2(-100, 500), vec2(kNan, 500), vec2(500, kNan)}) {
+    EXPECT_TRUE(lay_out(sample(), extent).overlay.vertices.empty());
+  }
+  Legend legend = sample();
+  legend.scale = kNan;
+  EXPECT_EQ(bar_quads(lay_out(legend, {1280, 720}).overlay), 2);
+}
+
+}  // namespace
+}  // namespace geotherm::test
