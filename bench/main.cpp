@@ -72,10 +72,18 @@ int run(const Arguments& arguments) {
     for (const LoadRow& row : loads) print(load_text(row), out);
   }
 
-  if (groups.empty() && loads.empty())
+  RenderBench render;
+  if (std::regex_search("render", plan.only)) {
+    render = measure_render(say);
+    say("");
+    print(render_text(render), out);
+  }
+
+  if (groups.empty() && loads.empty() && render.device.empty() && render.failure.empty())
     print("Nothing fits --only " + arguments.only + "\n", stderr);
   if (arguments.json.empty()) return 0;
-  const auto written = write_file(arguments.json, to_json(machine, threads, groups, growth, loads));
+  const auto written =
+      write_file(arguments.json, to_json(machine, threads, groups, growth, loads, render));
   if (written) return 0;
   print("geotherm_bench: error: " + written.error().message + "\n", stderr);
   return 1;
@@ -90,7 +98,8 @@ int run_command_line(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--only", arguments.only,
                  "Regular expression: measure only rows MESH-SIZEk/BACKEND in which it is found, "
-                 "such as 'gargoyle-200k/cholmod' or '1050k'; 'load' is the reading of files")
+                 "such as 'gargoyle-200k/cholmod' or '1050k'; 'load' is the reading of files, "
+                 "'render' the drawing")
       ->check([](const std::string& text) {
         try {
           const std::regex parsed(text);

@@ -141,8 +141,25 @@ std::string load_text(const LoadRow& row) {
   return out + format(", tinyobjloader %.0f ms, x%.1f\n", row.tinyobjloader_ms, row.ratio());
 }
 
+std::string render_text(const RenderBench& bench) {
+  std::string text;
+  if (!bench.rows.empty()) {
+    text += format("\nDrawing on %s, 1280x720; ratio to a bare shaded fill\n%-15s",
+                   bench.device.c_str(), "view");
+    text += format("%10s%9s%10s%8s\n", "triangles", "samples", "ms", "ratio");
+  }
+  for (const RenderRow& row : bench.rows) {
+    text += format("%-15s%10d%9d", row.view.c_str(), row.triangles, row.samples) +
+            milliseconds(row.frame_ms, 10) + number(row.ratio(), 8, 2, "x") + "\n";
+  }
+  if (bench.peak_mb > 0) text += format("Device memory at most %.0f MB\n", bench.peak_mb);
+  if (!bench.failure.empty()) text += "Drawing was not measured: " + bench.failure + "\n";
+  return text;
+}
+
 std::string to_json(const Machine& machine, int threads, const std::vector<SolveGroup>& groups,
-                    const std::vector<Growth>& growth, const std::vector<LoadRow>& loads) {
+                    const std::vector<Growth>& growth, const std::vector<LoadRow>& loads,
+                    const RenderBench& render) {
   Json out;
   out["machine"] = {{"cpu", machine.cpu},   {"cores", machine.cores},       {"threads", threads},
                     {"blas", machine.blas}, {"compiler", machine.compiler}, {"load", machine.load}};
@@ -167,6 +184,17 @@ std::string to_json(const Machine& machine, int threads, const std::vector<Solve
                            {"tinyobjloader_ms", value(row.tinyobjloader_ms)},
                            {"tinyobjloader_ratio", value(row.ratio())},
                            {"message", row.failure}});
+  }
+  for (const RenderRow& row : render.rows) {
+    out["render"].push_back({{"view", row.view},
+                             {"triangles", row.triangles},
+                             {"samples", row.samples},
+                             {"frame_ms", value(row.frame_ms)},
+                             {"fill_ms", value(row.fill_ms)},
+                             {"fill_ratio", value(row.ratio())}});
+  }
+  if (!render.rows.empty()) {
+    out["render_device"] = {{"name", render.device}, {"peak_mb", render.peak_mb}};
   }
   return out.dump(2) + "\n";
 }

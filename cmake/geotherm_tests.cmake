@@ -25,8 +25,10 @@ elseif("address" IN_LIST GEOTHERM_SANITIZE)
        "UBSAN_OPTIONS=print_stacktrace=1")
 endif()
 
-# geotherm_discover_tests(TARGET): every TEST of the executable becomes a test of ctest.
+# geotherm_discover_tests(TARGET [ENVIRONMENT VARIABLE=VALUE...]): every TEST of the executable becomes
+# a test of ctest.
 function(geotherm_discover_tests target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" ENVIRONMENT)
   set(filter)
   if(GEOTHERM_TEST_FILTER)
     set(filter TEST_FILTER "${GEOTHERM_TEST_FILTER}")
@@ -35,9 +37,10 @@ function(geotherm_discover_tests target)
     NO_PRETTY_VALUES TEST_LIST ${target}_names DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL})
   # gtest_discover_tests cannot pass on a property that is a list: it is set when ctest starts.
+  set(environment ${GEOTHERM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_environment.cmake")
   file(WRITE "${file}" "if(${target}_names)\n  set_tests_properties(\${${target}_names} PROPERTIES "
-                       "ENVIRONMENT \"${GEOTHERM_TEST_ENVIRONMENT}\")\nendif()\n")
+                       "ENVIRONMENT \"${environment}\")\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
 endfunction()
 

@@ -43,8 +43,7 @@ vk::raii::CommandBuffer Device::State::make_commands() const {
   return std::move(made.front());
 }
 
-void Device::State::run(
-    const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
+void Device::State::run(const std::function<void(const vk::raii::CommandBuffer&)>& record) const {
   const vk::raii::CommandBuffer commands = make_commands();
   commands.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
   record(commands);
@@ -85,9 +84,9 @@ void submit_and_wait(const Device::State& device, const vk::raii::CommandBuffer&
 }
 
 void record_transition(const vk::raii::CommandBuffer& commands, const Transition& t) {
-  const vk::ImageMemoryBarrier2 barrier(t.from_stage, t.from_access, t.to_stage, t.to_access, t.from,
-                                        t.to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED,
-                                        t.image, {t.aspect, 0, 1, 0, 1});
+  const vk::ImageMemoryBarrier2 barrier(t.from_stage, t.from_access, t.to_stage, t.to_access,
+                                        t.from, t.to, VK_QUEUE_FAMILY_IGNORED,
+                                        VK_QUEUE_FAMILY_IGNORED, t.image, {t.aspect, 0, 1, 0, 1});
   commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
 
@@ -123,9 +122,9 @@ std::uint64_t Device::peak_memory() const { return state_->memory.budget->peak()
 
 int Device::largest_picture() const {
   const vk::PhysicalDeviceLimits limits = state_->physical.getProperties().limits;
-  return static_cast<int>(std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth,
-                                    limits.maxFramebufferHeight, limits.maxViewportDimensions[0],
-                                    limits.maxViewportDimensions[1]}));
+  return static_cast<int>(
+      std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth, limits.maxFramebufferHeight,
+                limits.maxViewportDimensions[0], limits.maxViewportDimensions[1]}));
 }
 
 }  // namespace geotherm::engine

@@ -11,8 +11,8 @@
 namespace geotherm::engine {
 
 struct DeviceOptions {
-  std::string name;         ///< part of the device's name, in any case; empty: the best one
-  bool validation = false;  ///< Khronos validation with synchronization validation
+  std::string name;                ///< part of the device's name, in any case; empty: the best one
+  bool validation = false;         ///< Khronos validation with synchronization validation
   std::uint64_t memory_limit = 0;  ///< bytes of device memory that may be used; 0: what there is
 };
 
@@ -24,7 +24,7 @@ struct DeviceInfo {
   std::uint32_t api_major = 0, api_minor = 0, api_patch = 0;
   std::uint64_t memory = 0;  ///< bytes of its largest device-local heap
   bool software = false;
-  bool chosen = false;          ///< the one that is used when no name is given
+  bool chosen = false;             ///< the one that is used when no name is given
   std::vector<std::string> lacks;  ///< why it cannot be used, one reason each; empty: it can
 };
 
@@ -43,7 +43,7 @@ class Device {
   std::vector<std::string> validation_messages() const;
   std::uint64_t memory_used() const;  ///< bytes of device memory allocated now
   std::uint64_t peak_memory() const;
-  int largest_picture() const;        ///< pixels on a side that can be drawn without tiles
+  int largest_picture() const;  ///< pixels on a side that can be drawn without tiles
 
   struct State;
   const std::shared_ptr<State>& state() const { return state_; }

@@ -23,8 +23,8 @@ class OffscreenTarget final : public Target {
   Result<void> begin(TargetFrame& frame) override;
   Result<void> end(TargetFrame& frame) override;
 
-  /// Copies the first width x height pixels of what was drawn last to `image` at `at`. Precondition:
-  /// they fit there.
+  /// Copies the first width x height pixels of what was drawn last to `image` at `at`.
+  /// Precondition: they fit there.
   void read(Image& image, glm::ivec2 at, glm::ivec2 size) const;
 
  private:

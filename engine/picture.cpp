@@ -19,10 +19,9 @@ Result<Image> draw_picture(const Device& device, Renderer& renderer, const Scene
   const glm::ivec2 size(scene.camera.extent);
   const int most = std::min(kLargestPicture, device.largest_picture());
   if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
-    return Error{ErrorCode::kBadInput, "a picture of " + std::to_string(size.x) + "x" +
-                                           std::to_string(size.y) +
-                                           " pixels cannot be drawn; sides are 1 to " +
-                                           std::to_string(most)};
+    return Error{ErrorCode::kBadInput,
+                 "a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                     " pixels cannot be drawn; sides are 1 to " + std::to_string(most)};
   }
   const glm::ivec2 tile = glm::min(size, glm::ivec2(largest_tile > 0 ? largest_tile : kUsualTile));
   auto target = OffscreenTarget::build(device, tile);

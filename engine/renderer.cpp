@@ -38,9 +38,16 @@ Result<Renderer> Renderer::build(const Device& device, int samples) {
                  "there are 1 or 4 samples a pixel, not " + std::to_string(samples)};
   }
   return guarded("preparing to draw", [&]() -> Result<Renderer> {
-    return Renderer(std::unique_ptr<State>(
-        new State{device.state(), samples, FrameRecorder(device.state(), samples), {}, {}, {}, {},
-                  {}, {}, {}}));
+    return Renderer(std::unique_ptr<State>(new State{device.state(),
+                                                     samples,
+                                                     FrameRecorder(device.state(), samples),
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     {}}));
   });
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a fresh clone to geodesic distances: installs what is missing, builds, solves.
+# From a fresh clone to geodesic distances and a picture of them: installs what is missing, builds,
+# solves, draws.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -28,12 +29,17 @@ mkdir -p "$output"
 say "geotherm solve $model -s $source"
 "$program" solve "$model" -s "$source" -o "$output/distances.ply" --json "$output/solve.json"
 
+say "geotherm render $model -s $source --view contours"
+"$program" render "$model" -s "$source" --view contours -o "$output/contours.png"
+
 cat <<TEXT
 
-Written: build/demo/distances.ply (the mesh with its distances; ParaView and MeshLab open it)
+Written: build/demo/contours.png  (a picture of them, drawn by Vulkan, with a GPU or without)
+         build/demo/distances.ply (the mesh with its distances; ParaView and MeshLab open it)
          build/demo/solve.json    (every figure above and more)
 
 Try next:
+  build/release/geotherm render $model -s $source --view heat-gradient -o arrows.png
   build/release/geotherm solve bunny -s 3,99 -o distances.csv    several sources, one distance field
   build/release/geotherm compare bunny terrain                   the same work through each backend
   build/release/geotherm info $model

@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: MIT
 # Installs what is missing, builds four ways and runs all tests in one ctest, whose summary comes
 # last: release (all tests), asan (address and undefined behaviour), tsan (threads), nocholmod
-# (without SuiteSparse). Arguments go to ctest: scripts/test.sh -R Reader
+# (without SuiteSparse and without the renderer). Pictures are drawn and checked with Vulkan's
+# software device; --require-vulkan makes their tests fail, not skip, where there is none.
+# Other arguments go to ctest: scripts/test.sh -R Reader
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+if [ "${1:-}" = --require-vulkan ]; then
+  export GEOTHERM_REQUIRE_VULKAN=1
+  shift
+fi
 
 "$root/scripts/setup.sh" --dev
 

@@ -182,8 +182,7 @@ ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
   if (!first && !second) return selection;
   const float wanted = style.spacing * scale;
   constexpr float kReach = 1.0F;  // every point is at most this far from the origin
-  const float nearest_depth =
-      std::max(-(camera.view * glm::vec4(0, 0, 0, 1)).z - kReach, 1e-4F);
+  const float nearest_depth = std::max(-(camera.view * glm::vec4(0, 0, 0, 1)).z - kReach, 1e-4F);
   for (const ArrowPlaces::Place& place : places.places()) {
     if (place.spacing * camera.pixels_per_unit / (camera.orthographic ? 1.0F : nearest_depth) <
         wanted) {

@@ -30,9 +30,9 @@ struct Orbit {
 /// Matrices of a view. Clip space is Vulkan's: x right, y down, depth 1 at the near plane and 0 at
 /// the far one (reversed, for precision).
 struct Camera {
-  glm::mat4 view{1};           ///< scene to eye space (the eye looks along -z), rigid
-  glm::mat4 projection{1};     ///< eye to clip space
-  glm::vec2 extent{1, 1};      ///< the whole picture, pixels
+  glm::mat4 view{1};        ///< scene to eye space (the eye looks along -z), rigid
+  glm::mat4 projection{1};  ///< eye to clip space
+  glm::vec2 extent{1, 1};   ///< the whole picture, pixels
   bool orthographic = false;
   /// Pixels that a length of 1 at depth 1 before the eye covers (orthographic: at any depth).
   float pixels_per_unit = 1;
@@ -44,10 +44,10 @@ struct Camera {
 };
 
 /// A camera that shows `points` (scene space) fitted as the orbit says into what the insets leave.
-/// Tight fits solve for the frustum planes that touch the points, exactly and in O(points). Zoom and
-/// pan are those of a lens: the eye stays where the fit put it, zoom scales about the centre of what
-/// the insets leave. Never fails: a single point, no point, points that are not finite (left out) and
-/// an extent smaller than its insets give a sane camera.
+/// Tight fits solve for the frustum planes that touch the points, exactly and in O(points). Zoom
+/// and pan are those of a lens: the eye stays where the fit put it, zoom scales about the centre of
+/// what the insets leave. Never fails: a single point, no point, points that are not finite (left
+/// out) and an extent smaller than its insets give a sane camera.
 Camera make_camera(const Orbit& orbit, std::span<const glm::vec3> points, glm::vec2 extent,
                    const Insets& insets = {});
 

@@ -14,7 +14,7 @@ namespace geotherm::engine {
 struct ColourMap {
   std::string_view name;
   std::string_view description;
-  bool diverging = false;          ///< its middle stands for zero
+  bool diverging = false;               ///< its middle stands for zero
   std::span<const glm::vec3> controls;  ///< sRGB, 0 to 1, evenly spaced from 0 to 1
 };
 

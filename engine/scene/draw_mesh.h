@@ -10,17 +10,17 @@
 
 namespace geotherm::engine {
 
-/// A mesh as the surface pipeline draws it: indexed triangles whose vertices are those of the model,
-/// copied where faces meet sharply (one normal each) and where edges are to be drawn (one label
-/// each).
+/// A mesh as the surface pipeline draws it: indexed triangles whose vertices are those of the
+/// model, copied where faces meet sharply (one normal each) and where edges are to be drawn (one
+/// label each).
 struct DrawMesh {
   struct Vertex {
     glm::vec3 position;
     std::array<std::int16_t, 4> normal_and_label;  ///< times 32767; label -1, 0 or 1
   };
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> origin;                  ///< the model's vertex of each
-  std::vector<std::array<std::uint32_t, 3>> faces;    ///< the model's faces, in their order
+  std::vector<std::uint32_t> origin;                ///< the model's vertex of each
+  std::vector<std::array<std::uint32_t, 3>> faces;  ///< the model's faces, in their order
 };
 
 /// Faces that meet at more than this angle (degrees) get normals of their own.
@@ -31,8 +31,8 @@ inline constexpr float kCreaseAngle = 40;
 /// be oriented differently. Faces without area take any normal of their vertices.
 ///
 /// The three corners of each face get labels -1, 0 and 1, which is how the shader knows how far it
-/// is from each edge: a vertex is copied when faces need it under several labels (on ordinary meshes
-/// there are about 1.5 copies of each). Cost: O(F).
+/// is from each edge: a vertex is copied when faces need it under several labels (on ordinary
+/// meshes there are about 1.5 copies of each). Cost: O(F).
 DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);
 
 }  // namespace geotherm::engine

@@ -16,7 +16,7 @@ inline constexpr float kNoValue = -std::numeric_limits<float>::max();
 
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {
-  std::span<const glm::vec3> positions;                ///< V
+  std::span<const glm::vec3> positions;                 ///< V
   std::span<const std::array<std::uint32_t, 3>> faces;  ///< F, every corner in [0, V)
 };
 
@@ -41,13 +41,13 @@ struct SurfaceStyle {
   bool visible = true;
   bool smooth = true;  ///< shaded with vertex normals, split where faces meet sharply
   Paint paint = Paint::kPlain;
-  glm::vec3 colour{0.80F, 0.80F, 0.78F};   ///< kPlain, sRGB
-  float range_min = 0, range_max = 1;      ///< values at the ends of the colour map
-  float line_spacing = 0;                  ///< isolines at its multiples; 0: none
-  float line_width = 1.4F;                 ///< pixels
+  glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
+  float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
+  float line_spacing = 0;                 ///< isolines at its multiples; 0: none
+  float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
-  bool wire = false;                       ///< edges of all triangles
-  float wire_width = 1.0F;                 ///< pixels
+  bool wire = false;        ///< edges of all triangles
+  float wire_width = 1.0F;  ///< pixels
   glm::vec3 wire_colour{0.08F, 0.09F, 0.11F};
 };
 

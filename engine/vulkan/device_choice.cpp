@@ -15,11 +15,16 @@ constexpr vk::Format kDepth = vk::Format::eD32Sfloat;
 
 std::string kind_of(vk::PhysicalDeviceType type) {
   switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu: return "discrete GPU";
-    case vk::PhysicalDeviceType::eIntegratedGpu: return "integrated GPU";
-    case vk::PhysicalDeviceType::eVirtualGpu: return "virtual GPU";
-    case vk::PhysicalDeviceType::eCpu: return "software";
-    default: return "other";
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+      return "discrete GPU";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+      return "integrated GPU";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+      return "virtual GPU";
+    case vk::PhysicalDeviceType::eCpu:
+      return "software";
+    default:
+      return "other";
   }
 }
 
@@ -67,7 +72,8 @@ void find_lacks(Candidate& candidate) {
     lacks.emplace_back("no 32-bit depth");
   }
   if (candidate.info.api_major == 1 && candidate.info.api_minor < 3) {
-    lacks.push_back("Vulkan 1." + std::to_string(candidate.info.api_minor) + " where 1.3 is needed");
+    lacks.push_back("Vulkan 1." + std::to_string(candidate.info.api_minor) +
+                    " where 1.3 is needed");
     return;  // what follows may only be asked of 1.3
   }
   const auto features =
@@ -80,7 +86,8 @@ void find_lacks(Candidate& candidate) {
 Candidate examine(vk::raii::PhysicalDevice device) {
   const auto properties =
       device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
-  const vk::PhysicalDeviceProperties& base = properties.get<vk::PhysicalDeviceProperties2>().properties;
+  const vk::PhysicalDeviceProperties& base =
+      properties.get<vk::PhysicalDeviceProperties2>().properties;
   const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
   Candidate candidate{std::move(device), {}, 0};
   DeviceInfo& info = candidate.info;
@@ -127,9 +134,8 @@ std::vector<Candidate> examine_devices(const vk::raii::Instance& instance) {
   for (vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
     candidates.push_back(examine(std::move(device)));
   }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
-    return rank_of(a.info) < rank_of(b.info);
-  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return rank_of(a.info) < rank_of(b.info); });
   if (!candidates.empty() && candidates.front().info.lacks.empty()) {
     candidates.front().info.chosen = true;
   }

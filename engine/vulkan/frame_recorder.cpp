@@ -26,9 +26,8 @@ void write_host(const Device::State& device, Buffer& buffer, std::span<const std
 }
 
 vk::raii::DescriptorPool make_pool(const vk::raii::Device& device) {
-  const std::array sizes = {
-      vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 2),
-      vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
+  const std::array sizes = {vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 2),
+                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
   return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
 }
 
@@ -45,8 +44,8 @@ FrameRecorder::FrameRecorder(std::shared_ptr<Device::State> device, int samples)
       samples_(samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1),
       pipelines_(device_, samples_),
       frame_(device_->memory, sizeof(shared::Frame), Usage::eUniformBuffer, Home::kHost),
-      colours_(device_->upload(bytes_of(colour_table(colour_maps().front())),
-                               Usage::eUniformBuffer)),
+      colours_(
+          device_->upload(bytes_of(colour_table(colour_maps().front())), Usage::eUniformBuffer)),
       pool_(make_pool(device_->device)),
       set_(make_set(device_->device, *pool_, pipelines_.set_layout())) {
   set_atlas({});
@@ -93,10 +92,10 @@ void FrameRecorder::set_atlas(const GlyphAtlas& atlas) {
                                      {extent.width, extent.height, 1});
     commands.copyBufferToImage(*staging.buffer, *texture.image,
                                vk::ImageLayout::eTransferDstOptimal, region);
-    record_transition(commands, {*texture.image, vk::ImageLayout::eTransferDstOptimal,
-                                 vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eCopy,
-                                 Access::eTransferWrite, Stage::eFragmentShader,
-                                 Access::eShaderSampledRead});
+    record_transition(
+        commands, {*texture.image, vk::ImageLayout::eTransferDstOptimal,
+                   vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
+                   Stage::eFragmentShader, Access::eShaderSampledRead});
   });
   atlas_ = std::move(texture);
   atlas_pixels_ = atlas.pixels();

@@ -12,15 +12,15 @@ namespace geotherm::engine {
 Loader::Loader() {
   library_ = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
   if (library_ != nullptr) {
-    entry_ = reinterpret_cast<PFN_vkGetInstanceProcAddr>(
-        ::dlsym(library_, "vkGetInstanceProcAddr"));
+    entry_ =
+        reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(library_, "vkGetInstanceProcAddr"));
   }
   if (entry_ != nullptr) return;
   const char* const reason = ::dlerror();
-  throw Failure({ErrorCode::kNoDevice,
-                 "the Vulkan loader cannot be opened (" +
-                     std::string(reason ? reason : "libvulkan.so.1 is no loader") +
-                     "); install it (Debian: libvulkan1 mesa-vulkan-drivers)"});
+  throw Failure(
+      {ErrorCode::kNoDevice, "the Vulkan loader cannot be opened (" +
+                                 std::string(reason ? reason : "libvulkan.so.1 is no loader") +
+                                 "); install it (Debian: libvulkan1 mesa-vulkan-drivers)"});
 }
 
 Loader::Loader(Loader&& other) noexcept

@@ -5,7 +5,8 @@
 
 namespace geotherm::engine {
 
-/// The Vulkan loader of the system, opened while the program runs and closed with the last instance.
+/// The Vulkan loader of the system, opened while the program runs and closed with the last
+/// instance.
 class Loader {
  public:
   /// Throws Failure where there is none.

@@ -69,9 +69,9 @@ Memory::Memory(const MemorySource& source, const vk::MemoryRequirements& require
     type = memory_type(source.properties, requirements.memoryTypeBits, needed);
   }
   if (type == VK_MAX_MEMORY_TYPES) {
-    throw Failure({ErrorCode::kNoDevice,
-                   "the device has no memory of the kind that is needed (" +
-                       vk::to_string(needed) + "); try another one of geotherm devices"});
+    throw Failure({ErrorCode::kNoDevice, "the device has no memory of the kind that is needed (" +
+                                             vk::to_string(needed) +
+                                             "); try another one of geotherm devices"});
   }
   source.budget->take(requirements.size);
   budget_ = source.budget;  // from here on the destructor gives it back
@@ -111,28 +111,23 @@ Buffer::Buffer(const MemorySource& source, vk::DeviceSize size, vk::BufferUsageF
 Texture::Texture(const MemorySource& source, vk::Extent2D size, vk::Format format,
                  vk::ImageUsageFlags usage, vk::SampleCountFlagBits samples)
     : extent(size) {
-  image = vk::raii::Image(*source.device,
-                          {{},
-                           vk::ImageType::e2D,
-                           format,
-                           {size.width, size.height, 1},
-                           1,
-                           1,
-                           samples,
-                           vk::ImageTiling::eOptimal,
-                           usage,
-                           vk::SharingMode::eExclusive,
-                           {},
-                           vk::ImageLayout::eUndefined});
+  image = vk::raii::Image(*source.device, {{},
+                                           vk::ImageType::e2D,
+                                           format,
+                                           {size.width, size.height, 1},
+                                           1,
+                                           1,
+                                           samples,
+                                           vk::ImageTiling::eOptimal,
+                                           usage,
+                                           vk::SharingMode::eExclusive,
+                                           {},
+                                           vk::ImageLayout::eUndefined});
   memory = Memory(source, image.getMemoryRequirements(), Flag::eDeviceLocal, {});
   image.bindMemory(memory.handle(), 0);
-  view = vk::raii::ImageView(*source.device,
-                             {{},
-                              *image,
-                              vk::ImageViewType::e2D,
-                              format,
-                              {},
-                              {aspect_of(format), 0, 1, 0, 1}});
+  view = vk::raii::ImageView(
+      *source.device,
+      {{}, *image, vk::ImageViewType::e2D, format, {}, {aspect_of(format), 0, 1, 0, 1}});
 }
 
 }  // namespace geotherm::engine

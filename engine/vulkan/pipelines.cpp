@@ -136,27 +136,26 @@ vk::Pipeline Pipelines::made(std::uint32_t key, const Plan& plan) {
 
 vk::Pipeline Pipelines::surface(std::uint32_t features) {
   using Vertex = DrawMesh::Vertex;
-  Plan plan{.vertex = embedded::surface_vert(),
-            .fragment = embedded::surface_frag(),
-            .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, sizeof(float), kPerVertex}},
-            .attributes = {{0, 0, kFloat3, offsetof(Vertex, position)},
-                           {1, 0, vk::Format::eR16G16B16A16Snorm,
-                            offsetof(Vertex, normal_and_label)},
-                           {2, 1, vk::Format::eR32Sfloat, 0}}};
+  Plan plan{
+      .vertex = embedded::surface_vert(),
+      .fragment = embedded::surface_frag(),
+      .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, sizeof(float), kPerVertex}},
+      .attributes = {{0, 0, kFloat3, offsetof(Vertex, position)},
+                     {1, 0, vk::Format::eR16G16B16A16Snorm, offsetof(Vertex, normal_and_label)},
+                     {2, 1, vk::Format::eR32Sfloat, 0}}};
   plan.features = features;
   plan.write_depth = true;
   return made(features, plan);
 }
 
 vk::Pipeline Pipelines::arrows() {
-  return made(1U << 16,
-              {.vertex = embedded::arrow_vert(),
-               .fragment = embedded::arrow_frag(),
-               .bindings = {{0, sizeof(ArrowInstance), kPerInstance}},
-               .attributes = {{0, 0, kFloat3, offsetof(ArrowInstance, tail)},
-                              {1, 0, kFloat3, offsetof(ArrowInstance, along)},
-                              {2, 0, kFloat3, offsetof(ArrowInstance, normal)}},
-               .write_depth = true});
+  return made(1U << 16, {.vertex = embedded::arrow_vert(),
+                         .fragment = embedded::arrow_frag(),
+                         .bindings = {{0, sizeof(ArrowInstance), kPerInstance}},
+                         .attributes = {{0, 0, kFloat3, offsetof(ArrowInstance, tail)},
+                                        {1, 0, kFloat3, offsetof(ArrowInstance, along)},
+                                        {2, 0, kFloat3, offsetof(ArrowInstance, normal)}},
+                         .write_depth = true});
 }
 
 vk::Pipeline Pipelines::visible_markers() {

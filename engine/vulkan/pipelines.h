@@ -7,8 +7,8 @@
 
 namespace geotherm::engine {
 
-/// All pipelines of the renderer and their layout; those of the surface are made when they are first
-/// needed, one for each set of features. Methods throw.
+/// All pipelines of the renderer and their layout; those of the surface are made when they are
+/// first needed, one for each set of features. Methods throw.
 class Pipelines {
  public:
   Pipelines(std::shared_ptr<Device::State> device, vk::SampleCountFlagBits samples);

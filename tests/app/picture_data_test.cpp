@@ -131,7 +131,9 @@ TEST(PictureFields, KeepTheHeatsDirectionWhereHeatUnderflows) {
   app::add_fields(data, *strip, *result);
   // Away from the source's surroundings and the strip's end heat flows along it.
   constexpr double kStraight = 1e-3;
-  for (Index f = 4 * 100; f < strip->face_count() - 4 * 100; ++f) {
+  for (Index f = 0; f < strip->face_count(); ++f) {
+    const Index column = f / 2 % kLength;
+    if (column < 100 || column > kLength - 100) continue;
     ASSERT_LE((wide(data.heat_directions[f]) - Vec3(1, 0, 0)).norm(), kStraight) << f;
     ASSERT_LE(wide(data.distance_gradients[f]).norm(), kStraight) << f;
   }
@@ -175,7 +177,8 @@ TEST(PictureFields, AreZeroWhereNothingIsReachedOrThereIsNoArea) {
   for (Index f = 0; f < mesh->face_count(); ++f) {
     const double length = wide(data.heat_directions[f]).norm();
     EXPECT_NEAR(length, f < reached ? 1 : 0, kFloat) << f;
-    if (f >= reached) EXPECT_EQ(wide(data.distance_gradients[f]), Vec3::Zero()) << f;
+    if (f < reached) continue;
+    EXPECT_EQ(wide(data.distance_gradients[f]), Vec3::Zero()) << f;
   }
 }
 

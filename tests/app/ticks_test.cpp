@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace geotherm::test {
@@ -14,6 +15,8 @@ using app::nearest_round_number;
 using app::round_number_above;
 using app::round_spacing;
 using app::Ticks;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Labels = std::vector<std::string>;
 
@@ -38,7 +41,7 @@ TEST(RoundSpacing, GivesAboutTwentyIsolinesOverAnyRange) {
 }
 
 TEST(RoundSpacing, OfNoRangeIsANumberAllTheSame) {
-  for (const double range : {0.0, -1.0, std::nan(""), INFINITY, 5e-324, 1.7e308}) {
+  for (const double range : {0.0, -1.0, std::nan(""), kInfinite, 5e-324, 1.7e308}) {
     const double spacing = round_spacing(range);
     EXPECT_TRUE(std::isfinite(spacing) && spacing > 0) << range << " has " << spacing;
   }
@@ -90,7 +93,7 @@ TEST(Ticks, AreRoundWhereIsolinesAreTooFewOrTooMany) {
 TEST(Ticks, OfNoRangeAreNone) {
   EXPECT_TRUE(make_ticks(1, 1, 5).values.empty());
   EXPECT_TRUE(make_ticks(2, 1, 5).values.empty());
-  EXPECT_TRUE(make_ticks(0, INFINITY, 5).values.empty());
+  EXPECT_TRUE(make_ticks(0, kInfinite, 5).values.empty());
   EXPECT_TRUE(make_ticks(0, std::nan(""), 5).values.empty());
 }
 

@@ -213,7 +213,7 @@ TEST(Legend, CutsACaptionThatIsTooLong) {
 
 TEST(Legend, WithLabelsTooWideForThePictureHasNoBar) {
   Legend legend = sample();
-  legend.ticks.push_back({0.4F, std::string(60, '8')});
+  legend.ticks[2].label.assign(60, '8');
   EXPECT_EQ(bar_quads(lay_out(legend, {400, 300}).overlay), 0);
 }
 

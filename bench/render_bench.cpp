@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "bench/render_bench.h"
+
+#include <cmath>
+#include <memory>
+
+#include "app/main_drawing/picture_scene.h"
+#include "app/picture/picture_text.h"
+#include "bench/bench_mesh.h"
+#include "engine/offscreen_target.h"
+#include "engine/renderer.h"
+#include "solver/core/stopwatch.h"
+#include "solver/heat/heat_method.h"
+
+namespace geotherm::bench {
+namespace {
+
+using namespace geotherm::app;
+
+constexpr glm::ivec2 kSize(1280, 720);
+
+/// Frames of each view: more where they are short, as these are the noisier ones.
+int runs_for(Index triangles) { return triangles < 500'000 ? 25 : 7; }
+
+/// A solved model and its picture's scene, without legend.
+struct Stage {
+  PictureData data;
+  std::vector<glm::vec3> positions, heat, gradients;
+};
+
+std::vector<glm::vec3> vectors(const std::vector<PictureData::Vector>& all) {
+  std::vector<glm::vec3> out;
+  for (const auto& [x, y, z] : all) out.emplace_back(x, y, z);
+  return out;
+}
+
+Result<Stage> make_stage(Index triangles) {
+  auto made = make_mesh("gargoyle", triangles);
+  if (!made) return made.error();
+  const auto mesh = std::make_shared<const TriangleMesh>(*std::move(made));
+  const SourceSet source = SourceSet::of_vertices({17});
+  const auto method = HeatMethod::build(mesh);
+  if (!method) return method.error();
+  const auto result = method->solve(source, {.quality = false, .fields = true});
+  if (!result) return result.error();
+  Stage stage;
+  stage.data = picture_of(*mesh);
+  add_sources(stage.data, *mesh, source);
+  add_distances(stage.data, result->distances);
+  add_fields(stage.data, *mesh, *result);
+  stage.positions = vectors(stage.data.positions);
+  stage.heat = vectors(stage.data.heat_directions);
+  stage.gradients = vectors(stage.data.distance_gradients);
+  return stage;
+}
+
+Result<void> upload(engine::Renderer& renderer, const Stage& stage) {
+  if (auto done = renderer.set_surface({stage.positions, stage.data.faces}); !done) return done;
+  if (auto done = renderer.set_values(stage.data.values); !done) return done;
+  if (auto done = renderer.set_arrows(stage.heat, stage.gradients); !done) return done;
+  std::vector<engine::Marker> markers;
+  for (const auto& [from, to] : stage.data.sources) {
+    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
+  }
+  return renderer.set_markers(markers);
+}
+
+/// Something that is timed: a view, or the replacement of the distances.
+struct Task {
+  RenderRow row;
+  engine::Scene scene;
+};
+
+std::vector<Task> make_tasks(const Stage& stage, Index triangles, int samples) {
+  PictureSettings settings;
+  settings.width = kSize.x;
+  settings.height = kSize.y;
+  const auto scene_for = [&](View view) {
+    settings.view = view;
+    engine::Scene scene = scene_of(stage.data, settings, picture_scale(stage.data, settings));
+    scene.camera = camera_of(settings.camera, stage.positions, kSize, {});
+    return scene;
+  };
+  std::vector<Task> tasks;
+  const auto add = [&](const std::string& name, const engine::Scene& scene) {
+    tasks.push_back({{.view = name, .triangles = triangles, .samples = samples}, scene});
+  };
+  add("fill", scene_for(View::kSmooth));  // one colour, light, no markers
+  for (const View view : {View::kWireframe, View::kFlat, View::kSources, View::kHeatGradient,
+                          View::kGradientError, View::kContours}) {
+    add(to_text(view), scene_for(view));
+  }
+  add("update", tasks.front().scene);
+  return tasks;
+}
+
+Result<double> time_task(const Task& task, engine::Renderer& renderer, engine::Target& target,
+                         const Stage& stage) {
+  const Stopwatch watch;
+  const auto done = task.row.view == "update" ? renderer.set_values(stage.data.values)
+                                              : renderer.render(target, task.scene);
+  if (!done) return done.error();
+  return watch.milliseconds();
+}
+
+Result<void> measure_stage(RenderBench& bench, const engine::Device& device, const Stage& stage,
+                           Index triangles, int samples) {
+  auto renderer = engine::Renderer::build(device, samples);
+  if (!renderer) return renderer.error();
+  if (auto done = upload(*renderer, stage); !done) return done;
+  auto target = engine::OffscreenTarget::build(device, kSize);
+  if (!target) return target.error();
+  std::vector<Task> tasks = make_tasks(stage, triangles, samples);
+  for (int run = -1; run < runs_for(triangles); ++run) {  // the first compiles the shaders
+    for (Task& task : tasks) {
+      const auto ms = time_task(task, *renderer, **target, stage);
+      if (!ms) return ms.error();
+      if (run >= 0) task.row.frame_ms = std::fmin(task.row.frame_ms, *ms);
+    }
+  }
+  for (Task& task : tasks) {
+    task.row.fill_ms = tasks.front().row.frame_ms;
+    bench.rows.push_back(std::move(task.row));
+  }
+  return {};
+}
+
+Result<void> measure_all(RenderBench& bench, const Say& say) {
+  const auto device = engine::Device::open();
+  if (!device) return device.error();
+  bench.device = device->info().name;
+  for (const Index triangles : {69'000, 262'000, 1'100'000}) {
+    say("drawing " + std::to_string(triangles) + " triangles");
+    const auto stage = make_stage(triangles);
+    if (!stage) return stage.error();
+    const auto faces = static_cast<Index>(stage->data.faces.size());
+    for (const int samples : {1, 4}) {
+      if (auto done = measure_stage(bench, *device, *stage, faces, samples); !done) return done;
+    }
+  }
+  bench.peak_mb = static_cast<double>(device->peak_memory()) / (1024.0 * 1024.0);
+  return {};
+}
+
+}  // namespace
+
+RenderBench measure_render(const Say& say) {
+  RenderBench bench;
+  const auto done = measure_all(bench, say);
+  if (!done) bench.failure = done.error().message;
+  return bench;
+}
+
+}  // namespace geotherm::bench

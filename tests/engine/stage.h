@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/picture.h"
+#include "engine/renderer.h"
+#include "tests/engine/gpu_fixture.h"
+#include "tests/engine/models.h"
+
+namespace geotherm::test {
+
+inline constexpr glm::vec2 kSmallPicture(320, 240);
+
+/// Straight from +Z without perspective.
+inline constexpr engine::Orbit kFromFront{.azimuth = 0, .elevation = 0, .orthographic = true};
+
+/// A model that is ready to be drawn. The scene begins as simple as can be: seen from the front,
+/// unlit, on white, one sample a pixel.
+class Stage {
+ public:
+  Stage(const engine::Device& device, Model model, int samples = 1);
+
+  void look(const engine::Orbit& orbit, glm::vec2 extent = kSmallPicture);
+  /// Painted by these values, the map from `min` to `max`.
+  void paint(std::span<const float> values, float min = 0, float max = 1);
+  /// Isolines of these values, black on white.
+  void draw_lines(std::span<const float> values, float spacing);
+
+  engine::Image draw(const engine::Overlay& overlay = {});
+
+  const engine::Device& device;
+  Model model;
+  engine::Renderer renderer;
+  engine::Scene scene;
+};
+
+}  // namespace geotherm::test
