@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: MIT
-// Sources: a stadium of constant width on screen about the segment from one end to the other (a
-// disc where they coincide). Four vertices, one instance a marker.
+// Sources: a disc of constant size on screen for a point, a stadium of half its width about a piece
+// of a curve. Four vertices, one instance a marker.
 #extension GL_GOOGLE_include_directive : require
 #include "frame.glsl"
 
@@ -10,10 +10,12 @@ layout(location = 1) in vec3 to;
 
 layout(location = 0) out vec2 at;            // pixels, from the segment's first end
 layout(location = 1) flat out vec2 segment;  // its other end, pixels
+layout(location = 2) flat out float radius;  // pixels
 
 vec2 pixels(vec4 clip) { return (clip.xy / clip.w * 0.5 + 0.5) * frame.extent; }
 
 void main() {
+  radius = from == to ? frame.marker.w : 0.5 * frame.marker.w;
   vec4 a = frame.clip_from_scene * vec4(from, 1.0);
   vec4 b = frame.clip_from_scene * vec4(to, 1.0);
   // A segment that passes the eye is cut where it comes too close.
@@ -31,7 +33,7 @@ void main() {
   float size = length(d);
   vec2 along = size > 1e-3 ? d / size : vec2(1.0, 0.0);
   vec2 across = vec2(-along.y, along.x);
-  float reach = frame.marker.w + 2.0;
+  float reach = radius + 2.0;
   bool second = (gl_VertexIndex & 1) != 0;
   float side = (gl_VertexIndex & 2) != 0 ? 1.0 : -1.0;
   vec2 p = (second ? pb + along * reach : pa - along * reach) + side * across * reach;

@@ -57,7 +57,8 @@ struct ArrowPush {
 
 // Pushed with each draw of markers.
 struct MarkerPush {
-  float opacity;  // of those that are hidden by the surface, or 1
+  float opacity;  // below 1: of those that the surface hides
+  float inside;   // 1: the inside of markers, 0: their rims
 };
 
 #ifdef __cplusplus
@@ -68,7 +69,7 @@ static_assert(offsetof(Frame, orthographic) == 140);
 static_assert(offsetof(Frame, range) == 144);
 static_assert(offsetof(Frame, marker_rim) == 224);
 static_assert(sizeof(ArrowPush) == 16);
-static_assert(sizeof(MarkerPush) == 4);
+static_assert(sizeof(MarkerPush) == 8);
 }  // namespace geotherm::engine::shared
 #endif
 #undef SHARED_CONSTANT

@@ -32,12 +32,14 @@ vec3 map_colour(float x) {
 float isolines(float v) {
   float dx = dFdx(v);
   float dy = dFdy(v);
-  float per_pixel = sqrt(dx * dx + dy * dy) + 1e-20;
-  float near = max(round(v * frame.range.w), 1.0) * frame.range.z;  // the nearest line
-  float half_width = 0.5 * frame.line.w;
-  float cover = clamp(half_width + 0.5 - abs(v - near) / per_pixel, 0.0, 1.0);
-  float apart = frame.range.z / per_pixel;  // pixels from line to line
-  return mix(min(2.0 * half_width / apart, 1.0), cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
+  float square = max(dx * dx + dy * dy, 1e-30);
+  float pixels = inversesqrt(square);  // a value of 1 is so many
+  float spacing = frame.range.z;
+  float near = max(round(v * frame.range.w), 1.0) * spacing;  // the nearest line
+  float width = frame.line.w;
+  float cover = clamp(0.5 * width + 0.5 - abs(v - near) * pixels, 0.0, 1.0);
+  float mean = min(width * frame.range.w * square * pixels, 1.0);
+  return mix(mean, cover, clamp(0.3 * spacing * pixels - 0.75, 0.0, 1.0));
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
@@ -63,7 +65,9 @@ float brightness() {
   }
   float size = length(n);
   n = size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
-  return (features & kThreeLights) != 0 ? three_points(n) : headlight(n);
+  float light = (features & kThreeLights) != 0 ? three_points(n) : headlight(n);
+  // Colours that mean something are dimmed less.
+  return (features & kMapped) != 0 ? 0.3 + 0.7 * light : light;
 }
 
 void main() {

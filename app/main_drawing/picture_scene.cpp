@@ -17,6 +17,13 @@ constexpr float kLeastScale = 0.75F;
 /// More isolines than this tell nothing on a bar.
 constexpr double kMostLinesOnBar = 200;
 
+/// Between the model and the sides of the picture, of the smaller of them.
+constexpr float kMargin = 0.03F;
+
+/// Sources in the view that is about them.
+constexpr float kLargeMarker = 8;
+constexpr glm::vec3 kSourceRed{0.86F, 0.13F, 0.11F};
+
 constexpr glm::vec3 kDarkInk{0.10F, 0.11F, 0.13F};
 constexpr glm::vec3 kLightInk{0.90F, 0.91F, 0.93F};
 constexpr glm::vec4 kWhite{1, 1, 1, 1};
@@ -109,7 +116,11 @@ engine::Camera camera_of(const CameraSettings& camera, std::span<const glm::vec3
   orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
   orbit.orthographic = camera.orthographic;
   orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
-  return engine::make_camera(orbit, points, extent, insets);
+  // Room for what is wider than the model: markers, arrow heads, the smooth edge itself.
+  const float margin = kMargin * std::min(extent.x, extent.y);
+  const engine::Insets padded{std::max(insets.left, margin), std::max(insets.top, margin),
+                              std::max(insets.right, margin), std::max(insets.bottom, margin)};
+  return engine::make_camera(orbit, points, extent, padded);
 }
 
 engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
@@ -122,6 +133,10 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
       settings.view == View::kHeatGradient || settings.view == View::kGradientError;
   scene.arrows.secondary = settings.view == View::kGradientError;
   scene.markers.visible = settings.markers && shows_sources(settings.view);
+  if (settings.view == View::kSources) {
+    scene.markers.radius = kLargeMarker;
+    scene.markers.colour = kSourceRed;
+  }
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
   scene.pixel_scale = std::max(side / kUsualSide, kLeastScale);
   return scene;

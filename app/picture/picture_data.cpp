@@ -111,7 +111,7 @@ void add_distances(PictureData& data, std::span<const double> distances) {
   }
   data.value_unit = most > 0 ? most : 1;
   data.largest_value = most > 0 ? 1 : 0;
-  data.value_title = "distance (model units)";
+  data.value_title = "distance (model\u00a0units)";  // the unit stays on one line
   data.values.clear();
   data.values.reserve(distances.size());
   for (const double d : distances) {

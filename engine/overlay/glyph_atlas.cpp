@@ -78,6 +78,7 @@ std::vector<char32_t> letters_of(const std::vector<std::string>& texts) {
 /// Gives every shape a place, row by row, the highest first; returns the height that takes.
 int place(std::vector<Shape>& shapes, int width) {
   std::vector<Shape*> order;
+  order.reserve(shapes.size());
   for (Shape& shape : shapes) order.push_back(&shape);
   std::stable_sort(order.begin(), order.end(),
                    [](const Shape* a, const Shape* b) { return a->height > b->height; });

@@ -192,12 +192,15 @@ void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,
 
 void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands) {
   commands.bindVertexBuffers(0, *markers_.buffer, {0});
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.hidden_markers());
-  push(commands, shared::MarkerPush{kHiddenOpacity});
-  commands.draw(4, marker_count_, 0, 0);
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.visible_markers());
-  push(commands, shared::MarkerPush{1});
-  commands.draw(4, marker_count_, 0, 0);
+  const auto draw = [&](vk::Pipeline pipeline, float opacity) {
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
+    for (const float inside : {0.0F, 1.0F}) {
+      push(commands, shared::MarkerPush{opacity, inside});
+      commands.draw(4, marker_count_, 0, 0);
+    }
+  };
+  draw(pipelines_.hidden_markers(), kHiddenOpacity);
+  draw(pipelines_.visible_markers(), 1);
 }
 
 void FrameRecorder::record_overlay(const vk::raii::CommandBuffer& commands, glm::vec2 extent) {

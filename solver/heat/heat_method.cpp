@@ -22,7 +22,8 @@ struct HeatMethod::State {
   std::shared_ptr<const HeatStep> heat;
   std::shared_ptr<const PoissonSolver> poisson;
   std::shared_ptr<BlockPool> pool = std::make_shared<BlockPool>();
-  double t = 0;
+  double t = 0;       // model units squared
+  double unit_t = 0;  // the same in squares of the mean edge, right where t leaves the doubles' range
   SetupTiming timing;
   std::vector<std::string> warnings;
 };
@@ -49,16 +50,17 @@ Result<void> check(const HeatOptions& options) {
   return {};
 }
 
-double diffusion_time(const Surface& surface, const TimeStep& step) {
+/// Diffusion time in squares of the mean edge.
+double unit_time(const Surface& surface, const TimeStep& step) {
   switch (step.rule) {
     case TimeRule::kMeanEdge:
-      return step.factor * surface.mean_edge * surface.mean_edge;
+      return step.factor;
     case TimeRule::kMeanFaceArea:
-      return step.factor * surface.area / static_cast<double>(surface.clean_faces.size());
+      return step.factor * surface.unit_area / static_cast<double>(surface.clean_faces.size());
     case TimeRule::kAbsolute:
       break;
   }
-  return step.absolute;
+  return step.absolute / surface.mean_edge / surface.mean_edge;
 }
 
 /// Half of the mass is consistent where the mesh resolves the diffusion length, t >= 0.8 h^2; the
@@ -106,11 +108,14 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   auto next = std::make_shared<State>(*state_);
   next->options = options;
   next->options.backend = name;
-  next->t = diffusion_time(*next->surface, options.time_step);
+  const double edge = next->surface->mean_edge;
+  const double unit_t = unit_time(*next->surface, options.time_step);
+  next->unit_t = unit_t;
+  next->t = options.time_step.rule == TimeRule::kAbsolute ? options.time_step.absolute
+                                                          : unit_t * edge * edge;
   next->timing = {};
   const int threads = thread_count(options.threads);
   const bool iterative = next->backend->iterative();
-  const double unit_t = next->t / (next->surface->mean_edge * next->surface->mean_edge);
 
   if (!fresh) next->poisson = state_->poisson->with(options.constraint);
   Result<void> heat_done, poisson_done;
@@ -154,10 +159,8 @@ Result<DistanceResult> HeatMethod::solve(const SourceSet& sources,
 Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
                                                            const QueryOptions& query,
                                                            const Progress& progress) const {
-  const double edge = state_->surface->mean_edge;
-  const QueryPipeline pipeline{*state_->surface,          *state_->heat,
-                               *state_->poisson,          state_->options,
-                               state_->t / (edge * edge), *state_->pool};
+  const QueryPipeline pipeline{*state_->surface, *state_->heat,  *state_->poisson,
+                               state_->options,  state_->unit_t, *state_->pool};
   return run_queries(pipeline, sets, query, progress);
 }
 

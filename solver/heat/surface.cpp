@@ -102,10 +102,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
     out->on_boundary[out->row_of_vertex[clean.edges.low(e)]] = 1;
     out->on_boundary[out->row_of_vertex[clean.edges.high(e)]] = 1;
   }
-  double area = 0;
-  for (const double mass : out->operators->mass) area += mass;
-  out->area = area * out->mean_edge * out->mean_edge;
-  if (!(out->area > 0)) {
+  for (const double mass : out->operators->mass) out->unit_area += mass;
+  if (!(out->unit_area > 0)) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};
   }
   out->clean_of_face.assign(static_cast<std::size_t>(out->mesh->face_count()), kNoIndex);

@@ -31,7 +31,7 @@ struct Surface {
   std::shared_ptr<const OperatorMesh> operators;
 
   double mean_edge = 0;  ///< of the mesh, model units; also the unit of `intrinsic`
-  double area = 0;       ///< total, model units squared
+  double unit_area = 0;  ///< total, in squares of mean_edge
   double operators_ms = 0, analyze_ms = 0;
   std::vector<std::string> warnings;
 };

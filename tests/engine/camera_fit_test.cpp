@@ -111,7 +111,7 @@ TEST_P(CameraFit, FillsThePictureWithATinyModelToo) {
   constexpr float kTolerance = 0.5F;
   std::vector<vec3> points;
   for (const float x : {-kSize, kSize}) {
-    for (const float y : {-kSize, kSize}) points.push_back(vec3(0.3F + x, 0.2F + y, 0.1F));
+    for (const float y : {-kSize, kSize}) points.emplace_back(0.3F + x, 0.2F + y, 0.1F);
   }
   const Camera camera = make_camera({.orthographic = GetParam()}, points, {1280, 720});
   const Slack slack = slack_of(camera, points, {});

@@ -143,8 +143,8 @@ TEST(Camera, PansByPictureHeightsAtAnyZoom) {
 TEST(Camera, LeavesOutPointsThatAreNotFinite) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   std::vector<vec3> points = kOctahedron;
-  points.push_back({kNan, 0, 0});
-  points.push_back({0, std::numeric_limits<float>::infinity(), 0});
+  points.emplace_back(kNan, 0, 0);
+  points.emplace_back(0, std::numeric_limits<float>::infinity(), 0);
   const Camera with = make_camera({}, points, kExtent);
   const Camera without = make_camera({}, kOctahedron, kExtent);
   EXPECT_EQ(with.view, without.view);

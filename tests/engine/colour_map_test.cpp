@@ -36,6 +36,7 @@ vec3 colour_of_step(const ColourMap& map, int i) {
 
 std::vector<double> lightnesses(const ColourMap& map) {
   std::vector<double> all;
+  all.reserve(kSteps);
   for (int i = 0; i < kSteps; ++i) all.push_back(lightness(colour_of_step(map, i)));
   return all;
 }

@@ -35,8 +35,8 @@ TEST_P(Depth, ShowsTheNearerOneWhateverTheOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Depth, testing::Bool(), [](const auto& info) {
-  return std::string(info.param ? "Orthographic" : "Perspective");
+INSTANTIATE_TEST_SUITE_P(All, Depth, testing::Bool(), [](const auto& test) {
+  return std::string(test.param ? "Orthographic" : "Perspective");
 });
 
 class Hidden : public GpuTest {};

@@ -18,7 +18,7 @@ class GpuEnvironment final : public testing::Environment {
   }
 
   const Result<engine::Device>& device() {
-    if (!device_) device_ = engine::Device::open({.validation = true});
+    if (!device_) device_ = engine::Device::open(validated());
     return *device_;
   }
   bool required() const { return required_; }
@@ -29,6 +29,13 @@ class GpuEnvironment final : public testing::Environment {
 };
 
 }  // namespace
+
+engine::DeviceOptions validated(std::uint64_t memory_limit) {
+  engine::DeviceOptions options;
+  options.validation = true;
+  options.memory_limit = memory_limit;
+  return options;
+}
 
 std::unique_ptr<testing::Environment> make_gpu_environment(bool required) {
   return std::make_unique<GpuEnvironment>(required);

@@ -17,6 +17,9 @@ namespace geotherm::test {
 /// skipped, or fail when `required`.
 std::unique_ptr<testing::Environment> make_gpu_environment(bool required);
 
+/// With validation, and with a limit in bytes (0: none).
+engine::DeviceOptions validated(std::uint64_t memory_limit = 0);
+
 /// A test that draws. It fails when validation has anything to say about what it did.
 class GpuTest : public testing::Test {
  protected:

@@ -21,9 +21,9 @@ class Isolines : public GpuTest {
     const float pixels = stage.scene.camera.pixels_per_unit;
     const auto a = static_cast<float>(glm::radians(angle));
     stage.draw_lines(stage.model.values([&](const glm::vec3& p) {
-                       const float along = p.x * std::cos(a) + p.y * std::sin(a) + 1;
-                       return along * pixels / static_cast<float>(apart) + 0.5F;
-                     }),
+      const float along = p.x * std::cos(a) + p.y * std::sin(a) + 1;
+      return along * pixels / static_cast<float>(apart) + 0.5F;
+    }),
                      1);
     return stage;
   }
@@ -98,9 +98,9 @@ TEST_P(IsolineWidth, IsTheSameOnScreenForEverySlopeAndDirection) {
 INSTANTIATE_TEST_SUITE_P(All, IsolineWidth,
                          testing::Values(std::pair(8, 0), std::pair(64, 0), std::pair(8, 30),
                                          std::pair(8, 45), std::pair(40, 45)),
-                         [](const auto& info) {
-                           return std::to_string(info.param.first) + "PixelsApartAt" +
-                                  std::to_string(info.param.second);
+                         [](const auto& test) {
+                           return std::to_string(test.param.first) + "PixelsApartAt" +
+                                  std::to_string(test.param.second);
                          });
 
 TEST_F(Isolines, RunOnFromTriangleToTriangle) {
@@ -123,7 +123,7 @@ TEST_P(CloseIsolines, FadeIntoTheirMean) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CloseIsolines, testing::Values(2.4, 1.7, 0.4, 0.01),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& test) { return std::to_string(test.index); });
 
 TEST_F(Isolines, KeepTheirMeanWhileTheyFade) {
   for (const double apart : {3.0, 4.0, 6.0}) {

@@ -107,8 +107,8 @@ std::optional<Hit> hit(const Model& model, const engine::Camera& camera, int x, 
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     const auto& [a, b, c] = model.faces[f];
     double along = 0;
-    const auto weights = weights_of(model.positions[a], model.positions[b], model.positions[c], near,
-                                    far - near, along);
+    const auto weights = weights_of(model.positions[a], model.positions[b], model.positions[c],
+                                    near, far - near, along);
     if (!weights || along < 0 || along > nearest) continue;
     nearest = along;
     first = Hit{f, *weights};

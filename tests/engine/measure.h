@@ -40,7 +40,8 @@ struct Run {
 };
 std::vector<Run> dark_runs(const engine::Image& image, glm::ivec2 from, glm::ivec2 step, int count);
 
-/// Share of the pixels with a channel (alpha included) that differs by more than `tolerance` of 255.
+/// Share of the pixels with a channel (alpha included) that differs by more than `tolerance` of
+/// 255.
 double different_pixels(const engine::Image& a, const engine::Image& b, int tolerance);
 
 /// What the eye sees through the middle of a pixel.

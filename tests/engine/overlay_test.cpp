@@ -42,7 +42,7 @@ int ink_of(const GlyphAtlas& atlas, const GlyphAtlas::Glyph& glyph) {
   int ink = 0;
   for (int y = static_cast<int>(min.y); y < static_cast<int>(max.y); ++y) {
     for (int x = static_cast<int>(min.x); x < static_cast<int>(max.x); ++x) {
-      ink += atlas.pixels()[static_cast<std::size_t>(y * atlas.width() + x)];
+      ink += atlas.pixels()[static_cast<std::size_t>(y) * atlas.width() + x];
     }
   }
   return ink;

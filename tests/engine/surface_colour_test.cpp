@@ -51,9 +51,8 @@ class SurfaceColours : public GpuTest, public testing::WithParamInterface<Colour
 
 TEST_P(SurfaceColours, AreThoseOfALinearFieldOnThePlane) {
   Stage stage(device(), plane_model(4, 3));
-  expect_colours(stage, stage.model.values([](const glm::vec3& p) {
-    return 0.5F + 0.4F * p.x + 0.25F * p.y;
-  }));
+  expect_colours(stage, stage.model.values(
+                            [](const glm::vec3& p) { return 0.5F + 0.4F * p.x + 0.25F * p.y; }));
 }
 
 TEST_P(SurfaceColours, AreThoseOfDistancesOnTheSphere) {
@@ -71,9 +70,9 @@ INSTANTIATE_TEST_SUITE_P(All, SurfaceColours,
                          testing::Values(Colouring{"red-blue", false, 0, 1},
                                          Colouring{"red-blue", true, 0, 1},
                                          Colouring{"viridis", false, 0.25F, 0.75F}),
-                         [](const auto& info) {
-                           return std::to_string(info.index) +
-                                  (info.param.reversed ? "Reversed" : "");
+                         [](const auto& test) {
+                           return std::to_string(test.index) +
+                                  (test.param.reversed ? "Reversed" : "");
                          });
 
 class Unreached : public GpuTest {};

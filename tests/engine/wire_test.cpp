@@ -32,13 +32,12 @@ TEST_P(WireWidth, CoversItsShareOfThePlane) {
   // Each cell has one edge of each direction to itself; of those on the border half is seen.
   const double length = kCells * kCells * (cell_x + cell_y + std::hypot(cell_x, cell_y));
   const double area = 1.6 * pixels * 1.2 * pixels;
-  const double covered =
-      darkness_in(image, inner(image)).mean * image.width * image.height / area;
+  const double covered = darkness_in(image, inner(image)).mean * image.width * image.height / area;
   EXPECT_NEAR(covered / (length * GetParam() / area), 1, 0.1);  // 0.1: where edges cross
 }
 
 INSTANTIATE_TEST_SUITE_P(All, WireWidth, testing::Values(1.0F, 2.0F),
-                         [](const auto& info) { return std::to_string(info.index); });
+                         [](const auto& test) { return std::to_string(test.index); });
 
 TEST_F(Wire, LiesOnEveryEdgeAndNotBetween) {
   Stage stage(device(), irregular_plane_model(6));

@@ -71,6 +71,12 @@ TEST_P(Invariance, UnderScalingByAPowerOfTwoIsExact) {
   EXPECT_EQ(relative_difference(d, reference), 0);
 }
 
+TEST_P(Invariance, UnderScalingToWhereAreasLeaveTheRangeOfDoubles) {
+  for (const int power : {-600, 600}) {
+    EXPECT_EQ(relative_difference(moved(std::ldexp(1.0, power), Vec3::Zero(), false), reference), 0);
+  }
+}
+
 std::vector<ZooMesh> meshes() {
   std::vector<ZooMesh> out = zoo(kSmooth);
   for (const ZooMesh& mesh : zoo(kRegular)) {

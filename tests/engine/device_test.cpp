@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "engine/device.h"
+
+#include <algorithm>
+
+#include "engine/vulkan/device_state.h"
+#include "tests/engine/gpu_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+class Devices : public GpuTest {
+ protected:
+  static DeviceOptions called(const std::string& name) {
+    DeviceOptions options;
+    options.name = name;
+    return options;
+  }
+};
+
+TEST_F(Devices, AreListedWithOneThatIsChosen) {
+  const auto devices = must(list_devices());
+  ASSERT_FALSE(devices.empty());
+  EXPECT_EQ(std::count_if(devices.begin(), devices.end(), [](auto& d) { return d.chosen; }), 1);
+  const auto chosen =
+      std::find_if(devices.begin(), devices.end(), [](const auto& d) { return d.chosen; });
+  EXPECT_TRUE(chosen->lacks.empty());
+  EXPECT_EQ(chosen->name, device().info().name);
+}
+
+TEST_F(Devices, SayWhatTheyAre) {
+  for (const DeviceInfo& info : must(list_devices())) {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_GE(info.api_major, 1U);
+    EXPECT_GT(info.memory, 0U);
+    EXPECT_EQ(info.software, info.kind == "software") << info.name;
+    EXPECT_TRUE(info.software || info.name.find("llvmpipe") == std::string::npos);
+  }
+}
+
+TEST_F(Devices, AreOpenedByAPartOfTheirNameInAnyCase) {
+  std::string part = device().info().name.substr(0, 4);
+  std::transform(part.begin(), part.end(), part.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  EXPECT_EQ(must(Device::open(called(part))).info().name, device().info().name);
+}
+
+TEST_F(Devices, OfAnUnknownNameAreAnErrorThatListsThem) {
+  const auto opened = Device::open(called("no such device"));
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::kNoDevice);
+  EXPECT_NE(opened.error().message.find("no such device"), std::string::npos);
+  EXPECT_NE(opened.error().message.find(device().info().name), std::string::npos)
+      << opened.error().message;
+}
+
+TEST_F(Devices, MayBeOpenSeveralAtATime) {
+  const Device second = must(Device::open({}));
+  const Device third = second;
+  EXPECT_EQ(second.info().name, third.info().name);
+  EXPECT_EQ(second.memory_used(), 0U);
+}
+
+TEST_F(Devices, SayNothingWhenNothingIsWrong) {
+  const Device own = must(Device::open(validated()));
+  EXPECT_TRUE(own.validation_messages().empty());
+}
+
+/// Without this the other tests would prove nothing.
+TEST_F(Devices, ReportWrongCallsWhenTheyAreValidated) {
+  const Device own = must(Device::open(validated()));
+  try {
+    const vk::raii::Buffer empty(
+        own.state()->device, vk::BufferCreateInfo({}, 0, vk::BufferUsageFlagBits::eVertexBuffer));
+  } catch (const vk::SystemError&) {
+    // What the driver makes of it is its own affair.
+  }
+  const auto messages = own.validation_messages();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages.front().find("size"), std::string::npos) << messages.front();
+}
+
+TEST_F(Devices, ReportMissingBarriersWhenTheyAreValidated) {
+  const Device own = must(Device::open(validated()));
+  const Device::State& state = *own.state();
+  const auto usage = vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst;
+  const Buffer a(state.memory, 64, usage, Home::kHost);
+  const Buffer b(state.memory, 64, usage, Home::kHost);
+  state.run([&](const vk::raii::CommandBuffer& commands) {
+    commands.copyBuffer(*a.buffer, *b.buffer, vk::BufferCopy(0, 0, 64));
+    commands.copyBuffer(*b.buffer, *a.buffer, vk::BufferCopy(0, 0, 64));
+  });
+  const auto messages = own.validation_messages();
+  ASSERT_FALSE(messages.empty());
+  EXPECT_NE(messages.front().find("SYNC-HAZARD"), std::string::npos) << messages.front();
+}
+
+}  // namespace
+}  // namespace geotherm::test

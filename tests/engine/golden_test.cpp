@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "tests/engine/golden.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/geometry/face_gradient.h"
+#include "solver/heat/heat_method.h"
+#include "solver/mesh/generate.h"
+#include "tests/engine/stage.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+/// A model with distances and both vector fields.
+struct Solved {
+  Model model;
+  std::vector<float> values;  ///< 0 to 1
+  std::vector<glm::vec3> heat, error;
+  Marker source;
+};
+
+Solved solve_bunny() {
+  const auto mesh = std::make_shared<const TriangleMesh>(must(generate_model("bunny", 2000)));
+  constexpr Index kSource = 300;
+  const auto method = must(HeatMethod::build(mesh));
+  const auto result = must(method.solve(SourceSet::of_vertices({kSource}), {.fields = true}));
+  Solved solved;
+  solved.model = fitted_model(mesh->positions(), mesh->faces());
+  const double most = *std::max_element(result.distances.begin(), result.distances.end());
+  for (const double d : result.distances) solved.values.push_back(static_cast<float>(d / most));
+  const auto heat = face_gradients(*mesh, result.heat);
+  const auto distance = face_gradients(*mesh, result.distances);
+  for (std::size_t f = 0; f < heat.size(); ++f) {
+    const Vec3 x = -heat[f].stableNormalized();
+    const Vec3 g = distance[f].stableNormalized();
+    const double angle = std::acos(std::clamp(x.dot(g), -1.0, 1.0));
+    const Vec3 scaled = g * std::min(1.0, angle / std::acos(0.0));
+    solved.heat.emplace_back(x.x(), x.y(), x.z());
+    solved.error.emplace_back(scaled.x(), scaled.y(), scaled.z());
+  }
+  solved.source = {solved.model.positions[kSource], solved.model.positions[kSource]};
+  return solved;
+}
+
+/// A view's scene, and what may differ. Other instruction sets change the last bit here and there;
+/// at the edges of lines, letters and arrows that is enough to change a pixel.
+struct View {
+  std::string name;
+  double share;
+  void (*change)(Scene& scene);
+};
+void PrintTo(const View& view, std::ostream* out) { *out << view.name; }
+
+constexpr double kSurfaces = 0.005;
+constexpr double kLines = 0.01;
+
+const std::vector<View>& views() {
+  static const std::vector<View> kViews = {
+      {"wireframe", kLines,
+       [](Scene& s) {
+         s.surface.wire = true;
+         s.surface.smooth = false;
+       }},
+      {"flat", kSurfaces, [](Scene& s) { s.surface.smooth = false; }},
+      {"smooth", kSurfaces, [](Scene&) {}},
+      {"sources", kSurfaces, [](Scene& s) { s.markers.visible = true; }},
+      {"heat-gradient", kLines, [](Scene& s) { s.markers.visible = s.arrows.primary = true; }},
+      {"gradient-error", kLines,
+       [](Scene& s) { s.markers.visible = s.arrows.primary = s.arrows.secondary = true; }},
+      {"contours", kLines,
+       [](Scene& s) {
+         s.markers.visible = true;
+         s.surface.paint = Paint::kMap;
+         s.surface.line_spacing = 0.05F;
+       }},
+  };
+  return kViews;
+}
+
+class GoldenView : public GpuTest, public testing::WithParamInterface<View> {};
+
+TEST_P(GoldenView, LooksAsItDid) {
+  Solved solved = solve_bunny();
+  Stage stage(device(), std::move(solved.model), 4);
+  must(stage.renderer.set_values(solved.values));
+  must(stage.renderer.set_arrows(solved.heat, solved.error));
+  must(stage.renderer.set_markers({&solved.source, 1}));
+  stage.look({});
+  stage.scene.light = Light::kThreePoint;
+  stage.scene.markers.visible = false;
+  stage.scene.pixel_scale = 0.75F;
+  GetParam().change(stage.scene);
+  expect_golden(stage.draw(), GetParam().name, GetParam().share);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, GoldenView, testing::ValuesIn(views()), [](const auto& test) {
+  std::string name = test.param.name;
+  std::erase(name, '-');
+  return name;
+});
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "tests/engine/measure.h"
+#include "tests/engine/stage.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+class Lit : public GpuTest, public testing::WithParamInterface<Light> {};
+
+TEST_P(Lit, BackSidesAreAsBrightAsFronts) {
+  Model back = plane_model(3, 3);
+  for (auto& face : back.faces) std::swap(face[0], face[1]);
+  for (const bool smooth : {false, true}) {
+    Stage front_stage(device(), plane_model(3, 3));
+    Stage back_stage(device(), back);
+    for (Stage* stage : {&front_stage, &back_stage}) {
+      stage->scene.light = GetParam();
+      stage->scene.surface.smooth = smooth;
+      stage->look({.azimuth = 40, .elevation = 10});
+    }
+    const Image image = front_stage.draw();
+    EXPECT_LE(different_pixels(image, back_stage.draw(), 1), 0.001) << smooth;
+    EXPECT_GT(darkness_in(image, {{150, 110}, {170, 130}}).mean, 0.05);
+  }
+}
+
+TEST_P(Lit, FlatIsConstantInEachFace) {
+  Stage stage(device(), model_of(sphere(1)));
+  stage.scene.light = GetParam();
+  stage.scene.surface.smooth = false;
+  stage.look({.azimuth = 20, .elevation = 15});
+  const Image image = stage.draw();
+  std::vector<std::optional<glm::vec3>> colours(stage.model.faces.size());
+  std::set<int> shades;
+  for (int y = 0; y < image.height; y += 2) {
+    for (int x = 0; x < image.width; x += 2) {
+      const auto seen = hit(stage.model, stage.scene.camera, x, y);
+      if (!seen || glm::min(glm::min(seen->weights.x, seen->weights.y), seen->weights.z) < 0.03) {
+        continue;
+      }
+      const glm::vec3 colour = colour_at(image, x, y);
+      auto& first = colours[seen->face];
+      if (!first) first = colour;
+      EXPECT_LE(difference(colour, *first), 1.5F / 255) << seen->face;
+      shades.insert(static_cast<int>(image.at(x, y)[0]));
+    }
+  }
+  EXPECT_GE(shades.size(), 10U);  // and differs from face to face
+}
+
+TEST_P(Lit, SmoothHasNoStepsAcrossEdges) {
+  Stage stage(device(), model_of(sphere(3)));
+  stage.scene.light = GetParam();
+  const auto largest_step = [&](bool smooth) {
+    stage.scene.surface.smooth = smooth;
+    const Image image = stage.draw();
+    float largest = 0;
+    for (int y = 60; y < 180; ++y) {  // within the disc
+      for (int x = 100; x < 220; ++x) {
+        largest = std::max({largest, difference(colour_at(image, x, y), colour_at(image, x + 1, y)),
+                            difference(colour_at(image, x, y), colour_at(image, x, y + 1))});
+      }
+    }
+    return largest;
+  };
+  EXPECT_LE(largest_step(true), 4.0F / 255);
+  EXPECT_GE(largest_step(false), 8.0F / 255);
+}
+
+TEST_P(Lit, SidesOfACubeAreEvenWhenSmooth) {
+  Stage stage(device(), cube_model(0.5F));
+  stage.scene.light = GetParam();
+  stage.look({.azimuth = 35, .elevation = 25});
+  const Image smooth = stage.draw();
+  stage.scene.surface.smooth = false;
+  EXPECT_LE(different_pixels(smooth, stage.draw(), 1), 0.005);
+}
+
+TEST_P(Lit, OrientationOfNeighboursMakesNoDifference) {
+  Model turned = model_of(sphere(2));
+  for (std::size_t f = 0; f < turned.faces.size(); f += 3) {
+    std::swap(turned.faces[f][0], turned.faces[f][1]);
+  }
+  Stage stage(device(), model_of(sphere(2)));
+  Stage other(device(), turned);
+  stage.scene.light = other.scene.light = GetParam();
+  EXPECT_LE(different_pixels(stage.draw(), other.draw(), 2), 0.002);
+}
+
+TEST_P(Lit, NothingIsBlackOrBurntOut) {
+  Stage stage(device(), model_of(sphere(4)));
+  stage.scene.light = GetParam();
+  const Image image = stage.draw();
+  float least = 1;
+  int full = 0;
+  int seen = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const glm::vec2 p(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+      const glm::vec3 centre = stage.scene.camera.project({0, 0, 0});
+      if (glm::distance(p, glm::vec2(centre)) > 110) continue;
+      ++seen;
+      least = std::min(least, colour_at(image, x, y).r);
+      full += image.at(x, y)[0] == 255;
+    }
+  }
+  EXPECT_GT(least, 0.15F);
+  EXPECT_EQ(full, 0);
+  EXPECT_GT(seen, 10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Lit, testing::Values(Light::kHeadlight, Light::kThreePoint),
+                         [](const auto& test) {
+                           return std::string(test.param == Light::kHeadlight ? "Headlight"
+                                                                              : "ThreePoints");
+                         });
+
+class NoLight : public GpuTest {};
+
+TEST_F(NoLight, LeavesColoursAsTheyAre) {
+  Stage stage(device(), model_of(sphere(3)));
+  stage.scene.surface.colour = {0.2F, 0.4F, 0.6F};
+  const Image image = stage.draw();
+  EXPECT_EQ(image.at(160, 120)[0], 51);
+  EXPECT_EQ(image.at(160, 120)[1], 102);
+  EXPECT_EQ(image.at(160, 120)[2], 153);
+  EXPECT_EQ(darkness_in(image, {{120, 80}, {200, 160}}).deviation, 0);
+}
+
+}  // namespace
+}  // namespace geotherm::test

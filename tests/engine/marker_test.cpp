@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "tests/engine/measure.h"
+#include "tests/engine/stage.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+constexpr glm::vec3 kInside(1, 0.5F, 0);
+constexpr glm::vec3 kRim(0, 0, 1);
+constexpr float kRadius = 9;
+constexpr float kRounding = 1.5F / 255;
+
+class Markers : public GpuTest {
+ protected:
+  static Stage stage_with(Model model, const Marker& marker) {
+    Stage stage(device(), std::move(model));
+    stage.scene.surface.colour = glm::vec3(1);
+    stage.scene.markers.colour = kInside;
+    stage.scene.markers.rim = kRim;
+    stage.scene.markers.radius = kRadius;
+    must(stage.renderer.set_markers({&marker, 1}));
+    return stage;
+  }
+  static Marker point(const glm::vec3& p) { return {p, p}; }
+
+  static void expect_colour(const Image& image, const glm::vec3& at, const glm::vec3& expected) {
+    EXPECT_LE(difference(colour_at(image, at), expected), kRounding) << at.x << " " << at.y;
+  }
+  /// Pixels that the markers cover, by coverage.
+  static double covered(const Image& image) {
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) sum += 1 - image.at(x, y)[0] / 255.0;
+    }
+    return sum;  // red: 0 in the rim, 1 elsewhere
+  }
+};
+
+TEST_F(Markers, AreDiscsWithARimAtTheirPoints) {
+  const glm::vec3 place(0.31F, -0.17F, 0);
+  Stage stage = stage_with(plane_model(2, 2), point(place));
+  const Image image = stage.draw();
+  const glm::vec3 centre = stage.scene.camera.project(place);
+  for (int i = 0; i < 16; ++i) {
+    const double angle = i * std::numbers::pi / 8;
+    const glm::vec3 way(std::cos(angle), std::sin(angle), 0);
+    expect_colour(image, centre + 0.4F * kRadius * way, kInside);
+    expect_colour(image, centre + 0.84F * kRadius * way, kRim);
+    expect_colour(image, centre + (kRadius + 2) * way, glm::vec3(1));
+  }
+  const double ring = std::numbers::pi * kRadius * kRadius * (1 - 0.68 * 0.68);
+  EXPECT_NEAR(covered(image) / ring, 1, 0.03);
+}
+
+TEST_F(Markers, OfSegmentsAreRoundAtBothEnds) {
+  const Marker segment{{-0.3F, -0.2F, 0}, {0.4F, 0.1F, 0}};
+  Stage stage = stage_with(plane_model(2, 2), segment);
+  const Image image = stage.draw();
+  const glm::vec2 from(stage.scene.camera.project(segment.from));
+  const glm::vec2 to(stage.scene.camera.project(segment.to));
+  const glm::vec2 along = glm::normalize(to - from);
+  const glm::vec2 across(-along.y, along.x);
+  const auto at = [](const glm::vec2& p) { return glm::vec3(p, 0); };
+  expect_colour(image, at((from + to) / 2.0F), kInside);
+  for (const float side : {-1.0F, 1.0F}) {
+    const glm::vec2 out = side * along;
+    const glm::vec2 end = side < 0 ? from : to;
+    expect_colour(image, at((from + to) / 2.0F + side * 0.84F * kRadius * across), kRim);
+    expect_colour(image, at((from + to) / 2.0F + side * (kRadius + 2) * across), glm::vec3(1));
+    expect_colour(image, at(end + 0.4F * kRadius * out), kInside);
+    expect_colour(image, at(end + 0.84F * kRadius * out), kRim);
+    expect_colour(image, at(end + (kRadius + 2) * out), glm::vec3(1));
+    // The corner that a straight end would fill.
+    expect_colour(image, at(end + 0.88F * kRadius * (out + across)), glm::vec3(1));
+  }
+}
+
+TEST_F(Markers, KeepTheirSizeOnScreen) {
+  Stage stage = stage_with(plane_model(2, 2), point({0, 0, 0}));
+  const double before = covered(stage.draw());
+  Orbit orbit = kFromFront;
+  orbit.zoom = 3;
+  stage.look(orbit);
+  EXPECT_NEAR(covered(stage.draw()), before, 2);
+  stage.scene.pixel_scale = 2;
+  EXPECT_NEAR(covered(stage.draw()), 4 * before, 0.04 * before);
+}
+
+/// A surface that is seen under this angle (degrees; 90: straight), in perspective or without.
+class MarkerOnInclined : public Markers,
+                         public testing::WithParamInterface<std::pair<float, bool>> {};
+
+TEST_P(MarkerOnInclined, IsSeenWhole) {
+  const auto [angle, orthographic] = GetParam();
+  Stage stage = stage_with(plane_model(2, 2), point({0.1F, -0.1F, 0}));
+  stage.look({.azimuth = 90 - angle, .elevation = 0, .orthographic = orthographic});
+  const double ring = std::numbers::pi * kRadius * kRadius * (1 - 0.68 * 0.68);
+  EXPECT_NEAR(covered(stage.draw()) / ring, 1, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MarkerOnInclined,
+                         testing::Values(std::pair(60.0F, false), std::pair(60.0F, true),
+                                         std::pair(30.0F, false), std::pair(30.0F, true)),
+                         [](const auto& test) {
+                           return std::to_string(static_cast<int>(test.param.first)) +
+                                  (test.param.second ? "Orthographic" : "Perspective");
+                         });
+
+TEST_F(Markers, StayVisibleOnSurfacesSeenEdgeOn) {
+  for (const float angle : {0.0F, 2.0F, 10.0F}) {
+    Stage stage = stage_with(plane_model(2, 2), point({0.1F, -0.1F, 0}));
+    stage.look({.azimuth = 90 - angle, .elevation = 0});
+    const double ring = std::numbers::pi * kRadius * kRadius * (1 - 0.68 * 0.68);
+    EXPECT_GE(covered(stage.draw()) / ring, 0.5) << angle;
+  }
+}
+
+TEST_F(Markers, OnTheFarSideOfASphereAreFaint) {
+  Stage stage = stage_with(model_of(sphere(4)), point({0, 0.2F, -0.98F}));
+  const glm::vec3 at = stage.scene.camera.project({0, 0.2F, -0.98F});
+  const glm::vec3 colour = colour_at(stage.draw(), at);
+  EXPECT_LT(difference(colour, glm::vec3(1)), 0.4F);
+  EXPECT_GT(difference(colour, glm::vec3(1)), 0.1F);
+}
+
+TEST_F(Markers, BehindTheEyeAreNotDrawn) {
+  Stage stage = stage_with(plane_model(2, 2), {{0, 0, 20}, {0.2F, 0, 30}});
+  stage.look({.azimuth = 0, .elevation = 0});
+  EXPECT_LE(covered(stage.draw()), 1);
+}
+
+TEST_F(Markers, AreGoneWithTheirModel) {
+  Stage stage = stage_with(plane_model(2, 2), point({0, 0, 0}));
+  must(stage.renderer.set_surface(stage.model.geometry()));
+  EXPECT_EQ(covered(stage.draw()), 0);
+}
+
+TEST_F(Markers, AreNotDrawnUnlessWanted) {
+  Stage stage = stage_with(plane_model(2, 2), point({0, 0, 0}));
+  stage.scene.markers.visible = false;
+  EXPECT_EQ(covered(stage.draw()), 0);
+}
+
+}  // namespace
+}  // namespace geotherm::test

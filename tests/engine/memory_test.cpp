@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "tests/engine/measure.h"
+#include "tests/engine/stage.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+constexpr std::uint64_t kMiB = 1U << 20U;
+
+class DeviceMemory : public GpuTest {};
+
+TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
+  const Device small = must(Device::open(validated(4 * kMiB)));
+  {
+    Stage stage(small, plane_model(10, 10));
+    const Image before = stage.draw();
+    const Model large = plane_model(400, 300);
+    const Result<void> failed = stage.renderer.set_surface(large.geometry());
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().code, ErrorCode::kOutOfMemory);
+    EXPECT_NE(failed.error().message.find("4 MiB"), std::string::npos) << failed.error().message;
+    EXPECT_EQ(stage.draw().pixels, before.pixels);
+
+    const Camera camera = stage.scene.camera;
+    stage.look(kFromFront, {2000, 2000});
+    const auto picture = draw_picture(small, stage.renderer, stage.scene);
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(picture.error().code, ErrorCode::kOutOfMemory);
+    stage.scene.camera = camera;
+    EXPECT_EQ(stage.draw().pixels, before.pixels);
+  }
+  EXPECT_EQ(small.memory_used(), 0U);
+  EXPECT_LE(small.peak_memory(), 4 * kMiB);
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, ThatEndsWhileDrawingLeavesTheRendererUsable) {
+  // Enough for the target, not for four samples of the scene.
+  const Device small = must(Device::open(validated(9 * kMiB)));
+  {
+    Stage stage(small, plane_model(2, 2), 4);
+    const Image before = stage.draw();
+    stage.look(kFromFront, {900, 900});
+    ASSERT_FALSE(draw_picture(small, stage.renderer, stage.scene));
+    stage.look(kFromFront);
+    EXPECT_EQ(stage.draw().pixels, before.pixels);
+  }
+  for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
+}
+
+TEST_F(DeviceMemory, IsGivenBackByTheRenderer) {
+  const std::uint64_t before = device().memory_used();
+  {
+    Stage stage(device(), model_of(sphere(4)), 4);
+    (void)stage.draw();
+    EXPECT_GT(device().memory_used(), before);
+  }
+  EXPECT_EQ(device().memory_used(), before);
+}
+
+TEST_F(DeviceMemory, DoesNotGrowFromFrameToFrame) {
+  Stage stage(device(), model_of(sphere(4)), 4);
+  (void)stage.draw();
+  const std::uint64_t after_one = device().memory_used();
+  for (int i = 0; i < 5; ++i) {
+    must(stage.renderer.set_surface(stage.model.geometry()));
+    stage.paint(stage.model.values([](const glm::vec3& p) { return p.x; }));
+    (void)stage.draw();
+  }
+  EXPECT_EQ(device().memory_used(), after_one);
+}
+
+TEST_F(DeviceMemory, SufficesForAMillionFacesSlow) {
+  const Device fresh = must(Device::open(validated()));
+  constexpr int kAround = 1050;
+  Model model = model_of(transformed(torus(kAround, kAround / 2, 0.4), 0.7, {0, 0, 0}, true));
+  ASSERT_GT(model.faces.size(), 1'100'000U);
+  {
+    Stage stage(fresh, std::move(model), 4);
+    stage.look({}, {1280, 720});
+    stage.scene.light = Light::kThreePoint;
+    stage.scene.surface.wire = true;
+    stage.scene.arrows.primary = true;
+    const std::vector<glm::vec3> field(stage.model.faces.size(), glm::vec3(0, 1, 0));
+    must(stage.renderer.set_arrows(field, {}));
+    const Image image = stage.draw();
+    EXPECT_GT(darkness_in(image, inner(image)).mean, 0.05);
+  }
+  EXPECT_LT(fresh.peak_memory(), 2048 * kMiB);
+  EXPECT_LT(fresh.peak_memory(), 256 * kMiB);  // what it is about, twice
+  for (const std::string& message : fresh.validation_messages()) ADD_FAILURE() << message;
+}
+
+}  // namespace
+}  // namespace geotherm::test

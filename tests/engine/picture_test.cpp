@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "engine/picture.h"
+
+#include "engine/scene/colour_map.h"
+#include "tests/engine/measure.h"
+#include "tests/engine/stage.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+class Picture : public GpuTest {
+ protected:
+  /// Something of everything.
+  static Stage full_stage(int samples = 4) {
+    Stage stage(device(), model_of(sphere(3)), samples);
+    stage.look({.azimuth = 30, .elevation = 20});
+    stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.5F * p.y; }));
+    stage.scene.light = Light::kThreePoint;
+    stage.scene.surface.line_spacing = 0.1F;
+    stage.scene.surface.wire = true;
+    stage.scene.arrows.primary = true;
+    std::vector<glm::vec3> field;
+    for (const auto& face : stage.model.faces) {
+      const glm::vec3& p = stage.model.positions[face[0]];
+      field.push_back(glm::vec3(-p.z, 0, p.x));
+    }
+    must(stage.renderer.set_arrows(field, {}));
+    const Marker marker{{0.5F, 0.5F, 0.7071F}, {0.6F, 0.4F, 0.69F}};
+    must(stage.renderer.set_markers({&marker, 1}));
+    return stage;
+  }
+  static Overlay some_text() {
+    Overlay overlay;
+    overlay.atlas = GlyphAtlas::build(20, {"tiles"});
+    overlay.add_rectangle({10, 10}, {90, 40}, {0.5F, 0.5F, 0.5F, 0.5F});
+    overlay.add_text({15, 30}, "tiles", {0, 0, 0, 1});
+    return overlay;
+  }
+};
+
+class Tiles : public Picture, public testing::WithParamInterface<int> {};
+
+TEST_P(Tiles, MakeTheSamePictureAsTheWhole) {
+  Stage stage = full_stage();
+  const Overlay overlay = some_text();
+  const Image whole = stage.draw(overlay);
+  const Image tiled =
+      must(draw_picture(device(), stage.renderer, stage.scene, overlay, GetParam()));
+  EXPECT_LE(different_pixels(whole, tiled, 1), 0.005);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Tiles, testing::Values(64, 100, 250),
+                         [](const auto& test) { return std::to_string(test.param); });
+
+class PictureSize : public Picture, public testing::WithParamInterface<std::pair<int, int>> {};
+
+TEST_P(PictureSize, MayBeAnyThatFits) {
+  Stage stage = full_stage();
+  const glm::vec2 size(GetParam().first, GetParam().second);
+  stage.look({}, size);
+  const Image image = stage.draw();
+  EXPECT_EQ(image.width, GetParam().first);
+  EXPECT_EQ(image.height, GetParam().second);
+  EXPECT_EQ(image.pixels.size(), 4U * static_cast<std::size_t>(image.width * image.height));
+  EXPECT_GT(darkness(image, image.width / 2, image.height / 2), 0.01);  // the model is there
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PictureSize,
+                         testing::Values(std::pair(1, 1), std::pair(37, 19), std::pair(3, 200),
+                                         std::pair(2050, 5)),
+                         [](const auto& test) {
+                           return std::to_string(test.param.first) + "x" +
+                                  std::to_string(test.param.second);
+                         });
+
+TEST_F(Picture, ThatIsTooLargeIsRefusedWithTheNumbers) {
+  Stage stage = full_stage();
+  stage.look({}, {20000, 10});
+  const auto image = draw_picture(device(), stage.renderer, stage.scene);
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(image.error().message.find("20000x10"), std::string::npos) << image.error().message;
+  EXPECT_NE(image.error().message.find("16384"), std::string::npos) << image.error().message;
+}
+
+TEST_F(Picture, HasOneOrFourSamples) {
+  for (const int samples : {0, 2, 3, 8, -1}) {
+    const auto renderer = Renderer::build(device(), samples);
+    ASSERT_FALSE(renderer);
+    EXPECT_EQ(renderer.error().code, ErrorCode::kBadInput);
+    EXPECT_NE(renderer.error().message.find(std::to_string(samples)), std::string::npos);
+  }
+  for (const int samples : {1, 4}) {
+    EXPECT_EQ(must(Renderer::build(device(), samples)).samples(), samples);
+  }
+}
+
+TEST_F(Picture, RepeatsBitForBit) {
+  Stage first = full_stage();
+  const Image image = first.draw(some_text());
+  EXPECT_EQ(first.draw(some_text()).pixels, image.pixels);
+  Stage second = full_stage();
+  EXPECT_EQ(second.draw(some_text()).pixels, image.pixels);
+}
+
+TEST_F(Picture, DoesNotDependOnWhatWasDrawnBefore) {
+  Stage stage = full_stage();
+  const Image image = stage.draw();
+  Stage other = full_stage();
+  other.scene.surface.wire = false;
+  other.scene.arrows.primary = false;
+  other.look({.azimuth = 200}, {100, 300});
+  (void)other.draw(some_text());
+  other.scene = stage.scene;
+  EXPECT_EQ(other.draw().pixels, image.pixels);
+}
+
+TEST_F(Picture, IsTheSameInsideWithOneAndFourSamples) {
+  const auto plain = [](int samples) {
+    Stage stage(device(), model_of(sphere(3)), samples);
+    stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.5F * p.y; }));
+    stage.scene.light = Light::kThreePoint;
+    return stage.draw();
+  };
+  const Image one = plain(1);
+  const Image four = plain(4);
+  for (int y = 70; y < 170; ++y) {
+    for (int x = 110; x < 210; ++x) {
+      ASSERT_LE(difference(colour_at(one, x, y), colour_at(four, x, y)), 2.5F / 255);
+    }
+  }
+  // And smoother along the border.
+  EXPECT_GT(different_pixels(one, four, 20), 0.001);
+}
+
+TEST_F(Picture, ShowsNewValuesOnTheSameModel) {
+  Stage stage(device(), plane_model(2, 2));
+  stage.paint(std::vector<float>(stage.model.positions.size(), 0));
+  const glm::vec3 before = colour_at(stage.draw(), 160, 120);
+  stage.paint(std::vector<float>(stage.model.positions.size(), 1));
+  const glm::vec3 after = colour_at(stage.draw(), 160, 120);
+  EXPECT_LE(difference(before, engine::colour_at(colour_maps().front(), 0)), 0.01F);
+  EXPECT_LE(difference(after, engine::colour_at(colour_maps().front(), 1)), 0.01F);
+}
+
+}  // namespace
+}  // namespace geotherm::test
