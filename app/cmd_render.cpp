@@ -80,7 +80,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions&
   if (!solved) {
     warnings.push_back("there are no distances, the surface is drawn in grey: " +
                        solved.error().message);
-    add_distances(data, std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
+    add_distances(data,
+                  std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
   }
   warnings = solved->warnings;

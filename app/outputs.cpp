@@ -65,9 +65,8 @@ Result<void> Outputs::expect(const std::string& path, std::string_view option,
     // What does not exist yet has no second name, and asking the system about each pair of a
     // thousand frames takes its time.
     if (is_new || other.is_new) return resolved == other.resolved;
-    return path == "-" || other.path == "-"
-               ? path == other.path
-               : same_file(path, resolved, other.path, other.resolved);
+    return path == "-" || other.path == "-" ? path == other.path
+                                            : same_file(path, resolved, other.path, other.resolved);
   };
   for (const File& other : files_) {
     if (!is_this(other)) continue;

@@ -15,9 +15,7 @@ std::string range_of(const PictureScale& scale) {
   return number_text(scale.min) + ":" + number_text(scale.max);
 }
 
-bool has_colours(const PictureFigures& f) {
-  return f.solve && f.settings.view == View::kContours;
-}
+bool has_colours(const PictureFigures& f) { return f.solve && f.settings.view == View::kContours; }
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
 void add(std::vector<PngText>& texts, const std::string& name, const std::string& value) {
@@ -106,17 +104,16 @@ std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
     add(texts, name, value);
   }
   if (f.settings.turntable > 0) {
-    add(texts, "frame",
-        std::to_string(frame) + " of " + std::to_string(f.settings.turntable));
+    add(texts, "frame", std::to_string(frame) + " of " + std::to_string(f.settings.turntable));
   }
   add(texts, "device", device_in_words(f.device));
   return texts;
 }
 
 Json picture_json(const PictureFigures& f) {
-  Json json = f.solve ? solve_json(*f.solve)
-                      : Json{{"model",
-                              {{"name", f.model}, {"vertices", f.vertices}, {"faces", f.faces}}}};
+  Json json =
+      f.solve ? solve_json(*f.solve)
+              : Json{{"model", {{"name", f.model}, {"vertices", f.vertices}, {"faces", f.faces}}}};
   Json picture = settings_json(f);
   picture["files"] = f.paths;
   picture["device"] = {

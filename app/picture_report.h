@@ -14,17 +14,17 @@ namespace geotherm::app {
 
 /// All there is to say about pictures of one model.
 struct PictureFigures {
-  std::string model;                  ///< its name
-  std::string model_argument;         ///< as typed: a path or a bundled name
-  std::vector<std::string> sources;   ///< as typed
-  std::string command;                ///< the command line; empty: unknown
+  std::string model;                 ///< its name
+  std::string model_argument;        ///< as typed: a path or a bundled name
+  std::vector<std::string> sources;  ///< as typed
+  std::string command;               ///< the command line; empty: unknown
   Index vertices = 0, faces = 0;
   std::optional<SolveFigures> solve;  ///< none: drawn without distances
   PictureSettings settings;
   PictureScale scale;
   DrawingDevice device;
-  std::vector<std::string> paths;     ///< one a frame
-  double draw_ms = 0, write_ms = 0;   ///< all frames together
+  std::vector<std::string> paths;    ///< one a frame
+  double draw_ms = 0, write_ms = 0;  ///< all frames together
 };
 
 /// "bunny, 4,000 faces, t = 0.0123, cholmod": what stands under a picture.

@@ -13,7 +13,8 @@
 namespace geotherm::app {
 namespace {
 
-/// Pictures are smooth shades: a higher level costs seconds at 8192 x 8192 and saves a few per cent.
+/// Pictures are smooth shades: a higher level costs seconds at 8192 x 8192 and saves a few per
+/// cent.
 constexpr int kCompression = 4;
 
 /// What one file is written from and into. libpng leaves its functions by longjmp, which runs no
@@ -28,9 +29,7 @@ struct PngWriter {
   bool memory_ended = false;
 };
 
-PngWriter& writer_of(png_structp png) {
-  return *static_cast<PngWriter*>(png_get_io_ptr(png));
-}
+PngWriter& writer_of(png_structp png) { return *static_cast<PngWriter*>(png_get_io_ptr(png)); }
 
 extern "C" {
 
@@ -61,15 +60,20 @@ void ignore_png_warning(png_structp, png_const_charp) {}
 }  // extern "C"
 
 bool is_ascii(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return static_cast<signed char>(c) >= 0; });
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return static_cast<signed char>(c) >= 0; });
 }
 
 /// Length of the UTF-8 sequence at the front, 0 where there is none.
 std::size_t sequence_length(std::string_view text) {
   const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
-  const std::size_t length = first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2
-                             : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
   if (length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xc0U) != 0x80) return 0;
@@ -144,7 +148,8 @@ Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngTe
   if (written) return std::move(writer.bytes);
   const std::string size =
       std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels";
-  if (writer.memory_ended || info == nullptr || writer.failure.find("memory") != std::string::npos) {
+  if (writer.memory_ended || info == nullptr ||
+      writer.failure.find("memory") != std::string::npos) {
     return Error{ErrorCode::kOutOfMemory,
                  "not enough memory to write a picture of " + size + "; ask for a smaller --size"};
   }

@@ -16,8 +16,8 @@ struct PngText {
 };
 
 /// The bytes of a PNG file: sRGB, 8 bits a channel, RGB where every pixel is opaque and RGBA
-/// elsewhere; texts as tEXt chunks, or iTXt where ASCII does not do. Errors: kOutOfMemory, kBadInput
-/// (what libpng refuses).
+/// elsewhere; texts as tEXt chunks, or iTXt where ASCII does not do. Errors: kOutOfMemory,
+/// kBadInput (what libpng refuses).
 Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts = {});
 
 }  // namespace geotherm::app

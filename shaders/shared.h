@@ -40,7 +40,7 @@ struct Frame {
   mat4 clip_from_scene;
   mat4 eye_from_scene;
   vec2 extent;        // of the whole picture
-  float near_shift;   // see depth_towards_eye() in the vertex shaders
+  float near_shift;   // of markers towards the eye, in their radii
   float orthographic; // 1 or 0
   vec4 range;         // value at the map's lower end, 1 / width of the range, line spacing, 1 / spacing
   vec4 plain;         // colour of the surface

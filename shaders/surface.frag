@@ -20,7 +20,8 @@ layout(location = 3) in vec2 corner;
 
 layout(location = 0) out vec4 colour;
 
-const float kNoValueBelow = -1e38;
+// What is larger, either way, comes from a corner without a value, weighted or extrapolated.
+const float kLargestValue = 1e20;
 const vec3 kNoValueColour = vec3(0.62);
 
 vec3 map_colour(float x) {
@@ -74,7 +75,7 @@ void main() {
   vec3 c = frame.plain.rgb;
   float lines = 0.0;
   if ((features & (kMapped | kIsolines)) != 0) {
-    bool known = value > kNoValueBelow;
+    bool known = abs(value) < kLargestValue;
     if ((features & kMapped) != 0) {
       c = known ? map_colour((value - frame.range.x) * frame.range.y) : kNoValueColour;
     }

@@ -20,6 +20,8 @@ constexpr double kMostLinesOnBar = 200;
 /// Between the model and the sides of the picture, of the smaller of them.
 constexpr float kMargin = 0.03F;
 
+constexpr float kPaperOpacity = 0.75F;
+
 /// Sources in the view that is about them.
 constexpr float kLargeMarker = 8;
 constexpr glm::vec3 kSourceRed{0.86F, 0.13F, 0.11F};
@@ -84,6 +86,8 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
                          const PictureScale& scale) {
   engine::Legend legend;
   legend.ink = settings.background == PictureBackground::kDark ? kLightInk : kDarkInk;
+  legend.paper = background_of(settings.background);
+  legend.paper.a *= kPaperOpacity;
   if (settings.caption) legend.caption = data.caption;
   const engine::ColourMap* map = engine::find_colour_map(settings.colour_map);
   if (!scale.bar || map == nullptr) return legend;

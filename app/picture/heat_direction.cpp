@@ -18,8 +18,8 @@ std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const doub
     }
     // A factor that all corners share does not turn the gradient, and brings u back into range.
     const auto heat = [&](Index v) { return std::exp(log_heat[v] - largest); };
-    const Vec3 gradient = triangle_gradient({positions[a], positions[b], positions[c]},
-                                            {heat(a), heat(b), heat(c)});
+    const Vec3 gradient =
+        triangle_gradient({positions[a], positions[b], positions[c]}, {heat(a), heat(b), heat(c)});
     out.push_back(gradient.isZero(0) ? Vec3::Zero() : Vec3(-gradient.stableNormalized()));
   }
   return out;

@@ -93,8 +93,7 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   const SceneSpace scene(data.centre, data.model_per_scene);
   std::set<Index> on_curves;
   for (const auto& [from, to] : sources.edges) {
-    data.sources.push_back(
-        {scene.of(mesh.positions()[from]), scene.of(mesh.positions()[to])});
+    data.sources.push_back({scene.of(mesh.positions()[from]), scene.of(mesh.positions()[to])});
     on_curves.insert({from, to});
   }
   for (const SurfacePoint& point : sources.points) {

@@ -25,12 +25,12 @@ struct PictureData {
 
   std::vector<Vector> positions;                    ///< V
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< F, as in the file
-  Vec3 centre = Vec3::Zero();  ///< model = centre + scene * model_per_scene
+  Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
-  std::vector<float> values;   ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
-  double value_unit = 1;       ///< model units; the largest distance, 1 if there is none above 0
-  double largest_value = 0;    ///< of `values`: 1, or 0 when no distance is above 0
+  std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
+  double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
+  double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error

@@ -77,16 +77,18 @@ Result<Range> range_in(const std::string& text) {
       (range.min || range.max) && !(range.min && range.max && *range.min >= *range.max)) {
     return range;
   }
-  return wrong(text, "is no range; give MIN:MAX with MIN below MAX, such as 0:2.5; one of them "
-                     "may be left out");
+  return wrong(text,
+               "is no range; give MIN:MAX with MIN below MAX, such as 0:2.5; one of them "
+               "may be left out");
 }
 
 Result<std::optional<double>> spacing_in(const std::string& text) {
   if (text.empty() || text == "auto") return std::optional<double>();
   const auto value = number_in<double>(text);
   if (value && *value >= 0 && std::isfinite(*value)) return value;
-  return wrong(text, "is no spacing of isolines; give a length in model units, such as 0.5, or 0 "
-                     "for none");
+  return wrong(text,
+               "is no spacing of isolines; give a length in model units, such as 0.5, or 0 "
+               "for none");
 }
 
 struct Pan {
@@ -115,8 +117,8 @@ Result<std::string> colour_map_in(const std::string& text,
                                   std::span<const std::string> colour_maps) {
   if (text.empty() && !colour_maps.empty()) return colour_maps.front();
   if (std::find(colour_maps.begin(), colour_maps.end(), text) != colour_maps.end()) return text;
-  return Error{ErrorCode::kBadInput, "there is no colour map '" + one_line(text) +
-                                         "'; there are " + joined(colour_maps)};
+  return Error{ErrorCode::kBadInput,
+               "there is no colour map '" + one_line(text) + "'; there are " + joined(colour_maps)};
 }
 
 Result<CameraSettings> camera_in(const PictureArguments& a, bool turns) {
@@ -131,9 +133,10 @@ Result<CameraSettings> camera_in(const PictureArguments& a, bool turns) {
       take(number_between(a.elevation, -90, 90,
                           "is no elevation; give degrees from -90 (from below) to 90 (from above)"),
            "--elevation", camera.elevation),
-      take(number_between(a.zoom, kLeastZoom, kMostZoom,
-                          "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits"),
-           "--zoom", camera.zoom),
+      take(
+          number_between(a.zoom, kLeastZoom, kMostZoom,
+                         "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits"),
+          "--zoom", camera.zoom),
       take(pan_in(a.pan), "--pan", pan),
       take(orthographic_in(a.projection), "--projection", camera.orthographic),
       a.fit.empty() ? Result<void>() : take(parse_fit(a.fit), "--fit", camera.fit),
@@ -207,11 +210,11 @@ Result<PictureSettings> picture_settings(const PictureArguments& a,
       take(spacing_in(a.spacing), "--spacing", s.line_spacing),
       take(parse_light(a.light), "--light", s.light),
       take(parse_background(a.background), "--background", s.background),
-      a.turntable.empty()
-          ? Result<void>()
-          : take(whole_between(a.turntable, 1, kMostFrames,
-                               "is no number of pictures; give 1 to " + std::to_string(kMostFrames)),
-                 "--turntable", s.turntable),
+      a.turntable.empty() ? Result<void>()
+                          : take(whole_between(a.turntable, 1, kMostFrames,
+                                               "is no number of pictures; give 1 to " +
+                                                   std::to_string(kMostFrames)),
+                                 "--turntable", s.turntable),
   });
   if (!all) return all.error();
   const auto camera = camera_in(a, !a.turntable.empty());

@@ -44,7 +44,7 @@ struct PictureSettings {
   PictureBackground background = PictureBackground::kLight;
   bool bar = true, caption = true, markers = true;
   CameraSettings camera;
-  int turntable = 0;  ///< frames of one turn; 0: one picture
+  int turntable = 0;   ///< frames of one turn; 0: one picture
   std::string device;  ///< part of its name; empty: the best
 
   bool operator==(const PictureSettings&) const = default;

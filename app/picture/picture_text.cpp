@@ -15,11 +15,13 @@ struct Named {
   const char* name;
 };
 
-constexpr Named<View> kViews[] = {
-    {View::kContours, "contours"},         {View::kWireframe, "wireframe"},
-    {View::kFlat, "flat"},                 {View::kSmooth, "smooth"},
-    {View::kSources, "sources"},           {View::kHeatGradient, "heat-gradient"},
-    {View::kGradientError, "gradient-error"}};
+constexpr Named<View> kViews[] = {{View::kContours, "contours"},
+                                  {View::kWireframe, "wireframe"},
+                                  {View::kFlat, "flat"},
+                                  {View::kSmooth, "smooth"},
+                                  {View::kSources, "sources"},
+                                  {View::kHeatGradient, "heat-gradient"},
+                                  {View::kGradientError, "gradient-error"}};
 constexpr Named<PictureLight> kLights[] = {{PictureLight::kThreePoint, "three-point"},
                                            {PictureLight::kHeadlight, "headlight"},
                                            {PictureLight::kNone, "none"}};

@@ -13,10 +13,10 @@ namespace geotherm::app {
 
 /// The text form of each choice, the same on the command line, in files and in panels.
 /// parse(to_text(x)) == x. Errors: kBadInput, with the values there are.
-std::string to_text(View view);                   // wireframe | ... | gradient-error | contours
-std::string to_text(PictureLight light);          // three-point | headlight | none
+std::string to_text(View view);                     // wireframe | ... | gradient-error | contours
+std::string to_text(PictureLight light);            // three-point | headlight | none
 std::string to_text(PictureBackground background);  // light | dark | transparent
-std::string to_text(PictureFit fit);              // tight | sphere
+std::string to_text(PictureFit fit);                // tight | sphere
 
 Result<View> parse_view(std::string_view text);
 Result<PictureLight> parse_light(std::string_view text);

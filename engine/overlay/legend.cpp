@@ -143,6 +143,14 @@ void draw_bar(const Legend& legend, const Column& column, float stroke, Overlay&
   overlay.add_rectangle({max.x - stroke, min.y + stroke}, {max.x, max.y - stroke}, ink);
 }
 
+/// Something to write on, a little larger than what will be written.
+void draw_paper(const Legend& legend, glm::vec2 min, glm::vec2 max, float margin,
+                Overlay& overlay) {
+  if (legend.paper.a <= 0) return;
+  const float room = std::floor(0.4F * margin);
+  overlay.add_rectangle(min - room, max + room, legend.paper);
+}
+
 void draw_column(const Legend& legend, const Column& column, float stroke, Overlay& overlay) {
   const glm::vec4 ink(legend.ink, 1);
   float base = column.title_top + overlay.atlas.ascent();
@@ -175,6 +183,9 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   const std::string caption = cut_to_width(overlay.atlas, legend.caption, extent.x - 2 * m.margin);
   if (!caption.empty() && 5 * m.line <= extent.y) {
     const float top = std::floor(extent.y - 0.7F * m.margin - overlay.atlas.line_height());
+    draw_paper(legend, {m.margin, top},
+               {m.margin + overlay.atlas.width_of(caption), top + overlay.atlas.line_height()},
+               m.margin, overlay);
     overlay.add_text({m.margin, top + overlay.atlas.ascent()}, caption, glm::vec4(legend.ink, 1));
     bottom = top - std::round(0.4F * m.line);
     layout.insets.bottom = extent.y - bottom;
@@ -182,6 +193,9 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   if (legend.bar && legend.colours.size() >= 2 && side >= kSmallestForBar) {
     const Column column = lay_out_column(legend, overlay.atlas, m, extent, bottom);
     if (column.fits) {
+      draw_paper(legend, {column.left, column.title_top},
+                 {column.left + column.width, column.bar_bottom + overlay.atlas.line_height() / 2},
+                 m.margin, overlay);
       draw_column(legend, column, m.stroke, overlay);
       layout.insets.right = extent.x - column.left + m.margin;
     }

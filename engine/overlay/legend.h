@@ -22,10 +22,11 @@ struct Legend {
   std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;
   std::string title;  ///< over the bar: what the values are, and their unit
-  std::string
-      caption;       ///< one line along the lower edge; cut with an ellipsis where it is too long
-  glm::vec3 ink{0};  ///< colour of letters and frames
-  float scale = 1;   ///< of letters and bar; 1 suits a picture 720 pixels high
+  /// One line along the lower edge; cut with an ellipsis where it is too long.
+  std::string caption;
+  glm::vec3 ink{0};             ///< colour of letters and frames
+  glm::vec4 paper{1, 1, 1, 0};  ///< under them, so that they can be read where the model lies there
+  float scale = 1;              ///< of letters and bar; 1 suits a picture 720 pixels high
 };
 
 struct LegendLayout {

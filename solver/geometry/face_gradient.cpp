@@ -25,8 +25,8 @@ Vec3 triangle_gradient(const std::array<Vec3, 3>& corners, const std::array<doub
   const double length = side[base];
   const std::size_t next = (base + 1) % 3;
   const std::size_t last = (base + 2) % 3;
-  const double rise = std::max(std::abs(values[next] - values[base]),
-                               std::abs(values[last] - values[base]));
+  const double rise =
+      std::max(std::abs(values[next] - values[base]), std::abs(values[last] - values[base]));
   if (!(length > 0) || !std::isfinite(length) || !(rise > 0) || !std::isfinite(rise)) {
     return Vec3::Zero();
   }

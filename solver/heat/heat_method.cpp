@@ -22,8 +22,9 @@ struct HeatMethod::State {
   std::shared_ptr<const HeatStep> heat;
   std::shared_ptr<const PoissonSolver> poisson;
   std::shared_ptr<BlockPool> pool = std::make_shared<BlockPool>();
-  double t = 0;       // model units squared
-  double unit_t = 0;  // the same in squares of the mean edge, right where t leaves the doubles' range
+  double t = 0;  // model units squared
+  double unit_t =
+      0;  // the same in squares of the mean edge, right where t leaves the doubles' range
   SetupTiming timing;
   std::vector<std::string> warnings;
 };

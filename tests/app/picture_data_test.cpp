@@ -48,8 +48,7 @@ INSTANTIATE_TEST_SUITE_P(Of, PictureScene, testing::Values(1e-300, 1e-150, 1.0, 
                          [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 TEST(PictureSceneOf, AModelFarFromTheOriginKeepsItsShape) {
-  const MeshPtr mesh =
-      finish(transformed(torus(12, 8, 0.4), 1, Vec3(1e8, -2e8, 3e8), false));
+  const MeshPtr mesh = finish(transformed(torus(12, 8, 0.4), 1, Vec3(1e8, -2e8, 3e8), false));
   expect_same_shape(picture_of(*mesh), *mesh);
 }
 
@@ -123,8 +122,7 @@ TEST(PictureFields, KeepTheHeatsDirectionWhereHeatUnderflows) {
   ASSERT_TRUE(method) << method.error().message;
   QueryOptions query;
   query.fields = true;
-  const auto result =
-      method->solve(SourceSet::of_vertices({grid_vertex(kLength, 0, 1)}), query);
+  const auto result = method->solve(SourceSet::of_vertices({grid_vertex(kLength, 0, 1)}), query);
   ASSERT_TRUE(result) << result.error().message;
   ASSERT_EQ(result->heat[grid_vertex(kLength, kLength, 1)], 0);
   PictureData data = picture_of(*strip);
@@ -140,8 +138,7 @@ TEST(PictureFields, KeepTheHeatsDirectionWhereHeatUnderflows) {
 }
 
 TEST(PictureFields, HaveTheLengthOfTheAngleBetweenThem) {
-  const MeshPtr mesh = finish(
-      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  const MeshPtr mesh = finish({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
   const auto length_at = [&](double degrees) {
     constexpr double kRadian = 3.14159265358979323846 / 180;
     DistanceResult result;

@@ -45,9 +45,10 @@ class Render : public testing::Test {
   std::string path(const std::string& name) { return folder.path(name); }
 
   TemporaryDirectory folder;
-  const std::string square = folder.write(
-      "square.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 9 0 0\nv 9 1 0\nv 8 0 0\n"
-                    "f 1 2 3\nf 1 3 4\nf 5 6 7\n");
+  const std::string square =
+      folder.write("square.obj",
+                   "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 9 0 0\nv 9 1 0\nv 8 0 0\n"
+                   "f 1 2 3\nf 1 3 4\nf 5 6 7\n");
   const std::string flat = folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
   FakeDrawing drawing;
 };
@@ -65,9 +66,11 @@ TEST_F(Render, WritesAPictureOfTheSizeThatWasAskedFor) {
 }
 
 TEST_F(Render, HandsItsSettingsToTheDrawingUnchanged) {
-  expect_done(run({"render", square, "-s", "0", "--view", "gradient-error", "--azimuth", "-5",
-                   "--elevation", "-30", "--pan", "-0.5:0.25", "--colormap", "viridis", "--fit",
-                   "--reverse", "--no-bar", "--device", "fast", "-o", path("a.png")}));
+  expect_done(
+      run({"render",     square,    "-s",          "0",         "--view",   "gradient-error",
+           "--azimuth",  "-5",      "--elevation", "-30",       "--pan",    "-0.5:0.25",
+           "--colormap", "viridis", "--fit",       "--reverse", "--no-bar", "--device",
+           "fast",       "-o",      path("a.png")}));
   app::PictureSettings expected;
   expected.view = app::View::kGradientError;
   expected.camera.azimuth = -5;
@@ -114,16 +117,14 @@ TEST_F(Render, TellsAboutItselfInTheFile) {
   EXPECT_EQ(texts["geotherm:device"], "Fast GPU");
   EXPECT_FALSE(texts["geotherm:t"].empty());
   EXPECT_FALSE(texts["geotherm:backend"].empty());
-  EXPECT_EQ(texts["geotherm:command"],
-            "geotherm render " + square +
-                " -s 0 -s 1 -m 2 --range 0:4 --spacing 0.5 -o '" + folder.path("") +
-                "it'\\''s.png'");
+  EXPECT_EQ(texts["geotherm:command"], "geotherm render " + square +
+                                           " -s 0 -s 1 -m 2 --range 0:4 --spacing 0.5 -o '" +
+                                           folder.path("") + "it'\\''s.png'");
 }
 
 TEST_F(Render, TurnsTheModelForATurntable) {
-  const Run result =
-      run({"render", square, "-s", "0", "--size", "8x8", "--azimuth", "300", "--turntable", "4",
-           "-o", path("turn.png")});
+  const Run result = run({"render", square, "-s", "0", "--size", "8x8", "--azimuth", "300",
+                          "--turntable", "4", "-o", path("turn.png")});
   expect_done(result);
   EXPECT_EQ(folder.names(), (Names{"flat.obj", "square.obj", "turn-000.png", "turn-001.png",
                                    "turn-002.png", "turn-003.png"}));

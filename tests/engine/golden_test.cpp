@@ -22,6 +22,9 @@ struct Solved {
   Marker source;
 };
 
+/// Length of the second arrows for an angle of 1 between the fields: so that some can be seen.
+constexpr double kErrorScale = 5;
+
 Solved solve_bunny() {
   const auto mesh = std::make_shared<const TriangleMesh>(must(generate_model("bunny", 2000)));
   constexpr Index kSource = 300;
@@ -37,7 +40,7 @@ Solved solve_bunny() {
     const Vec3 x = -heat[f].stableNormalized();
     const Vec3 g = distance[f].stableNormalized();
     const double angle = std::acos(std::clamp(x.dot(g), -1.0, 1.0));
-    const Vec3 scaled = g * std::min(1.0, angle / std::acos(0.0));
+    const Vec3 scaled = g * std::min(1.0, kErrorScale * angle);
     solved.heat.emplace_back(x.x(), x.y(), x.z());
     solved.error.emplace_back(scaled.x(), scaled.y(), scaled.z());
   }

@@ -137,7 +137,7 @@ TEST_F(Isolines, KeepTheirMeanWhileTheyFade) {
 
 TEST_F(Isolines, AreAbsentFromAConstant) {
   Stage stage(device(), plane_model(3, 3));
-  stage.draw_lines(std::vector<float>(stage.model.positions.size(), 0.7F), 0.1F);
+  stage.draw_lines(std::vector<float>(stage.model.positions.size(), 0.73F), 0.1F);
   EXPECT_EQ(darkness_in(stage.draw(), {{20, 20}, {300, 220}}).mean, 0);
 }
 

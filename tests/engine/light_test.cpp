@@ -130,7 +130,7 @@ TEST_F(NoLight, LeavesColoursAsTheyAre) {
   EXPECT_EQ(image.at(160, 120)[0], 51);
   EXPECT_EQ(image.at(160, 120)[1], 102);
   EXPECT_EQ(image.at(160, 120)[2], 153);
-  EXPECT_EQ(darkness_in(image, {{120, 80}, {200, 160}}).deviation, 0);
+  EXPECT_NEAR(darkness_in(image, {{120, 80}, {200, 160}}).deviation, 0, 1e-6);
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ TEST_F(Markers, AreDiscsWithARimAtTheirPoints) {
   EXPECT_NEAR(covered(image) / ring, 1, 0.03);
 }
 
-TEST_F(Markers, OfSegmentsAreRoundAtBothEnds) {
+TEST_F(Markers, OfSegmentsAreHalfAsWideAndRoundAtBothEnds) {
+  constexpr float kHalfWidth = kRadius / 2;
   const Marker segment{{-0.3F, -0.2F, 0}, {0.4F, 0.1F, 0}};
   Stage stage = stage_with(plane_model(2, 2), segment);
   const Image image = stage.draw();
@@ -70,13 +71,13 @@ TEST_F(Markers, OfSegmentsAreRoundAtBothEnds) {
   for (const float side : {-1.0F, 1.0F}) {
     const glm::vec2 out = side * along;
     const glm::vec2 end = side < 0 ? from : to;
-    expect_colour(image, at((from + to) / 2.0F + side * 0.84F * kRadius * across), kRim);
-    expect_colour(image, at((from + to) / 2.0F + side * (kRadius + 2) * across), glm::vec3(1));
-    expect_colour(image, at(end + 0.4F * kRadius * out), kInside);
-    expect_colour(image, at(end + 0.84F * kRadius * out), kRim);
-    expect_colour(image, at(end + (kRadius + 2) * out), glm::vec3(1));
+    expect_colour(image, at((from + to) / 2.0F + side * 0.87F * kHalfWidth * across), kRim);
+    expect_colour(image, at((from + to) / 2.0F + side * (kHalfWidth + 2) * across), glm::vec3(1));
+    expect_colour(image, at(end + 0.4F * kHalfWidth * out), kInside);
+    expect_colour(image, at(end + 0.87F * kHalfWidth * out), kRim);
+    expect_colour(image, at(end + (kHalfWidth + 2) * out), glm::vec3(1));
     // The corner that a straight end would fill.
-    expect_colour(image, at(end + 0.88F * kRadius * (out + across)), glm::vec3(1));
+    expect_colour(image, at(end + 0.88F * kHalfWidth * (out + across)), glm::vec3(1));
   }
 }
 

@@ -42,7 +42,7 @@ Model plane_model(Index nx, Index ny) {
 }
 
 Model irregular_plane_model(Index n) {
-  constexpr double kShake = 0.35;  // of a cell: triangles of all shapes, none turned over
+  constexpr double kShake = 0.24;  // of a cell: triangles of all shapes, none turned over
   constexpr unsigned kSeed = 7;
   Draft draft = jittered_plane(n, kShake, kSeed);
   for (Vec3& p : draft.positions) p = {1.6 * p.x() - 0.8, 1.2 * p.y() - 0.6, 0};

@@ -60,6 +60,7 @@ TEST_P(PictureSize, MayBeAnyThatFits) {
   Stage stage = full_stage();
   const glm::vec2 size(GetParam().first, GetParam().second);
   stage.look({}, size);
+  stage.scene.markers.visible = false;
   const Image image = stage.draw();
   EXPECT_EQ(image.width, GetParam().first);
   EXPECT_EQ(image.height, GetParam().second);

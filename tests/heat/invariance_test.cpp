@@ -73,7 +73,8 @@ TEST_P(Invariance, UnderScalingByAPowerOfTwoIsExact) {
 
 TEST_P(Invariance, UnderScalingToWhereAreasLeaveTheRangeOfDoubles) {
   for (const int power : {-600, 600}) {
-    EXPECT_EQ(relative_difference(moved(std::ldexp(1.0, power), Vec3::Zero(), false), reference), 0);
+    EXPECT_EQ(relative_difference(moved(std::ldexp(1.0, power), Vec3::Zero(), false), reference),
+              0);
   }
 }
 

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "app/main_drawing/picture_scene.h"
+
+#include <gtest/gtest.h>
+
+namespace geotherm::test {
+namespace {
+
+using app::PictureData;
+using app::PictureScale;
+using app::PictureSettings;
+using app::View;
+
+constexpr float kFloat = 1e-6F;
+
+/// Distances 0 to 8 in model units, drawn as 0 to 1.
+PictureData solved() {
+  PictureData data;
+  app::add_distances(data, std::vector<double>{0, 8});
+  data.caption = "cap";
+  return data;
+}
+
+engine::Scene scene_of(View view) {
+  PictureSettings settings;
+  settings.view = view;
+  const PictureData data = solved();
+  return app::scene_of(data, settings, app::picture_scale(data, settings));
+}
+
+engine::Legend legend_of(const PictureSettings& settings) {
+  const PictureData data = solved();
+  return app::legend_of(data, settings, app::picture_scale(data, settings));
+}
+
+TEST(PictureSceneOfView, ShowsWhatTheViewIsCalled) {
+  EXPECT_TRUE(scene_of(View::kWireframe).surface.wire);
+  EXPECT_FALSE(scene_of(View::kFlat).surface.smooth);
+  EXPECT_TRUE(scene_of(View::kSmooth).surface.smooth);
+  EXPECT_FALSE(scene_of(View::kSmooth).markers.visible);
+  EXPECT_TRUE(scene_of(View::kSources).markers.visible);
+  EXPECT_TRUE(scene_of(View::kHeatGradient).arrows.primary);
+  EXPECT_FALSE(scene_of(View::kHeatGradient).arrows.secondary);
+  EXPECT_TRUE(scene_of(View::kGradientError).arrows.primary);
+  EXPECT_TRUE(scene_of(View::kGradientError).arrows.secondary);
+  for (const View view : {View::kWireframe, View::kFlat, View::kSmooth, View::kSources,
+                          View::kHeatGradient, View::kGradientError}) {
+    EXPECT_EQ(scene_of(view).surface.paint, engine::Paint::kPlain);
+    EXPECT_EQ(scene_of(view).surface.line_spacing, 0);
+  }
+  EXPECT_EQ(scene_of(View::kContours).surface.paint, engine::Paint::kMap);
+}
+
+TEST(PictureSceneOfView, TakesRangeAndSpacingInModelUnits) {
+  PictureSettings settings;
+  settings.range_min = 2;
+  settings.range_max = 16;
+  settings.line_spacing = 4;
+  const PictureData data = solved();
+  const auto style = app::scene_of(data, settings, app::picture_scale(data, settings)).surface;
+  EXPECT_EQ(style.range_min, 0.25F);
+  EXPECT_EQ(style.range_max, 2);
+  EXPECT_EQ(style.line_spacing, 0.5F);
+}
+
+TEST(PictureSceneOfView, HidesMarkersOnRequest) {
+  PictureSettings settings;
+  settings.markers = false;
+  const PictureData data = solved();
+  EXPECT_FALSE(app::scene_of(data, settings, app::picture_scale(data, settings)).markers.visible);
+}
+
+TEST(PictureSceneOfView, KeepsLinesAsWideForThePictureAtAnySize) {
+  PictureSettings settings;
+  settings.width = 2560;
+  settings.height = 1440;
+  const PictureData data = solved();
+  EXPECT_EQ(app::scene_of(data, settings, app::picture_scale(data, settings)).pixel_scale, 2);
+}
+
+TEST(PictureLegend, HasABarWithTicksAndIsolinesInPlace) {
+  PictureSettings settings;
+  settings.range_max = 10;
+  settings.line_spacing = 2;
+  const engine::Legend legend = legend_of(settings);
+  EXPECT_TRUE(legend.bar);
+  EXPECT_EQ(legend.caption, "cap");
+  EXPECT_NE(legend.title.find("distance"), std::string::npos);
+  ASSERT_EQ(legend.ticks.size(), 6U);
+  EXPECT_EQ(legend.ticks[3].label, "6");
+  EXPECT_NEAR(legend.ticks[3].position, 0.6F, kFloat);
+  ASSERT_EQ(legend.lines.size(), 4U);  // at 2, 4, 6 and 8
+  EXPECT_NEAR(legend.lines[0], 0.2F, kFloat);
+}
+
+TEST(PictureLegend, LeavesOutWhatIsNotWanted) {
+  PictureSettings settings;
+  settings.bar = settings.caption = false;
+  const engine::Legend legend = legend_of(settings);
+  EXPECT_FALSE(legend.bar);
+  EXPECT_EQ(legend.caption, "");
+}
+
+TEST(PictureLegend, TurnsItsColoursRoundAndItsInkWithTheBackground) {
+  PictureSettings settings;
+  const engine::Legend usual = legend_of(settings);
+  settings.reverse = true;
+  settings.background = app::PictureBackground::kDark;
+  const engine::Legend turned = legend_of(settings);
+  EXPECT_LE(glm::length(usual.colours.front() - turned.colours.back()), kFloat);
+  EXPECT_LT(usual.ink.r, 0.5F);
+  EXPECT_GT(turned.ink.r, 0.5F);
+}
+
+TEST(PictureLegend, OfCountlessIsolinesShowsNone) {
+  PictureSettings settings;
+  settings.line_spacing = 1e-12;
+  EXPECT_TRUE(legend_of(settings).lines.empty());
+}
+
+TEST(PictureCamera, LeavesAMarginAboutTheModel) {
+  const std::vector<glm::vec3> points = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
+  const glm::vec2 extent(400, 200);
+  const engine::Camera camera = app::camera_of({}, points, extent, {});
+  for (const glm::vec3& point : points) {
+    const glm::vec3 at = camera.project(point);
+    EXPECT_GE(at.y, 5);
+    EXPECT_LE(at.y, extent.y - 5);
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test

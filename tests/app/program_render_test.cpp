@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Pictures from the built program, on whatever device there is; the software one is enough.
+#include <cstdlib>
+#include <set>
+
+#include "tests/app/png_reader.h"
+#include "tests/app/program_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+/// A variable of the environment that the program inherits, for as long as this lives.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    ::setenv(name, value, 1);
+  }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+  ~Variable() {
+    if (old_.empty()) {
+      ::unsetenv(name_);
+    } else {
+      ::setenv(name_, old_.c_str(), 1);
+    }
+  }
+
+ private:
+  const char* name_;
+  std::string old_;
+};
+
+class ProgramRender : public Program {
+ protected:
+  void SetUp() override {
+    if (run_program(folder.path("."), {"devices"}).code != 0) {
+      GTEST_SKIP() << "there is no Vulkan device; the software one of Mesa is enough";
+    }
+  }
+
+  /// The picture and how many colours it has.
+  std::pair<PngContent, std::size_t> picture(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--size", "240x180", "-o", "a.png"});
+    run(arguments);
+    PngContent content = read_png(bytes_of(folder.path("a.png")));
+    EXPECT_TRUE(content.valid);
+    std::set<std::string> colours;
+    const auto channels = static_cast<std::size_t>(content.channels);
+    for (std::size_t i = 0; channels > 0 && i < content.pixels.size(); i += channels) {
+      colours.emplace(content.pixels.begin() + static_cast<std::ptrdiff_t>(i),
+                      content.pixels.begin() + static_cast<std::ptrdiff_t>(i + channels));
+    }
+    return {std::move(content), colours.size()};
+  }
+};
+
+/// Shades of a lit model alone are more than this.
+constexpr std::size_t kSomeColours = 40;
+
+class ProgramViews : public ProgramRender, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ProgramViews, ArePicturesOfTheModel) {
+  const auto [content, colours] = picture({"bunny", "-s", "17", "--view", GetParam()});
+  EXPECT_EQ(content.width, 240);
+  EXPECT_EQ(content.height, 180);
+  EXPECT_EQ(content.channels, 3);
+  EXPECT_GT(colours, kSomeColours);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProgramViews,
+                         testing::Values("wireframe", "flat", "smooth", "sources", "heat-gradient",
+                                         "gradient-error", "contours"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(ProgramRender, KeepsATransparentBackground) {
+  const auto [content, colours] =
+      picture({"bunny", "-s", "17", "--background", "transparent", "--no-caption"});
+  ASSERT_EQ(content.channels, 4);
+  EXPECT_EQ(content.pixels[3], 0);
+  EXPECT_GT(colours, kSomeColours);
+}
+
+TEST_F(ProgramRender, GivesTheSamePictureTwice) {
+  const std::vector<std::string> arguments = {"bunny", "-s", "17", "--no-caption"};
+  const PngContent first = picture(arguments).first;
+  EXPECT_EQ(picture(arguments).first.pixels, first.pixels);
+}
+
+TEST_F(ProgramRender, DrawsWhatHasNoSizeOrAnySize) {
+  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
+  folder.write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  folder.write("huge.obj", "v 0 0 0\nv 1e200 0 0\nv 0 1e200 0\nf 1 2 3\n");
+  folder.write("tiny.obj", "v 0 0 0\nv 1e-200 0 0\nv 0 1e-200 0\nf 1 2 3\n");
+  for (const char* model : {"flat.obj", "line.obj", "huge.obj", "tiny.obj"}) {
+    for (const char* view : {"contours", "gradient-error", "wireframe"}) {
+      EXPECT_TRUE(picture({model, "-s", "0", "--view", view}).first.valid) << model << " " << view;
+    }
+  }
+}
+
+TEST_F(ProgramRender, SaysInOneLineThatADeviceIsNotThere) {
+  const ProgramRun run = run_program(
+      folder.path("."), {"render", "bunny", "-s", "17", "--device", "no such", "-o", "a.png"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(run.err.starts_with("geotherm: error: ")) << run.err;
+  EXPECT_NE(run.err.find("no such"), std::string::npos) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST_F(Program, SaysInOneLineThatThereIsNoDriver) {
+  const Variable files("VK_DRIVER_FILES", "/nowhere");
+  const Variable old_files("VK_ICD_FILENAMES", "/nowhere");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"devices"}, {"render", "bunny", "-s", "17", "-o", "a.png"}}) {
+    const ProgramRun run = run_program(folder.path("."), arguments);
+    EXPECT_EQ(run.code, 1);
+    EXPECT_EQ(run.out, "");
+    EXPECT_TRUE(run.err.starts_with("geotherm: error: ")) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace geotherm::test
