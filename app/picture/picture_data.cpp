@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_data.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -66,9 +65,10 @@ Vec3 place_of(const SurfacePoint& point, const TriangleMesh& mesh) {
 /// Where an arrow has its full length.
 constexpr double kFullAngle = 90;
 
+/// In degrees, of unit vectors; exact for small angles and for those near 180, too (W. Kahan).
 double angle_between(const Vec3& a, const Vec3& b) {
   constexpr double kDegrees = 180 / 3.14159265358979323846;
-  return std::atan2(a.cross(b).norm(), a.dot(b)) * kDegrees;
+  return 2 * std::atan2((a - b).norm(), (a + b).norm()) * kDegrees;
 }
 
 }  // namespace

@@ -81,6 +81,38 @@ TEST_F(Markers, OfSegmentsAreHalfAsWideAndRoundAtBothEnds) {
   }
 }
 
+TEST_F(Markers, OfACurveJoin) {
+  const std::vector<glm::vec3> curve = {
+      {-0.5F, 0, 0}, {-0.1F, 0.2F, 0}, {0, 0.2F, 0}, {0.4F, 0, 0}};
+  std::vector<Marker> pieces;
+  for (std::size_t i = 1; i < curve.size(); ++i) pieces.push_back({curve[i - 1], curve[i]});
+  Stage stage = stage_with(plane_model(2, 2), pieces[0]);
+  must(stage.renderer.set_markers(pieces));
+  const Image image = stage.draw();
+  for (const Marker& piece : pieces) {
+    for (float t = 0; t <= 1; t += 0.05F) {
+      expect_colour(image, stage.scene.camera.project(glm::mix(piece.from, piece.to, t)), kInside);
+    }
+  }
+}
+
+TEST_F(Markers, OfAHiddenCurveAreEvenlyFaint) {
+  Model model = square_model(0.6F, 0);
+  append(model, square_model(0.6F, 0.5F));
+  const Marker first{{-0.4F, 0.1F, 0}, {0, 0.1F, 0}};
+  const Marker second{{0, 0.1F, 0}, {0.4F, 0.1F, 0}};
+  Stage stage = stage_with(model, first);
+  must(stage.renderer.set_markers(std::vector{first, second}));
+  const Image image = stage.draw();
+  const auto colour = [&](float x) {
+    return colour_at(image, stage.scene.camera.project({x, 0.1F, 0}));
+  };
+  EXPECT_GT(difference(colour(-0.3F), glm::vec3(1)), 0.1F);
+  for (float x = -0.35F; x <= 0.35F; x += 0.01F) {
+    EXPECT_LE(difference(colour(x), colour(-0.3F)), 0.12F) << x;  // one pixel may belong to both
+  }
+}
+
 TEST_F(Markers, KeepTheirSizeOnScreen) {
   Stage stage = stage_with(plane_model(2, 2), point({0, 0, 0}));
   const double before = covered(stage.draw());

@@ -41,6 +41,9 @@ INSTANTIATE_TEST_SUITE_P(All, WireWidth, testing::Values(1.0F, 2.0F),
 
 TEST_F(Wire, LiesOnEveryEdgeAndNotBetween) {
   Stage stage(device(), irregular_plane_model(6));
+  Orbit orbit = kFromFront;
+  orbit.zoom = 0.9F;  // with room around the outer edges
+  stage.look(orbit);
   show_wire(stage, 1.5F);
   const Image image = stage.draw();
   for (const auto& face : stage.model.faces) {
