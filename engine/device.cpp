@@ -36,7 +36,7 @@ Device::State::State(const DeviceOptions& options, Instance made, Candidate chos
       pool(make_pool(device, queue_family)),
       pipelines(device, vk::PipelineCacheCreateInfo()),
       memory{&device, physical.getMemoryProperties(),
-             std::make_shared<MemoryBudget>(options.memory_limit)} {}
+             std::make_shared<MemoryBudget>(options.memory_limit), options.staging} {}
 
 vk::raii::CommandBuffer Device::State::make_commands() const {
   vk::raii::CommandBuffers made(device, {*pool, vk::CommandBufferLevel::ePrimary, 1});

@@ -11,8 +11,10 @@
 namespace geotherm::engine {
 
 struct DeviceOptions {
-  std::string name;                ///< part of the device's name, in any case; empty: the best one
-  bool validation = false;         ///< Khronos validation with synchronization validation
+  std::string name;         ///< part of the device's name, in any case; empty: the best one
+  bool validation = false;  ///< Khronos validation with synchronization validation
+  bool staging =
+      false;  ///< write through staging copies, as on a GPU whose memory the host cannot see
   std::uint64_t memory_limit = 0;  ///< bytes of device memory that may be used; 0: what there is
 };
 
@@ -31,7 +33,8 @@ struct DeviceInfo {
 /// All devices, in the order of preference. Errors: kNotAvailable (no loader, no driver).
 Result<std::vector<DeviceInfo>> list_devices();
 
-/// A Vulkan device that is ready to draw. Several may exist; handles to one share it.
+/// A Vulkan device that is ready to draw. Several may exist; handles to one share it. A device, its
+/// renderers and its targets are for one thread at a time; different devices may be used at once.
 class Device {
  public:
   /// Errors: kNotAvailable (no loader, no device, none of that name, none that can do what is

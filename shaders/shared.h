@@ -25,10 +25,10 @@ SHARED_CONSTANT kColoursBinding = 1;  // the colour map
 SHARED_CONSTANT kAtlasBinding = 2;    // coverage of letters
 
 // Constant 0 of the surface's fragment shader: what is switched on.
-SHARED_CONSTANT kFlat = 1;       // shaded by the face's own normal
-SHARED_CONSTANT kMapped = 2;     // painted by the colour map
-SHARED_CONSTANT kIsolines = 4;   // lines at multiples of a value
-SHARED_CONSTANT kWire = 8;       // edges of the triangles
+SHARED_CONSTANT kFlat = 1;      // shaded by the face's own normal
+SHARED_CONSTANT kMapped = 2;    // painted by the colour map
+SHARED_CONSTANT kIsolines = 4;  // lines at multiples of a value
+SHARED_CONSTANT kWire = 8;      // edges of the triangles
 SHARED_CONSTANT kThreeLights = 16;
 SHARED_CONSTANT kNoLight = 32;
 
@@ -39,15 +39,15 @@ SHARED_CONSTANT kColourSteps = 1024;
 struct Frame {
   mat4 clip_from_scene;
   mat4 eye_from_scene;
-  vec2 extent;        // of the whole picture
-  float near_shift;   // of markers towards the eye, in their radii
-  float orthographic; // 1 or 0
-  vec4 range;         // value at the map's lower end, 1 / width of the range, line spacing, 1 / spacing
-  vec4 plain;         // colour of the surface
-  vec4 line;          // colour, width
-  vec4 wire;          // colour, width
-  vec4 marker;        // colour, radius
-  vec4 marker_rim;    // colour, -
+  vec2 extent;         // of the whole picture
+  float near_shift;    // of markers towards the eye, in their radii
+  float orthographic;  // 1 or 0
+  vec4 range;   // value at the map's lower end, 1 / width of the range, line spacing, 1 / spacing
+  vec4 plain;   // colour of the surface
+  vec4 line;    // colour, width
+  vec4 wire;    // colour, width
+  vec4 marker;  // colour, radius
+  vec4 marker_rim;  // colour, -
 };
 
 // Pushed with each draw of arrows.

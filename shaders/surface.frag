@@ -13,10 +13,8 @@ layout(std140, set = 0, binding = kColoursBinding) uniform ColoursBlock {
   vec4 colours[kColourSteps];
 };
 
-layout(location = 0) in vec3 eye_normal;
-layout(location = 1) in vec3 eye_position;
-layout(location = 2) in float value;
-layout(location = 3) in vec2 corner;
+layout(location = 0) in vec4 eye_and_value;  // see surface.vert
+layout(location = 1) in vec2 corner;
 
 layout(location = 0) out vec4 colour;
 
@@ -59,10 +57,10 @@ float brightness() {
   if ((features & kNoLight) != 0) return 1.0;
   vec3 n;
   if ((features & kFlat) != 0) {
-    n = cross(dFdx(eye_position), dFdy(eye_position));
+    n = cross(dFdx(eye_and_value.xyz), dFdy(eye_and_value.xyz));
     n = n.z < 0.0 ? -n : n;
   } else {
-    n = gl_FrontFacing ? eye_normal : -eye_normal;
+    n = gl_FrontFacing ? eye_and_value.xyz : -eye_and_value.xyz;
   }
   float size = length(n);
   n = size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
@@ -74,12 +72,16 @@ float brightness() {
 void main() {
   vec3 c = frame.plain.rgb;
   float lines = 0.0;
-  if ((features & (kMapped | kIsolines)) != 0) {
-    bool known = abs(value) < kLargestValue;
-    if ((features & kMapped) != 0) {
-      c = known ? map_colour((value - frame.range.x) * frame.range.y) : kNoValueColour;
-    }
-    if ((features & kIsolines) != 0 && known) lines = isolines(value);
+  float value = eye_and_value.w;
+  // Computed first and chosen from then: cheaper than branches.
+  bool known = abs(value) < kLargestValue;
+  if ((features & kMapped) != 0) {
+    vec3 mapped = map_colour((value - frame.range.x) * frame.range.y);
+    c = known ? mapped : kNoValueColour;
+  }
+  if ((features & kIsolines) != 0) {
+    float cover = isolines(value);
+    lines = known ? cover : 0.0;
   }
   float wire = 0.0;
   if ((features & kWire) != 0) wire = edges(vec3(corner, 1.0 - corner.x - corner.y));

@@ -10,21 +10,19 @@ layout(location = 2) in float value;
 
 layout(constant_id = 0) const uint features = 0;
 
-layout(location = 0) out vec3 eye_normal;
-layout(location = 1) out vec3 eye_position;
-layout(location = 2) out float out_value;
-layout(location = 3) out vec2 corner;  // two of the three barycentric coordinates
+// Few outputs: each costs a software device time in every triangle. xyz: the normal, or for flat
+// shading the position, in eye space; w: the value.
+layout(location = 0) out vec4 eye_and_value;
+layout(location = 1) out vec2 corner;  // two of the three barycentric coordinates
 
 void main() {
   gl_Position = frame.clip_from_scene * vec4(position, 1.0);
-  if ((features & kNoLight) == 0) {
-    if ((features & kFlat) != 0) {
-      eye_position = (frame.eye_from_scene * vec4(position, 1.0)).xyz;
-    } else {
-      eye_normal = mat3(frame.eye_from_scene) * normal_and_label.xyz;
-    }
+  if ((features & kFlat) != 0) {
+    eye_and_value.xyz = (frame.eye_from_scene * vec4(position, 1.0)).xyz;
+  } else {
+    eye_and_value.xyz = mat3(frame.eye_from_scene) * normal_and_label.xyz;
   }
-  if ((features & (kMapped | kIsolines)) != 0) out_value = value;
+  eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? value : 0.0;
   if ((features & kWire) != 0) {
     corner = vec2(normal_and_label.w < -0.5, normal_and_label.w > 0.5);
   }

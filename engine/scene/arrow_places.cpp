@@ -11,6 +11,8 @@ namespace {
 
 constexpr int kLastLevel = 34;  // kCoarsest / 2^17: below a millionth of the model's size
 
+constexpr float kLeastFacing = 0.12F;  // cosine between a face's normal and the view
+
 /// 21 bits of each coordinate of a point of [-1, 1]^3, interleaved.
 std::uint64_t morton(const glm::vec3& p) {
   const auto spread = [](float x) {
@@ -198,6 +200,8 @@ ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
         at.y > camera.extent.y + margin) {
       continue;
     }
+    // One that is seen edge-on is a speck on the silhouette.
+    if (std::abs(glm::dot(place.normal, camera.to_eye(place.centre))) < kLeastFacing) continue;
     const float length = std::max(0.92F * wanted / per_unit, 0.55F * place.face_size);
     glm::vec3 tail = place.centre;
     const auto add = [&](std::span<const glm::vec3> field, std::vector<ArrowInstance>& to) {

@@ -10,6 +10,7 @@ namespace geotherm::engine {
 namespace {
 
 using Flag = vk::MemoryPropertyFlagBits;
+constexpr vk::MemoryPropertyFlags kShared = Flag::eHostVisible | Flag::eHostCoherent;
 
 std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties& properties, std::uint32_t bits,
                           vk::MemoryPropertyFlags flags) {
@@ -31,11 +32,11 @@ vk::raii::Buffer make_buffer(const MemorySource& source, vk::DeviceSize bytes,
 
 vk::MemoryPropertyFlags needed_for(Home home) {
   if (home == Home::kDevice) return Flag::eDeviceLocal;
-  return Flag::eHostVisible | Flag::eHostCoherent;
+  return kShared;
 }
 
 vk::MemoryPropertyFlags wished_for(Home home) {
-  if (home == Home::kDevice) return Flag::eHostVisible | Flag::eHostCoherent;
+  if (home == Home::kDevice) return kShared;
   if (home == Home::kReadBack) return Flag::eHostCached;
   return {};
 }
@@ -64,26 +65,41 @@ void MemoryBudget::take(std::uint64_t bytes) {
 
 Memory::Memory(const MemorySource& source, const vk::MemoryRequirements& requirements,
                vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wished) {
-  std::uint32_t type = memory_type(source.properties, requirements.memoryTypeBits, needed | wished);
-  if (type == VK_MAX_MEMORY_TYPES) {
-    type = memory_type(source.properties, requirements.memoryTypeBits, needed);
-  }
-  if (type == VK_MAX_MEMORY_TYPES) {
+  const std::uint32_t best =
+      memory_type(source.properties, requirements.memoryTypeBits, needed | wished);
+  const std::uint32_t enough = memory_type(source.properties, requirements.memoryTypeBits, needed);
+  if (enough == VK_MAX_MEMORY_TYPES) {
     throw Failure({ErrorCode::kNoDevice, "the device has no memory of the kind that is needed (" +
                                              vk::to_string(needed) +
                                              "); try another one of geotherm devices"});
   }
   source.budget->take(requirements.size);
-  budget_ = source.budget;  // from here on the destructor gives it back
-  bytes_ = requirements.size;
   try {
-    memory_ = vk::raii::DeviceMemory(*source.device, {requirements.size, type});
-    if (source.properties.memoryTypes[type].propertyFlags & Flag::eHostVisible) {
-      mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
-    }
+    allocate(source, requirements.size, best == VK_MAX_MEMORY_TYPES ? enough : best, enough,
+             needed);
   } catch (...) {
-    budget_->give_back(bytes_);  // no destructor runs for what was not made
+    source.budget->give_back(requirements.size);  // no destructor runs for what was not made
     throw;
+  }
+  budget_ = source.budget;
+  bytes_ = requirements.size;
+}
+
+void Memory::allocate(const MemorySource& source, std::uint64_t bytes, std::uint32_t best,
+                      std::uint32_t enough, vk::MemoryPropertyFlags needed) {
+  std::uint32_t type = best;
+  try {
+    memory_ = vk::raii::DeviceMemory(*source.device, {bytes, type});
+  } catch (const vk::OutOfDeviceMemoryError&) {
+    // What both sides see can be a small part of a GPU's memory.
+    if (best == enough) throw;
+    type = enough;
+    memory_ = vk::raii::DeviceMemory(*source.device, {bytes, type});
+  }
+  const vk::MemoryPropertyFlags flags = source.properties.memoryTypes[type].propertyFlags;
+  const bool wanted = static_cast<bool>(needed & Flag::eHostVisible) || !source.staging;
+  if (wanted && (flags & kShared) == kShared) {
+    mapped_ = static_cast<std::byte*>(memory_.mapMemory(0, VK_WHOLE_SIZE));
   }
 }
 

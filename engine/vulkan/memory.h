@@ -30,6 +30,7 @@ struct MemorySource {
   const vk::raii::Device* device = nullptr;
   vk::PhysicalDeviceMemoryProperties properties;
   std::shared_ptr<MemoryBudget> budget;
+  bool staging = false;  ///< leave device memory unmapped even where the host could see it
 };
 
 /// One allocation; gives its bytes back to the budget.
@@ -48,6 +49,9 @@ class Memory {
   std::byte* mapped() const { return mapped_; }  ///< coherent; null when the host cannot see it
 
  private:
+  void allocate(const MemorySource& source, std::uint64_t bytes, std::uint32_t best,
+                std::uint32_t enough, vk::MemoryPropertyFlags needed);
+
   vk::raii::DeviceMemory memory_ = nullptr;
   std::shared_ptr<MemoryBudget> budget_;
   std::uint64_t bytes_ = 0;

@@ -179,6 +179,36 @@ TEST_P(ArrowDensity, FitsThePictureAtEveryZoom) {
 INSTANTIATE_TEST_SUITE_P(All, ArrowDensity, testing::Values(0.5F, 1.0F, 1.5F, 2.0F, 3.0F),
                          [](const auto& test) { return std::to_string(test.index); });
 
+TEST(ArrowChoice, KeepsItsSpacingNearAndFar) {
+  const Model model = plane_model(160, 120);
+  const Camera camera = make_camera({.azimuth = 70, .elevation = 0, .field_of_view = 60},
+                                    model.positions, {1280, 720});
+  const std::vector<glm::vec3> field(model.faces.size(), glm::vec3(0, 1, 0));
+  ArrowStyle style;
+  style.primary = true;
+  const auto arrows =
+      select_arrows(ArrowPlaces(model.geometry()), camera, style, 1, field, {}).primary;
+  EXPECT_GE(arrows.size(), 100U);
+  const auto middle = [](const ArrowInstance& a) { return a.tail + 0.5F * a.along; };
+  const auto pixels_per_unit = [&](const glm::vec3& p) {
+    return camera.pixels_per_unit / -(camera.view * glm::vec4(p, 1)).z;
+  };
+  float nearest = 0;
+  float farthest = 1e9F;
+  for (const ArrowInstance& a : arrows) {
+    const glm::vec3 p = middle(a);
+    nearest = std::max(nearest, pixels_per_unit(p));
+    farthest = std::min(farthest, pixels_per_unit(p));
+    for (const ArrowInstance& b : arrows) {
+      if (&a == &b) continue;
+      const glm::vec3 q = middle(b);
+      const float larger = std::max(pixels_per_unit(p), pixels_per_unit(q));
+      EXPECT_GE(glm::distance(p, q) * larger, 0.999F * style.spacing);
+    }
+  }
+  EXPECT_GT(nearest, 1.5F * farthest);  // there is a near and a far
+}
+
 TEST(ArrowChoice, KeepsWhatIsThereWhileOneZoomsIn) {
   const Model model = plane_model(80, 60);
   const ArrowPlaces places(model.geometry());

@@ -2,6 +2,8 @@
 #include "engine/device.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
 
 #include "engine/vulkan/device_state.h"
 #include "tests/engine/gpu_fixture.h"
@@ -23,7 +25,7 @@ class Devices : public GpuTest {
 TEST_F(Devices, AreListedWithOneThatIsChosen) {
   const auto devices = must(list_devices());
   ASSERT_FALSE(devices.empty());
-  EXPECT_EQ(std::count_if(devices.begin(), devices.end(), [](auto& d) { return d.chosen; }), 1);
+  ASSERT_EQ(std::count_if(devices.begin(), devices.end(), [](auto& d) { return d.chosen; }), 1);
   const auto chosen =
       std::find_if(devices.begin(), devices.end(), [](const auto& d) { return d.chosen; });
   EXPECT_TRUE(chosen->lacks.empty());
@@ -58,9 +60,44 @@ TEST_F(Devices, OfAnUnknownNameAreAnErrorThatListsThem) {
 
 TEST_F(Devices, MayBeOpenSeveralAtATime) {
   const Device second = must(Device::open({}));
-  const Device third = second;
+  const Device third = must(Device::open({}));
+  EXPECT_NE(second.state(), third.state());
   EXPECT_EQ(second.info().name, third.info().name);
   EXPECT_EQ(second.memory_used(), 0U);
+}
+
+/// The environment's variable, until the end of a test.
+class Setting {
+ public:
+  Setting(const char* name, const char* value) : name_(name) {
+    if (const char* const before = std::getenv(name)) before_ = before;
+    ::setenv(name, value, 1);
+  }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+  ~Setting() {
+    if (before_) {
+      ::setenv(name_, before_->c_str(), 1);
+    } else {
+      ::unsetenv(name_);
+    }
+  }
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(Devices, AreAnErrorWithTheCureWithoutADriver) {
+  const Setting setting("VK_DRIVER_FILES", "/no/such/driver.json");
+  const auto devices = list_devices();
+  const auto opened = Device::open();
+  ASSERT_FALSE(devices);
+  ASSERT_FALSE(opened);
+  for (const Error& error : {devices.error(), opened.error()}) {
+    EXPECT_EQ(error.code, ErrorCode::kNoDevice);
+    EXPECT_NE(error.message.find("mesa-vulkan-drivers"), std::string::npos) << error.message;
+  }
 }
 
 TEST_F(Devices, SayNothingWhenNothingIsWrong) {

@@ -22,6 +22,18 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
     EXPECT_EQ(failed.error().code, ErrorCode::kOutOfMemory);
     EXPECT_NE(failed.error().message.find("4 MiB"), std::string::npos) << failed.error().message;
     EXPECT_EQ(stage.draw().pixels, before.pixels);
+    // Values and arrows are still those of the earlier model.
+    Stage other(device(), plane_model(10, 10));
+    const std::vector<glm::vec3> field(other.model.faces.size(), glm::vec3(1, 0, 0));
+    for (Stage* either : {&stage, &other}) {
+      must(either->renderer.set_arrows(field, {}));
+      either->scene.arrows.primary = true;
+      either->paint(either->model.values([](const glm::vec3& p) { return p.x; }));
+    }
+    EXPECT_EQ(stage.draw().pixels, other.draw().pixels);
+    stage.scene = {};
+    stage.scene.light = Light::kNone;
+    stage.look(kFromFront);
 
     const Camera camera = stage.scene.camera;
     stage.look(kFromFront, {2000, 2000});
