@@ -32,7 +32,7 @@ SHARED_CONSTANT kWire = 8;      // edges of the triangles
 SHARED_CONSTANT kThreeLights = 16;
 SHARED_CONSTANT kNoLight = 32;
 
-// Evenly over the colour map; as many as every device takes in one uniform buffer.
+// RGBA8, evenly over the colour map.
 SHARED_CONSTANT kColourSteps = 1024;
 
 // Everything that is the same for all of one frame. Lengths on screen in pixels.
@@ -42,12 +42,12 @@ struct Frame {
   vec2 extent;         // of the whole picture
   float near_shift;    // of markers towards the eye, in their radii
   float orthographic;  // 1 or 0
-  vec4 range;   // value at the map's lower end, 1 / width of the range, line spacing, 1 / spacing
-  vec4 plain;   // colour of the surface
-  vec4 line;    // colour, width
-  vec4 wire;    // colour, width
-  vec4 marker;  // colour, radius
-  vec4 marker_rim;  // colour, -
+  vec4 range;          // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
+  vec4 plain;          // colour of the surface
+  vec4 line;           // colour, width
+  vec4 wire;           // colour, width
+  vec4 marker;         // colour, radius
+  vec4 marker_rim;     // colour, -
 };
 
 // Pushed with each draw of arrows.

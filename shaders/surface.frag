@@ -9,9 +9,8 @@
 
 layout(constant_id = 0) const uint features = 0;
 
-layout(std140, set = 0, binding = kColoursBinding) uniform ColoursBlock {
-  vec4 colours[kColourSteps];
-};
+// A texel buffer: the one table look-up that software devices do not check component by component.
+layout(set = 0, binding = kColoursBinding) uniform samplerBuffer colours;
 
 layout(location = 0) in vec4 eye_and_value;  // see surface.vert
 layout(location = 1) in vec2 corner;
@@ -23,22 +22,21 @@ const float kLargestValue = 1e20;
 const vec3 kNoValueColour = vec3(0.62);
 
 vec3 map_colour(float x) {
-  return colours[uint(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5)].rgb;
+  return texelFetch(colours, int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5)).rgb;
 }
 
-// Share of the pixel that lines at the multiples of `spacing` cover, the zeros of
-// sin(pi v / spacing). There is no line at 0, where the sources are.
-float isolines(float v) {
-  float dx = dFdx(v);
-  float dy = dFdy(v);
-  float square = max(dx * dx + dy * dy, 1e-30);
-  float pixels = inversesqrt(square);  // a value of 1 is so many
-  float spacing = frame.range.z;
-  float near = max(round(v * frame.range.w), 1.0) * spacing;  // the nearest line
+// Share of the pixel that isolines cover; `phase` is the value in spacings, and lines are the zeros of
+// sin(pi phase) but the one at 0, where the sources are.
+float isolines(float phase) {
+  float dx = dFdx(phase);
+  float dy = dFdy(phase);
+  float square = dx * dx + dy * dy + 1e-30;
+  float apart = inversesqrt(square);  // pixels from line to line
+  float away = abs(phase - max(round(phase), 1.0)) * apart;
   float width = frame.line.w;
-  float cover = clamp(0.5 * width + 0.5 - abs(v - near) * pixels, 0.0, 1.0);
-  float mean = min(width * frame.range.w * square * pixels, 1.0);
-  return mix(mean, cover, clamp(0.3 * spacing * pixels - 0.75, 0.0, 1.0));
+  float cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0);
+  float mean = width * (square * apart);  // width / apart
+  return clamp(mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0)), 0.0, 1.0);
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
@@ -76,7 +74,7 @@ void main() {
   // Computed first and chosen from then: cheaper than branches.
   bool known = abs(value) < kLargestValue;
   if ((features & kMapped) != 0) {
-    vec3 mapped = map_colour((value - frame.range.x) * frame.range.y);
+    vec3 mapped = map_colour(value * frame.range.x + frame.range.y);
     c = known ? mapped : kNoValueColour;
   }
   if ((features & kIsolines) != 0) {
@@ -88,5 +86,5 @@ void main() {
   c *= brightness();
   c = mix(c, frame.line.rgb, lines);
   c = mix(c, frame.wire.rgb, wire);
-  colour = vec4(min(c, vec3(1.0)), 1.0);
+  colour = vec4(c, 1.0);
 }

@@ -11,7 +11,8 @@ layout(location = 2) in float value;
 layout(constant_id = 0) const uint features = 0;
 
 // Few outputs: each costs a software device time in every triangle. xyz: the normal, or for flat
-// shading the position, in eye space; w: the value.
+// shading the position, in eye space; w: the value, in spacings of
+// isolines where there are any.
 layout(location = 0) out vec4 eye_and_value;
 layout(location = 1) out vec2 corner;  // two of the three barycentric coordinates
 
@@ -22,7 +23,7 @@ void main() {
   } else {
     eye_and_value.xyz = mat3(frame.eye_from_scene) * normal_and_label.xyz;
   }
-  eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? value : 0.0;
+  eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? max(value * frame.range.z, -1e38) : 0.0;
   if ((features & kWire) != 0) {
     corner = vec2(normal_and_label.w < -0.5, normal_and_label.w > 0.5);
   }

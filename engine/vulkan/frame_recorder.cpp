@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 
 #include "engine/vulkan/frame_uniforms.h"
 #include "shaders/shared.h"
@@ -25,8 +26,15 @@ void write_host(const Device::State& device, Buffer& buffer, std::span<const std
   std::memcpy(buffer.memory.mapped(), bytes.data(), bytes.size());
 }
 
+std::vector<std::uint32_t> packed(const ColourTable& table) {
+  std::vector<std::uint32_t> texels;
+  for (const glm::vec4& colour : table) texels.push_back(glm::packUnorm4x8(colour));
+  return texels;
+}
+
 vk::raii::DescriptorPool make_pool(const vk::raii::Device& device) {
-  const std::array sizes = {vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 2),
+  const std::array sizes = {vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
+                            vk::DescriptorPoolSize(vk::DescriptorType::eUniformTexelBuffer, 1),
                             vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
   return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
 }
@@ -44,8 +52,10 @@ FrameRecorder::FrameRecorder(std::shared_ptr<Device::State> device, int samples)
       samples_(samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1),
       pipelines_(device_, samples_),
       frame_(device_->memory, sizeof(shared::Frame), Usage::eUniformBuffer, Home::kHost),
-      colours_(
-          device_->upload(bytes_of(colour_table(colour_maps().front())), Usage::eUniformBuffer)),
+      colours_(device_->upload(bytes_of(packed(colour_table(colour_maps().front()))),
+                               Usage::eUniformTexelBuffer)),
+      colours_view_(device_->device,
+                    {{}, *colours_.buffer, vk::Format::eR8G8B8A8Unorm, 0, VK_WHOLE_SIZE}),
       pool_(make_pool(device_->device)),
       set_(make_set(device_->device, *pool_, pipelines_.set_layout())) {
   set_atlas({});
@@ -67,7 +77,7 @@ void FrameRecorder::set_values(std::span<const float> values) {
 
 void FrameRecorder::set_colours(const ColourTable& table) {
   static_assert(kColourSteps == shared::kColourSteps);
-  device_->update(colours_, bytes_of(table));
+  device_->update(colours_, bytes_of(packed(table)));
 }
 
 void FrameRecorder::set_markers(std::span<const Marker> markers) {
@@ -104,12 +114,13 @@ void FrameRecorder::set_atlas(const GlyphAtlas& atlas) {
 
 void FrameRecorder::write_descriptors() {
   const vk::DescriptorBufferInfo frame(*frame_.buffer, 0, VK_WHOLE_SIZE);
-  const vk::DescriptorBufferInfo colours(*colours_.buffer, 0, VK_WHOLE_SIZE);
+  const vk::BufferView colours = *colours_view_;
   const vk::DescriptorImageInfo atlas({}, *atlas_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
   using Kind = vk::DescriptorType;
   const std::array writes = {
       vk::WriteDescriptorSet(*set_, shared::kFrameBinding, 0, Kind::eUniformBuffer, {}, frame),
-      vk::WriteDescriptorSet(*set_, shared::kColoursBinding, 0, Kind::eUniformBuffer, {}, colours),
+      vk::WriteDescriptorSet(*set_, shared::kColoursBinding, 0, Kind::eUniformTexelBuffer, {}, {},
+                             colours),
       vk::WriteDescriptorSet(*set_, shared::kAtlasBinding, 0, Kind::eCombinedImageSampler, atlas)};
   device_->device.updateDescriptorSets(writes, {});
 }

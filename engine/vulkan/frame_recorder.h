@@ -46,6 +46,7 @@ class FrameRecorder {
   Pipelines pipelines_;
   Attachments attachments_;
   Buffer frame_, colours_, vertices_, values_, indices_, markers_, arrows_, overlay_;
+  vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_
   Texture atlas_;
   std::vector<std::uint8_t> atlas_pixels_;  ///< what is in atlas_
   std::uint32_t index_count_ = 0, marker_count_ = 0, overlay_count_ = 0;

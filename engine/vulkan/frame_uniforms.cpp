@@ -12,8 +12,9 @@ shared::Frame frame_uniforms(const Scene& scene) {
   frame.extent = scene.camera.extent;
   frame.near_shift = 2;  // seen whole on surfaces inclined by up to 63 degrees
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
-  frame.range = {surface.range_min, width != 0 ? 1 / width : 0, surface.line_spacing,
-                 surface.line_spacing > 0 ? 1 / surface.line_spacing : 0};
+  const float per_width = width != 0 ? 1 / width : 0;
+  const float scale = surface.line_spacing > 0 ? 1 / surface.line_spacing : 1;
+  frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
   frame.plain = {surface.colour, 1};
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};

@@ -48,6 +48,24 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
   for (const std::string& message : small.validation_messages()) ADD_FAILURE() << message;
 }
 
+TEST_F(DeviceMemory, ThatTheHostCannotSeeIsFilledThroughCopies) {
+  DeviceOptions options = validated();
+  options.staging = true;
+  const Device hidden = must(Device::open(options));
+  const auto drawn = [](const Device& on) {
+    Stage stage(on, plane_model(10, 10));
+    stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.4F * p.x; }));
+    const Image first = stage.draw();
+    stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.4F * p.y; }));
+    const Image second = stage.draw();
+    EXPECT_NE(first.pixels, second.pixels);
+    return second;
+  };
+  EXPECT_EQ(drawn(hidden).pixels, drawn(device()).pixels);
+  EXPECT_EQ(hidden.memory_used(), 0U);
+  for (const std::string& message : hidden.validation_messages()) ADD_FAILURE() << message;
+}
+
 TEST_F(DeviceMemory, ThatEndsWhileDrawingLeavesTheRendererUsable) {
   // Enough for the target, not for four samples of the scene.
   const Device small = must(Device::open(validated(9 * kMiB)));
