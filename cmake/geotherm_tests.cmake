@@ -44,12 +44,12 @@ function(geotherm_discover_tests target)
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
 endfunction()
 
-# geotherm_add_test(NAME COMMAND ARGUMENTS... [ENVIRONMENT VARIABLE=VALUE...]): a test that is a
+# geotherm_add_test(NAME PROGRAM ARGUMENTS... [ENVIRONMENT VARIABLE=VALUE...]): a test that is a
 # command.
 function(geotherm_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "COMMAND;ENVIRONMENT")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" ENVIRONMENT)
   set(environment ${GEOTHERM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
-  add_test(NAME ${GEOTHERM_TEST_PREFIX}${name} COMMAND ${arg_COMMAND})
+  add_test(NAME ${GEOTHERM_TEST_PREFIX}${name} COMMAND ${arg_UNPARSED_ARGUMENTS})
   set_tests_properties(${GEOTHERM_TEST_PREFIX}${name} PROPERTIES
     TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL} ENVIRONMENT "${environment}")
 endfunction()

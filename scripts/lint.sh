@@ -19,7 +19,7 @@ sources() {
       done
   else
     for ending in "$@"; do patterns+=(-o -name "*.$ending"); done
-    find solver app bench tests -type f \( "${patterns[@]:1}" \) -print0
+    find solver engine shaders app bench tests -type f \( "${patterns[@]:1}" \) -print0
   fi
 }
 
