@@ -11,7 +11,6 @@
 #include "app/resolve_sources.h"
 #include "app/text.h"
 #include "solver/linear/backend.h"
-#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -77,16 +76,14 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
 }
 
 Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs) {
+  for (const std::string& model : arguments.models) {
+    protect_inputs(model, arguments.sources, outputs);
+  }
   for (const auto& [path, option] : {std::pair{&arguments.json, "--json"},
                                      {&arguments.csv, "--csv"},
                                      {&arguments.html, "--html"}}) {
     if (path->empty()) continue;
     if (auto expected = outputs.expect(*path, option); !expected) return expected;
-    for (const std::string& model : arguments.models) {
-      Outputs alone;
-      if (is_bundled(model)) continue;
-      if (auto expected = alone.expect(*path, option, model); !expected) return expected;
-    }
   }
   return {};
 }
@@ -122,11 +119,7 @@ Result<void> write_reports(const CompareArguments& arguments, const std::vector<
   const Machine machine = this_machine();
   const auto write = [&](const std::string& path, std::string text) -> Result<void> {
     if (path.empty()) return {};
-    return outputs.write(path, [&]() -> Result<void> {
-      if (path != "-") return write_file(path, text);
-      out.text = std::move(text);
-      return {};
-    });
+    return outputs.write_text(path, std::move(text), out.text);
   };
   if (!outputs.uses_stdout()) out.text = compare_table(machine, rows);
   if (auto done = write(arguments.json, compare_json(machine, rows)); !done) return done;
@@ -183,7 +176,9 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
     if (!some) return some.error();
     rows.insert(rows.end(), some->begin(), some->end());
   }
+  note_unused_options(arguments.heat, plan->task.options, out.warnings);
   if (auto done = write_reports(arguments, rows, outputs, out); !done) return done.error();
+  out.made = outputs.made();
   return out;
 }
 

@@ -7,7 +7,6 @@
 #include "app/report_json.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -79,13 +78,10 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
   CommandOutput out;
   if (!outputs.uses_stdout()) out.text = device_table(*devices);
   if (arguments.json.empty()) return out;
-  std::string text = to_text(devices_json(*devices));
-  const auto written = outputs.write(arguments.json, [&]() -> Result<void> {
-    if (arguments.json != "-") return write_file(arguments.json, text);
-    out.text = std::move(text);
-    return {};
-  });
+  const auto written =
+      outputs.write_text(arguments.json, to_text(devices_json(*devices)), out.text);
   if (!written) return written.error();
+  out.made = outputs.made();
   return out;
 }
 

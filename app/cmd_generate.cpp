@@ -52,12 +52,15 @@ Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Pro
   }
   const auto mesh = generate_model(arguments.name, *faces, progress);
   if (!mesh) return mesh.error();
-  if (arguments.output == "-") return CommandOutput{io::obj_bytes(*mesh), {}};
-  if (auto written = write_mesh(arguments.output, *mesh); !written) return written.error();
+  if (arguments.output == "-") return CommandOutput{io::obj_bytes(*mesh), {}, {}};
+  const auto written =
+      outputs.write(arguments.output, [&] { return write_mesh(arguments.output, *mesh); });
+  if (!written) return written.error();
   return CommandOutput{one_line(arguments.output) + ": " + arguments.name + ", " +
                            counted(mesh->vertex_count(), "vertex", "vertices") + ", " +
                            counted(mesh->face_count(), "face", "faces") + "\n",
-                       {}};
+                       {},
+                       outputs.made()};
 }
 
 }  // namespace geotherm::app

@@ -9,7 +9,6 @@
 #include "app/outputs.h"
 #include "app/report_json.h"
 #include "app/report_table.h"
-#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 
@@ -28,14 +27,15 @@ void add_info_options(CLI::App& command, InfoArguments& arguments) {
 Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress) {
   Outputs outputs;
   if (!arguments.json.empty()) {
-    auto expected = outputs.expect(arguments.json, "--json",
-                                   is_bundled(arguments.model) ? "" : arguments.model);
-    if (!expected) return expected.error();
+    protect_inputs(arguments.model, {}, outputs);
+    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
+      return expected.error();
+    }
   }
   const auto model = load_model(arguments.model, progress);
   if (!model) return model.error();
   const MeshReport mesh = inspect_mesh(*model->mesh);
-  CommandOutput out{"", model->notes};
+  CommandOutput out{"", model->notes, {}};
   for (std::string& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;
@@ -43,13 +43,9 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   std::string text = to_text(Json{{"model", full_model_json(model->name, mesh)},
                                   {"timing_ms", {{"load", model->load_ms}}},
                                   {"warnings", out.warnings}});
-  if (arguments.json == "-") {
-    out.text = std::move(text);
-    return out;
-  }
-  const auto written =
-      outputs.write(arguments.json, [&] { return write_file(arguments.json, text); });
+  const auto written = outputs.write_text(arguments.json, std::move(text), out.text);
   if (!written) return written.error();
+  out.made = outputs.made();
   return out;
 }
 

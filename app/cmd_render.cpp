@@ -11,7 +11,6 @@
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -32,12 +31,12 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
                             Outputs& outputs) {
   if (auto known = check_output(arguments, settings); !known) return known;
-  const std::string model = is_bundled(arguments.model) ? "" : arguments.model;
+  protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : frame_paths(arguments.output, settings)) {
-    if (auto expected = outputs.expect(path, "--output", model); !expected) return expected;
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json", model);
+  return outputs.expect(arguments.json, "--json");
 }
 
 bool needs_sources(View view) {
@@ -87,7 +86,10 @@ Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions&
   warnings = solved->warnings;
   add_sources(data, *mesh, solved->sources);
   add_distances(data, solved->result.distances);
-  if (query.fields) add_fields(data, *mesh, solved->result);
+  if (query.fields) {
+    add_fields(data, *mesh, solved->result);
+    data.solid = is_solid(*mesh, solved->mesh);
+  }
   figures.solve = *std::move(solved);
   return data;
 }
@@ -106,11 +108,7 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
     auto bytes = png_bytes(picture, picture_texts(figures, frame));
     if (!bytes) return bytes.error();
     const std::string& path = figures.paths[static_cast<std::size_t>(frame)];
-    const auto written = outputs.write(path, [&]() -> Result<void> {
-      if (path != "-") return write_file(path, *bytes);
-      standard_output = *std::move(bytes);
-      return {};
-    });
+    auto written = outputs.write_text(path, *std::move(bytes), standard_output);
     if (!written) return written;
     figures.write_ms += watch.lap();
     return announce(frame + 1);
@@ -119,6 +117,15 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
   Result<void> drawn = drawing.draw(data, figures.settings, take_frame);
   if (!drawn) outputs.remove_written();
   return drawn;
+}
+
+void note_scale(const PictureFigures& figures, std::vector<std::string>& warnings) {
+  const std::optional<double>& asked = figures.settings.line_spacing;
+  if (!asked || *asked <= 0 || figures.scale.spacing > 0 || !figures.scale.coloured) return;
+  const double room = figures.scale.max - figures.scale.min;
+  warnings.push_back("isolines every " + significant(*asked) +
+                     " would be closer together than pixels and are left out; try --spacing " +
+                     significant(round_spacing(room)));
 }
 
 /// How the sources were given, for the picture's file.
@@ -181,21 +188,26 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   CommandOutput out;
   auto data = prepare(arguments, *options, *sources, progress, figures, out.warnings);
   if (!data) return data.error();
+  if (figures.solve) {
+    note_unused_options(arguments.heat, *options, figures.solve->warnings);
+    out.warnings = figures.solve->warnings;
+  }
   figures.scale = picture_scale(*data, *settings);
   data->caption = caption_of(figures);
+  note_scale(figures, out.warnings);
+  if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
+    out.warnings.push_back("drawing in software, on " + figures.device.name);
+  }
   if (auto drawn = draw_frames(drawing, *data, progress, outputs, figures, out.text); !drawn) {
     return drawn.error();
   }
   if (!arguments.json.empty()) {
-    std::string text = to_text(picture_json(figures));
-    const auto written = outputs.write(arguments.json, [&]() -> Result<void> {
-      if (arguments.json != "-") return write_file(arguments.json, text);
-      out.text = std::move(text);
-      return {};
-    });
+    const auto written =
+        outputs.write_text(arguments.json, to_text(picture_json(figures)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = picture_table(figures);
+  out.made = outputs.made();
   return out;
 }
 

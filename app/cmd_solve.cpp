@@ -9,19 +9,18 @@
 #include "app/solve_model.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
-#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 namespace {
 
 Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
-  const std::string model = is_bundled(arguments.model) ? "" : arguments.model;
+  protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
     if (auto known = check_distance_path(path); !known) return known;
-    if (auto expected = outputs.expect(path, "--output", model); !expected) return expected;
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   if (arguments.json.empty()) return {};
-  return outputs.expect(arguments.json, "--json", model);
+  return outputs.expect(arguments.json, "--json");
 }
 
 }  // namespace
@@ -65,13 +64,17 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   }
   auto model = load_model(arguments.model, progress);
   if (!model) return model.error();
-  const auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
+  auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
   if (!figures) return figures.error();
+  note_unused_options(arguments.heat, *options, figures->warnings);
 
-  CommandOutput out{"", figures->warnings};
+  CommandOutput out{"", figures->warnings, {}};
   const std::vector<double>& distances = figures->result.distances;
   for (const std::string& path : arguments.outputs) {
-    if (!report(progress, "writing " + path, 1.0)) break;
+    if (!report(progress, "writing " + path, 1.0)) {
+      outputs.remove_written();
+      return Error{ErrorCode::kCancelled, "the work was cancelled"};
+    }
     const auto written = outputs.write(path, [&]() -> Result<void> {
       if (path != "-") return write_distances(path, *figures->model.mesh, distances);
       out.text = io::csv_bytes(distances);
@@ -80,15 +83,12 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
     if (!written) return written.error();
   }
   if (!arguments.json.empty()) {
-    std::string text = to_text(solve_json(*figures));
-    const auto written = outputs.write(arguments.json, [&]() -> Result<void> {
-      if (arguments.json != "-") return write_file(arguments.json, text);
-      out.text = std::move(text);
-      return {};
-    });
+    const auto written =
+        outputs.write_text(arguments.json, to_text(solve_json(*figures)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = solve_table(*figures);
+  out.made = outputs.made();
   return out;
 }
 

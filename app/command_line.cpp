@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/command_line.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -19,6 +21,7 @@
 #include "app/cmd_solve.h"
 #include "app/load_model.h"
 #include "app/progress_bar.h"
+#include "app/shell_command.h"
 #include "app/text.h"
 
 namespace geotherm::app {
@@ -42,7 +45,9 @@ int print(const CommandOutput& output) {
       std::fflush(stdout) == 0) {
     return 0;
   }
-  return fail(1, "standard output: cannot be written: " + std::generic_category().message(errno) +
+  const int code = errno;
+  for (const std::string& path : output.made) ::unlink(path.c_str());
+  return fail(1, "standard output: cannot be written: " + std::generic_category().message(code) +
                      "; choose another place for it");
 }
 
@@ -86,6 +91,17 @@ void wrap_descriptions(CLI::App& command) {
   }
 }
 
+/// An empty word is a variable of the shell that was not set, most likely: never a value.
+std::string empty_value_problem(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (std::find(values.begin(), values.end(), "") == values.end()) continue;
+    return option->get_name() + ": was given an empty value; give one" +
+           (option->get_required() ? "" : " or leave it out");
+  }
+  return {};
+}
+
 /// CLI11 describes what is wrong; the cure is the help of the command.
 int fail_to_parse(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   std::string what = error.what();
@@ -119,6 +135,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   RenderArguments render;
   GenerateArguments generate;
   DevicesArguments devices;
+  ListArguments backends, models;
   CLI::App* const solve_app =
       root.add_subcommand("solve", "Distance from a source set to every vertex.");
   CLI::App* const info_app =
@@ -139,23 +156,29 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   add_render_options(*render_app, render);
   add_generate_options(*generate_app, generate);
   add_devices_options(*devices_app, devices);
-  backends_app->footer("Example:\n  geotherm backends");
-  models_app->footer("Example:\n  geotherm models");
+  add_backends_options(*backends_app, backends);
+  add_models_options(*models_app, models);
 
   for (CLI::App* command : root.get_subcommands({})) wrap_descriptions(*command);
 
   const std::vector<std::string> words = arguments;
   render.command = shell_command("geotherm", words);
-  complete_bare_fit(arguments);
+  const bool has_empty_word = std::find(words.begin(), words.end(), "") != words.end();
+  if (!has_empty_word) complete_bare_fit(arguments);
   try {
     std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 takes them in
     root.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    return print({root.help(), {}});
+    return print({root.help(), {}, {}});
   } catch (const CLI::CallForVersion& version) {
-    return print({std::string(version.what()) + "\n", {}});
+    return print({std::string(version.what()) + "\n", {}, {}});
   } catch (const CLI::ParseError& error) {
     return fail_to_parse(error, words);
+  }
+  for (const CLI::App* command : root.get_subcommands()) {
+    if (const std::string problem = empty_value_problem(*command); !problem.empty()) {
+      return fail(2, problem);
+    }
   }
   if (solve_app->parsed()) return run_with_bar(solve, run_solve);
   if (info_app->parsed()) return run_with_bar(info, run_info);
@@ -167,8 +190,8 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   }
   if (devices_app->parsed()) return finish(run_devices(devices, drawing));
   if (generate_app->parsed()) return run_with_bar(generate, run_generate);
-  if (backends_app->parsed()) return print({list_backends(), {}});
-  return print({list_models(), {}});
+  if (backends_app->parsed()) return finish(run_backends(backends));
+  return finish(run_models(models));
 }
 
 }  // namespace geotherm::app

@@ -10,6 +10,7 @@ namespace geotherm::app {
 struct CommandOutput {
   std::string text;  ///< for standard output
   std::vector<std::string> warnings;
+  std::vector<std::string> made;  ///< new files, to be removed when the text cannot be printed
 };
 
 }  // namespace geotherm::app

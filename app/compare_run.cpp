@@ -19,7 +19,11 @@ namespace {
 /// Milliseconds that an iterative backend may spend on queries, and again on the batch.
 constexpr double kIterativeBudget = 5000;
 
-using Answers = std::vector<std::vector<double>>;  // one a query
+/// Answers that are kept for the differences; all of them would fill the memory with 20,000
+/// queries.
+constexpr std::size_t kCompared = 10;
+
+using Answers = std::vector<std::vector<double>>;  // one a query, of the first ones
 
 std::string status_name(ErrorCode code) {
   switch (code) {
@@ -104,7 +108,7 @@ class Runner {
         return answers;
       }
       times.push_back(result->timing.query);
-      answers.push_back(std::move(result->distances));
+      if (answers.size() < kCompared) answers.push_back(std::move(result->distances));
     }
     row.query_ms_median = median(times);
     row.query_ms_min = *std::min_element(times.begin(), times.end());
@@ -195,12 +199,13 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
     const Progress named = with_prefix(progress, model.name + ", " + row->backend + ": ");
     Answers answers = Runner(task, named).run(model, *row);
     if (row->status == "cancelled") return Error{ErrorCode::kCancelled, "the work was cancelled"};
-    if (row->backend == task.reference && row->status == "ok") reference = answers;
     if (row->status != "ok") continue;
+    const bool is_reference = row->backend == task.reference;
+    if (is_reference) reference = std::move(answers);
     if (reference.empty()) {
       add_message(*row, "no difference: the reference " + task.reference + " failed");
     } else {
-      measure_difference(answers, reference, *row);
+      measure_difference(is_reference ? reference : answers, reference, *row);
     }
   }
   return rows;

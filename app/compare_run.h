@@ -32,16 +32,15 @@ struct CompareTask {
   HeatOptions options;                ///< but for the backend
   std::vector<std::string> backends;  ///< in the order of the rows
   std::string reference;              ///< one of them
-  std::vector<SourceSet> queries;     ///< each one query; the answers are compared
+  std::vector<SourceSet> queries;     ///< each one query; the first answers are compared
   std::vector<SourceSet> batch;       ///< solved in one call
 };
 
 /// Runs the task through each backend, one after the other. A failure is a row with its message.
 /// Differences are those of the distances from the reference's, divided by its largest one: the
-/// largest and the mean over vertices and queries. Iterative backends answer as many queries as
-/// they can in about five seconds (one at least), and skip the batch where it would take longer;
-/// `message` says so.
-/// The only error: kCancelled.
+/// largest and the mean over the vertices of the first 10 queries. Iterative backends answer as
+/// many queries as they can in about five seconds (one at least), and skip the batch where it would
+/// take longer; `message` says so. The only error: kCancelled.
 Result<std::vector<CompareRow>> compare_backends(const Model& model, const CompareTask& task,
                                                  const Progress& progress = {});
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/cure.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
@@ -59,7 +60,12 @@ Result<Model> load_model(const std::string& text, const Progress& progress) {
   auto file = read_mesh(text);
   if (!file) {
     const bool memory = file.error().code == ErrorCode::kOutOfMemory;
-    return Error{memory ? ErrorCode::kOutOfMemory : ErrorCode::kBadFile, file.error().message};
+    const bool there = std::filesystem::exists(path, unknown);
+    return with_cure({memory ? ErrorCode::kOutOfMemory : ErrorCode::kBadFile, file.error().message},
+                     one_line(text),
+                     memory  ? "take a mesh with fewer faces"
+                     : there ? "choose another file, or export this one again"
+                             : "check the path");
   }
   Model model{path.stem().string(), text, nullptr, watch.milliseconds(), {}};
   note_polygons_and_welding(*file, model.notes);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
@@ -28,6 +29,9 @@ int run(int argc, char** argv) {
     return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing);
   } catch (const std::bad_alloc&) {
     std::fputs("geotherm: error: not enough memory; try a smaller mesh or --backend cg\n", stderr);
+  } catch (const std::system_error& failure) {  // no thread could be started, most likely
+    std::fprintf(stderr, "geotherm: error: the system refuses: %s; try --threads 1\n",
+                 failure.what());
   } catch (const std::exception& failure) {
     std::fprintf(stderr, "geotherm: error: unexpected: %s; please report it\n", failure.what());
   }

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "app/cure.h"
+#include "app/load_model.h"
 #include "app/option_value.h"
 #include "app/text.h"
 #include "solver/heat/option_text.h"
@@ -15,6 +17,7 @@ namespace {
 constexpr int kMostThreads = 1024;
 
 Result<double> time_factor_in(const std::string& text) {
+  if (text.empty()) return 1.0;
   const auto factor = number_in<double>(text);
   if (factor && *factor > 0 && std::isfinite(*factor)) return *factor;
   return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no time factor; it must be a " +
@@ -110,14 +113,27 @@ Result<HeatOptions> heat_options(const HeatArguments& a) {
   HeatOptions options;
   std::string method;
   double factor = 1;
+  const auto constraint_in = [&a]() -> Result<Constraint> {
+    auto parsed = parse_constraint(a.constraint);
+    if (parsed) return parsed;
+    return with_cure(parsed.error(), a.constraint,
+                     "write penalty:VALUE with a positive number, such as penalty:1e6, or "
+                     "pin-vertex:V with a vertex id");
+  };
+  const auto time_step_in = [&a, &factor]() -> Result<TimeStep> {
+    auto parsed = parse_time_step(a.time_step, factor);
+    if (parsed) return parsed;
+    return with_cure(parsed.error(), a.time_step,
+                     "write absolute:T with a positive number, such as absolute:0.01");
+  };
   if (auto taken = take(time_factor_in(a.time_factor), "--time-factor", factor); !taken) {
     return taken.error();
   }
   const Result<void> all = first_failure({
       take(method_in(a.method), "--method", method),
       take(backend_in(a.backend), "--backend", options.backend),
-      take(parse_time_step(a.time_step, factor), "--time-step", options.time_step),
-      take(parse_constraint(a.constraint), "--constraint", options.constraint),
+      take(time_step_in(), "--time-step", options.time_step),
+      take(constraint_in(), "--constraint", options.constraint),
       take(parse_heat_mode(a.heat), "--heat", options.heat),
       take(parse_boundary_rule(a.boundary), "--boundary", options.boundary),
       take(laplacian_in(a.laplacian), "--laplacian", options.laplacian),
@@ -126,6 +142,18 @@ Result<HeatOptions> heat_options(const HeatArguments& a) {
   });
   if (!all) return all.error();
   return options;
+}
+
+void note_unused_options(const HeatArguments& arguments, const HeatOptions& options,
+                         std::vector<std::string>& warnings) {
+  if (options.time_step.rule != TimeRule::kAbsolute || arguments.time_factor.empty()) return;
+  warnings.push_back("--time-factor " + arguments.time_factor + " is not used: --time-step " +
+                     arguments.time_step + " is the time itself; leave one of them out");
+}
+
+void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
+  if (!is_bundled(model)) outputs.protect(model, "the model itself");
+  outputs.protect(sources.file, "the source file");
 }
 
 Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {

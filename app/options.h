@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/cli_app.h"
+#include "app/outputs.h"
 #include "app/source_spec.h"
 #include "solver/core/result.h"
 #include "solver/heat/heat_options.h"
@@ -15,7 +16,7 @@ namespace geotherm::app {
 struct HeatArguments {
   std::string backend;  ///< empty: the default one
   std::string time_step = "mean-edge";
-  std::string time_factor = "1";
+  std::string time_factor;  ///< empty: 1
   std::string constraint = "pin-sources";
   std::string heat = "unit";
   std::string method = "heat";
@@ -40,6 +41,13 @@ void add_quiet_option(CLI::App& command, bool& quiet);
 
 /// Errors: kBadInput or kNotAvailable, with the option's name and the values there are.
 Result<HeatOptions> heat_options(const HeatArguments& arguments);
+
+/// Says which of the options have no effect beside the others.
+void note_unused_options(const HeatArguments& arguments, const HeatOptions& options,
+                         std::vector<std::string>& warnings);
+
+/// The files that these name, which no output may replace.
+void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
 
 /// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
 Result<std::vector<Source>> sources_of(const SourceArguments& arguments);

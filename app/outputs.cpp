@@ -7,8 +7,11 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
+#include "app/cure.h"
 #include "app/text.h"
+#include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -56,8 +59,11 @@ bool same_file(const std::string& a, const std::string& resolved_a, const std::s
 
 }  // namespace
 
-Result<void> Outputs::expect(const std::string& path, std::string_view option,
-                             const std::string& model_path) {
+void Outputs::protect(const std::string& path, std::string_view called) {
+  if (!path.empty()) inputs_.push_back({path, resolved_path(path), std::string(called)});
+}
+
+Result<void> Outputs::expect(const std::string& path, std::string_view option) {
   std::error_code unknown;
   const bool is_new = path != "-" && !fs::exists(path, unknown);
   const std::string resolved = path == "-" ? path : resolved_path(path);
@@ -76,9 +82,10 @@ Result<void> Outputs::expect(const std::string& path, std::string_view option,
   }
   if (path != "-") {
     if (auto place = check_place(path); !place) return place;
-    if (!model_path.empty() && same_file(path, resolved, model_path, resolved_path(model_path))) {
-      return Error{ErrorCode::kBadInput, std::string(option) + ": " + one_line(path) +
-                                             " is the model itself; give another name"};
+    for (const Input& input : inputs_) {
+      if (!same_file(path, resolved, input.path, input.resolved)) continue;
+      return Error{ErrorCode::kBadInput, std::string(option) + ": " + one_line(path) + " is " +
+                                             input.called + "; give another name"};
     }
   }
   files_.push_back({path, resolved, is_new});
@@ -94,17 +101,35 @@ bool Outputs::uses_stdout() const {
 
 Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
   Result<void> done = write();
-  if (!done) remove_written();
+  if (!done) {
+    remove_written();
+    return with_cure(done.error(), path, "make room there, or choose another place");
+  }
   for (File& file : files_) {
-    if (done && file.path == path) file.written = true;
+    if (file.path == path) file.written = true;
   }
   return done;
 }
 
-void Outputs::remove_written() {
+Result<void> Outputs::write_text(const std::string& path, std::string text,
+                                 std::string& standard_output) {
+  return write(path, [&]() -> Result<void> {
+    if (path != "-") return write_file(path, text);
+    standard_output = std::move(text);
+    return {};
+  });
+}
+
+std::vector<std::string> Outputs::made() const {
+  std::vector<std::string> paths;
   for (const File& file : files_) {
-    if (file.written && file.is_new) ::unlink(file.path.c_str());
+    if (file.written && file.is_new && file.path != "-") paths.push_back(file.path);
   }
+  return paths;
+}
+
+void Outputs::remove_written() {
+  for (const std::string& path : made()) ::unlink(path.c_str());
 }
 
 }  // namespace geotherm::app

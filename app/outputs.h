@@ -14,17 +14,26 @@ namespace geotherm::app {
 /// fails, those that the command made are removed again.
 class Outputs {
  public:
+  /// A file that the command reads: expect() then refuses it. `called`: "the model itself".
+  /// Nothing happens without a path.
+  void protect(const std::string& path, std::string_view called);
+
   /// `option`: how the command line calls it, for messages. "-" is standard output.
-  /// Errors: kBadInput (the same path twice, standard output twice, the model itself), kBadFile
+  /// Errors: kBadInput (the same path twice, standard output twice, a protected file), kBadFile
   /// (no such folder, a directory, no permission).
-  Result<void> expect(const std::string& path, std::string_view option,
-                      const std::string& model_path = {});
+  Result<void> expect(const std::string& path, std::string_view option);
 
   /// True when an output goes to standard output, which is then for nothing else.
   bool uses_stdout() const;
 
   /// Runs `write`, which writes `path`.
   Result<void> write(const std::string& path, const std::function<Result<void>()>& write);
+
+  /// The same for `text` as a whole; where `path` is "-" it ends up in `standard_output`.
+  Result<void> write_text(const std::string& path, std::string text, std::string& standard_output);
+
+  /// The files that were written and were not there before.
+  std::vector<std::string> made() const;
 
   /// Removes the files that were made so far, for a command whose work failed between two of them.
   void remove_written();
@@ -36,7 +45,11 @@ class Outputs {
     bool is_new;
     bool written = false;
   };
+  struct Input {
+    std::string path, resolved, called;
+  };
   std::vector<File> files_;
+  std::vector<Input> inputs_;
 };
 
 }  // namespace geotherm::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture_report.h"
 
+#include <cmath>
+
 #include "app/picture/picture_text.h"
 #include "app/picture/turntable.h"
 #include "app/text.h"
@@ -27,7 +29,9 @@ void add_solve_texts(const SolveFigures& solve, std::vector<PngText>& texts) {
   add(texts, "method", "heat");
   add(texts, "backend", options.backend);
   add(texts, "time-step", to_text(options.time_step));
-  add(texts, "time-factor", number_text(options.time_step.factor));
+  if (options.time_step.rule != TimeRule::kAbsolute) {
+    add(texts, "time-factor", number_text(options.time_step.factor));
+  }
   add(texts, "t", number_text(solve.method.t()));
   add(texts, "constraint", to_text(options.constraint));
   add(texts, "heat", to_text(options.heat));
@@ -83,7 +87,9 @@ std::string device_in_words(const DrawingDevice& device) {
 std::string caption_of(const PictureFigures& f) {
   std::string text = one_line(f.model) + ", " + counted(f.faces, "face", "faces");
   if (!f.solve) return text;
-  return text + ", t = " + significant(f.solve->method.t()) + ", " +
+  const double t = f.solve->method.t();
+  const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
+  return text + (is_double ? ", t = " + significant(t) : "") + ", " +
          f.solve->method.options().backend;
 }
 
@@ -104,7 +110,7 @@ std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
     add(texts, name, value);
   }
   if (f.settings.turntable > 0) {
-    add(texts, "frame", std::to_string(frame) + " of " + std::to_string(f.settings.turntable));
+    add(texts, "frame", std::to_string(frame + 1) + " of " + std::to_string(f.settings.turntable));
   }
   add(texts, "device", device_in_words(f.device));
   return texts;

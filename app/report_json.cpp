@@ -41,10 +41,11 @@ void write(const Json& json, int level, std::string& out) {
 
 Json options_json(const HeatMethod& method) {
   const HeatOptions& options = method.options();
+  const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
   return {{"method", "heat"},
           {"backend", options.backend},
           {"time_step", to_text(options.time_step)},
-          {"time_factor", options.time_step.factor},
+          {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
           {"t", method.t()},
           {"constraint", to_text(options.constraint)},
           {"heat", to_text(options.heat)},

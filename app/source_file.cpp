@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/cure.h"
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "solver/mesh/io/mapped_file.h"
@@ -58,7 +59,12 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
                  one_line(path) + ": is a folder; give a file with one vertex id or point a line"};
   }
   const auto file = io::MappedFile::open(path);
-  if (!file) return Error{ErrorCode::kBadFile, file.error().message};
+  if (!file) {
+    return with_cure({ErrorCode::kBadFile, file.error().message}, one_line(path),
+                     std::filesystem::exists(path, unknown)
+                         ? "give a file with one vertex id or point a line"
+                         : "check the path");
+  }
   const std::string shown = one_line(path);
   std::string_view rest = file->bytes();
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
@@ -73,7 +79,10 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
     if (words.empty()) continue;
     std::string where = shown + ": line " + std::to_string(number);
     auto spec = parse_words(words);
-    if (!spec) return Error{ErrorCode::kBadFile, where + ": " + spec.error().message};
+    if (!spec) {
+      return with_cure({ErrorCode::kBadFile, where + ": " + spec.error().message}, where,
+                       "write finite numbers");
+    }
     sources.push_back({*std::move(spec), std::move(where), ErrorCode::kBadFile});
     lines.push_back(number);
   }

@@ -31,7 +31,9 @@ Result<std::array<double, 3>> three_numbers(std::span<const std::string_view> pa
   std::array<double, 3> numbers{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = number_in<double>(parts[k]);
-    if (!number || !std::isfinite(*number)) return bad(quoted(parts[k]) + " is no finite number");
+    if (!number || !std::isfinite(*number)) {
+      return bad(quoted(parts[k]) + " is no finite number; write one such as -1.5 or 2e-3");
+    }
     numbers[k] = *number;
   }
   return numbers;
@@ -51,14 +53,14 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
   return SourceSpec(std::move(list));
 }
 
-Result<SourceSpec> parse_random(const std::vector<std::string_view>& parts) {
+Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::string_view>& parts) {
   RandomVertices random;
   const auto count = parts.size() > 1 ? number_in<Index>(parts[1]) : std::nullopt;
   const auto seed = parts.size() == 3 ? number_in<std::uint64_t>(parts[2]) : random.seed;
   if (!count || !seed || parts.size() > 3) {
-    return bad(
-        "'random' needs a whole number of vertices and may have a seed: random:K or "
-        "random:K:SEED");
+    return bad(quoted(text) +
+               " does not say how many vertices; write random:K or random:K:SEED, both whole "
+               "numbers");
   }
   if (*count < 1)
     return bad("random:" + std::to_string(*count) + " asks for no vertex; give 1 or more");
@@ -100,7 +102,7 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 Result<SourceSpec> parse_source(std::string_view text) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (text == "boundary") return SourceSpec(WholeBoundary{});
-  if (parts[0] == "random") return parse_random(parts);
+  if (parts[0] == "random") return parse_random(text, parts);
   if (parts[0] == "face") return parse_face(text, parts);
   if (parts[0] == "xyz") {
     if (parts.size() != 4) {

@@ -59,26 +59,21 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return out;
 }
 
-std::string shell_command(std::string program, const std::vector<std::string>& words) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-  for (const std::string& word : words) {
-    program += ' ';
-    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
-      program += word;
-      continue;
-    }
-    program += '\'';
-    for (const char c : word) {
-      if (c == '\'') {
-        program += "'\\''";
-      } else {
-        program += c;
-      }
-    }
-    program += '\'';
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  if (text.empty()) return 0;
+  const unsigned first = byte(0);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
   }
-  return program;
+  return length;
 }
 
 std::string one_line(std::string text) {

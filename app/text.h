@@ -53,8 +53,8 @@ std::optional<Number> number_in(std::string_view text) {
 /// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
 std::string wrapped(const std::string& text, std::size_t width);
 
-/// A command as it can be given to a shell again: words quoted where they need it.
-std::string shell_command(std::string program, const std::vector<std::string>& words);
+/// Bytes of the UTF-8 sequence at the front of a text, 0 where there is none.
+std::size_t utf8_length(std::string_view text);
 
 /// Fit for one line: control characters become '?'.
 std::string one_line(std::string text);

@@ -30,14 +30,14 @@ struct DeviceInfo {
   std::vector<std::string> lacks;  ///< why it cannot be used, one reason each; empty: it can
 };
 
-/// All devices, in the order of preference. Errors: kNotAvailable (no loader, no driver).
+/// All devices, in the order of preference. Errors: kNoDevice (no loader, no driver).
 Result<std::vector<DeviceInfo>> list_devices();
 
 /// A Vulkan device that is ready to draw. Several may exist; handles to one share it. A device, its
 /// renderers and its targets are for one thread at a time; different devices may be used at once.
 class Device {
  public:
-  /// Errors: kNotAvailable (no loader, no device, none of that name, none that can do what is
+  /// Errors: kNoDevice (no loader, no device, none of that name, none that can do what is
   /// needed; each with the devices there are and why they were refused), kOutOfMemory.
   static Result<Device> open(const DeviceOptions& options = {});
 

@@ -17,13 +17,14 @@ constexpr int kUsualTile = 2048;
 Result<Image> draw_picture(const Device& device, Renderer& renderer, const Scene& scene,
                            const Overlay& overlay, int largest_tile) {
   const glm::ivec2 size(scene.camera.extent);
-  const int most = std::min(kLargestPicture, device.largest_picture());
-  if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+  if (size.x < 1 || size.y < 1 || size.x > kLargestPicture || size.y > kLargestPicture) {
     return Error{ErrorCode::kBadInput,
                  "a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                     " pixels cannot be drawn; sides are 1 to " + std::to_string(most)};
+                     " pixels cannot be drawn; sides are 1 to " + std::to_string(kLargestPicture)};
   }
-  const glm::ivec2 tile = glm::min(size, glm::ivec2(largest_tile > 0 ? largest_tile : kUsualTile));
+  const int at_once =
+      std::min(device.largest_picture(), largest_tile > 0 ? largest_tile : kUsualTile);
+  const glm::ivec2 tile = glm::min(size, glm::ivec2(at_once));
   auto target = OffscreenTarget::build(device, tile);
   if (!target) return target.error();
   Image image;

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstring>
 
-#include "engine/scene/arrow_places.h"
+#include "engine/scene/arrow_selection.h"
 #include "engine/scene/draw_mesh.h"
 #include "engine/vulkan/frame_recorder.h"
 #include "engine/vulkan/vulkan_error.h"
@@ -12,6 +12,9 @@
 namespace geotherm::engine {
 
 struct Renderer::State {
+  State(std::shared_ptr<Device::State> on, int per_pixel)
+      : device(std::move(on)), samples(per_pixel), recorder(device, per_pixel) {}
+
   std::shared_ptr<Device::State> device;
   int samples;
   FrameRecorder recorder;
@@ -19,6 +22,7 @@ struct Renderer::State {
   // Of the model, on this side.
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
+  bool solid = false;
   std::vector<std::uint32_t> origin;  ///< DrawMesh::origin
   std::vector<float> gathered;        ///< values by drawn vertex
   std::optional<ArrowPlaces> places;  ///< made when arrows first come
@@ -38,16 +42,7 @@ Result<Renderer> Renderer::build(const Device& device, int samples) {
                  "there are 1 or 4 samples a pixel, not " + std::to_string(samples)};
   }
   return guarded("preparing to draw", [&]() -> Result<Renderer> {
-    return Renderer(std::unique_ptr<State>(new State{device.state(),
-                                                     samples,
-                                                     FrameRecorder(device.state(), samples),
-                                                     {},
-                                                     {},
-                                                     {},
-                                                     {},
-                                                     {},
-                                                     {},
-                                                     {}}));
+    return Renderer(std::make_unique<State>(device.state(), samples));
   });
 }
 
@@ -61,6 +56,7 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     State& s = *state_;
     s.positions = std::move(positions);
     s.faces = std::move(faces);
+    s.solid = geometry.solid;
     s.origin = std::move(mesh.origin);
     s.gathered = std::move(gathered);
     s.places.reset();
@@ -94,7 +90,7 @@ Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
   assert(secondary.empty() || secondary.size() == state_->faces.size());
   return guarded("loading arrows", [&]() -> Result<void> {
     State& s = *state_;
-    if (!s.places) s.places = ArrowPlaces({s.positions, s.faces});
+    if (!s.places) s.places = ArrowPlaces({s.positions, s.faces, s.solid});
     s.primary.assign(primary.begin(), primary.end());
     s.secondary.assign(secondary.begin(), secondary.end());
     return {};
@@ -113,8 +109,8 @@ Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay&
     State& s = *state_;
     ArrowSelection arrows;
     if (s.places) {
-      arrows = select_arrows(*s.places, scene.camera, scene.arrows, scene.pixel_scale, s.primary,
-                             s.secondary);
+      arrows = select_arrows({{s.positions, s.faces, s.solid}, *s.places}, scene.camera,
+                             scene.arrows, scene.pixel_scale, s.primary, s.secondary);
     }
     TargetFrame frame;
     s.recorder.prepare(arrows, overlay);

@@ -14,7 +14,7 @@
 namespace geotherm::engine {
 
 /// Draws one model. Geometry is uploaded once; values, colours, arrows and markers are replaced
-/// without touching it. Every call may fail with kOutOfMemory or kNumericalFailure (device lost);
+/// without touching it. Every call may fail with kOutOfMemory or kNoDevice (device lost);
 /// after a failure what was there before is still there.
 class Renderer {
  public:

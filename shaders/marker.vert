@@ -48,5 +48,5 @@ void main() {
   float unit = 0.5 * frame.extent.y * length(vec3(m[0].y, m[1].y, m[2].y)) / end.w;  // pixels
   float shift = min(frame.near_shift * radius / unit, 0.5 * end.w);
   float depth = min((end.z + shift * per_unit.z) / (end.w + shift * per_unit.w), 1.0);
-  gl_Position = vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0);
+  gl_Position = in_tile(vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0));
 }

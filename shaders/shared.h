@@ -42,6 +42,7 @@ struct Frame {
   vec2 extent;         // of the whole picture
   float near_shift;    // of markers towards the eye, in their radii
   float orthographic;  // 1 or 0
+  vec4 tile;           // of the picture: scale and shift of its clip coordinates
   vec4 range;          // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
   vec4 plain;          // colour of the surface
   vec4 line;           // colour, width
@@ -53,6 +54,7 @@ struct Frame {
 // Pushed with each draw of arrows.
 struct ArrowPush {
   vec4 colour;
+  float lift;  // towards the eye, in lengths of a full arrow
 };
 
 // Pushed with each draw of markers.
@@ -62,13 +64,18 @@ struct MarkerPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 2 * 64 + 16 + 6 * 16);
+static_assert(sizeof(Frame) == 2 * 64 + 16 + 7 * 16);
 static_assert(offsetof(Frame, extent) == 128);
 static_assert(offsetof(Frame, near_shift) == 136);
 static_assert(offsetof(Frame, orthographic) == 140);
-static_assert(offsetof(Frame, range) == 144);
-static_assert(offsetof(Frame, marker_rim) == 224);
-static_assert(sizeof(ArrowPush) == 16);
+static_assert(offsetof(Frame, tile) == 144);
+static_assert(offsetof(Frame, range) == 160);
+static_assert(offsetof(Frame, plain) == 176);
+static_assert(offsetof(Frame, line) == 192);
+static_assert(offsetof(Frame, wire) == 208);
+static_assert(offsetof(Frame, marker) == 224);
+static_assert(offsetof(Frame, marker_rim) == 240);
+static_assert(sizeof(ArrowPush) == 20);
 static_assert(sizeof(MarkerPush) == 8);
 }  // namespace geotherm::engine::shared
 #endif

@@ -25,6 +25,9 @@ vec3 map_colour(float x) {
   return texelFetch(colours, int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5)).rgb;
 }
 
+// Lines so close that they are only their mean leave the colours readable.
+const float kDensest = 0.5;
+
 // Share of the pixel that isolines cover; `phase` is the value in spacings, and lines are the zeros of
 // sin(pi phase) but the one at 0, where the sources are.
 float isolines(float phase) {
@@ -35,8 +38,8 @@ float isolines(float phase) {
   float away = abs(phase - max(round(phase), 1.0)) * apart;
   float width = frame.line.w;
   float cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0);
-  float mean = width * (square * apart);  // width / apart
-  return clamp(mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0)), 0.0, 1.0);
+  float mean = min(width * (square * apart), kDensest);
+  return mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
@@ -44,11 +47,14 @@ float edges(vec3 b) {
   float width = frame.wire.w;
   vec3 dx = dFdx(b);
   vec3 dy = dFdy(b);
-  vec3 height = inversesqrt(max(dx * dx + dy * dy, 1e-30));  // pixels
+  vec3 height = inversesqrt(dx * dx + dy * dy + 1e-20);  // pixels
   vec3 cover = clamp(0.5 * width + 0.5 - b * height, 0.0, 1.0);
-  // Not where triangles are a few pixels high.
-  cover *= clamp(height * (0.2 / width) - 0.4, 0.0, 1.0);
-  return max(cover.x, max(cover.y, cover.z));
+  // Not where triangles are a few pixels large. Their three edges fade together: one direction alone
+  // would leave rows.
+  float least = min(height.x, min(height.y, height.z));
+  float most = max(height.x, max(height.y, height.z));
+  float fade = clamp(sqrt(least * most) * (0.25 / width) - 0.5, 0.0, 1.0);
+  return max(cover.x, max(cover.y, cover.z)) * fade;
 }
 
 float brightness() {
@@ -73,13 +79,15 @@ void main() {
   float value = eye_and_value.w;
   // Computed first and chosen from then: cheaper than branches.
   bool known = abs(value) < kLargestValue;
+  float place = value * frame.range.x + frame.range.y;  // on the colour map
   if ((features & kMapped) != 0) {
-    vec3 mapped = map_colour(value * frame.range.x + frame.range.y);
+    vec3 mapped = map_colour(place);
     c = known ? mapped : kNoValueColour;
   }
   if ((features & kIsolines) != 0) {
     float cover = isolines(value);
-    lines = known ? cover : 0.0;
+    bool within = (features & kMapped) == 0 || abs(place - 0.5) < 0.5001;  // the map's range
+    lines = known && within ? cover : 0.0;
   }
   float wire = 0.0;
   if ((features & kWire) != 0) wire = edges(vec3(corner, 1.0 - corner.x - corner.y));

@@ -11,13 +11,12 @@ layout(location = 2) in float value;
 layout(constant_id = 0) const uint features = 0;
 
 // Few outputs: each costs a software device time in every triangle. xyz: the normal, or for flat
-// shading the position, in eye space; w: the value, in spacings of
-// isolines where there are any.
+// shading the position, in eye space; w: the value, in spacings of isolines where there are any.
 layout(location = 0) out vec4 eye_and_value;
 layout(location = 1) out vec2 corner;  // two of the three barycentric coordinates
 
 void main() {
-  gl_Position = frame.clip_from_scene * vec4(position, 1.0);
+  gl_Position = in_tile(frame.clip_from_scene * vec4(position, 1.0));
   if ((features & kFlat) != 0) {
     eye_and_value.xyz = (frame.eye_from_scene * vec4(position, 1.0)).xyz;
   } else {

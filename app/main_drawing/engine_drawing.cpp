@@ -35,7 +35,7 @@ std::vector<glm::vec3> vectors(const std::vector<PictureData::Vector>& all) {
 
 Result<void> upload(engine::Renderer& renderer, const PictureData& data,
                     const PictureSettings& settings, std::span<const glm::vec3> positions) {
-  if (auto done = renderer.set_surface({positions, data.faces}); !done) return done;
+  if (auto done = renderer.set_surface({positions, data.faces, data.solid}); !done) return done;
   if (!data.values.empty()) {
     if (auto done = renderer.set_values(data.values); !done) return done;
   }

@@ -65,7 +65,7 @@ glm::vec4 background_of(PictureBackground background) {
 engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& settings,
                                 const PictureScale& scale) {
   engine::SurfaceStyle style;
-  style.smooth = settings.view != View::kFlat && settings.view != View::kWireframe;
+  style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
   if (settings.view != View::kContours || data.values.empty()) return style;
   style.paint = engine::Paint::kMap;
@@ -89,6 +89,12 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   legend.paper = background_of(settings.background);
   legend.paper.a *= kPaperOpacity;
   if (settings.caption) legend.caption = data.caption;
+  if (settings.view == View::kGradientError && settings.bar) {
+    const engine::ArrowStyle style;
+    legend.keys = {
+        {style.primary_colour, "X = -\u2207u / |\u2207u|"},
+        {style.secondary_colour, "\u2207\u03c6, as long as its angle to X (full: 90\u00b0)"}};
+  }
   const engine::ColourMap* map = engine::find_colour_map(settings.colour_map);
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_data.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -87,6 +88,24 @@ PictureData picture_of(const TriangleMesh& mesh) {
                           static_cast<std::uint32_t>(face[2])});
   }
   return data;
+}
+
+bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
+  if (report.boundary_edges > 0 || report.nonmanifold_edges > 0 || report.inconsistent_faces > 0 ||
+      report.edge_components != 1 || !report.orientable) {
+    return false;
+  }
+  const SceneSpace scene(mesh);
+  double volume = 0;  // times six
+  for (const Face& face : mesh.faces()) {
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [x, y, z] = scene.of(mesh.positions()[face[k]]);
+      p[k] = Vec3(x, y, z);
+    }
+    volume += p[0].dot(p[1].cross(p[2]));
+  }
+  return volume > 0;
 }
 
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {

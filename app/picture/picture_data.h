@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/core/types.h"
+#include "solver/geometry/mesh_report.h"
 #include "solver/heat/distance_result.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
@@ -28,6 +29,8 @@ struct PictureData {
   Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
+  bool solid = false;  ///< closed, all faces counter-clockwise from outside
+
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
@@ -46,6 +49,9 @@ struct PictureData {
 /// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
 /// that belong to no face are put on one that does.
 PictureData picture_of(const TriangleMesh& mesh);
+
+/// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
+bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
 /// Adds where distance is 0. Precondition: the sources lie on the mesh.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);

@@ -29,7 +29,11 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   const bool coloured = settings.view == View::kContours && !data.values.empty();
   // Where all distances are 0 an isoline would be all of the surface.
   if (coloured && largest > 0) {
+    scale.coloured = true;
     scale.spacing = settings.line_spacing.value_or(round_spacing(scale.max - scale.min));
+    // More lines than pixels are no lines.
+    const double pixels = std::max(settings.width, settings.height);
+    if ((scale.max - scale.min) > pixels * scale.spacing) scale.spacing = 0;
   }
   scale.bar = settings.bar && coloured && (largest > 0 || has_range);
   if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMostTicks, scale.spacing);

@@ -12,6 +12,7 @@ namespace geotherm::app {
 struct PictureScale {
   double min = 0, max = 1;  ///< at the ends of the colour map; min < max
   double spacing = 0;       ///< of isolines; 0: none
+  bool coloured = false;    ///< the view shows distances and there are some above 0
   bool bar = false;         ///< there is something to read off a colour bar, and it is wanted
   Ticks ticks;              ///< of the bar
 };

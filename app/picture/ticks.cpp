@@ -76,8 +76,11 @@ double count_of(double min, double max, double step) {
 double multiple_of(double spacing, double min, double max, int most) {
   double ten = 1;
   for (int power = 0; power < 4; ++power, ten *= 10) {
-    for (const double digit : {1.0, 2.0, 5.0}) {
-      if (count_of(min, max, digit * ten * spacing) <= most) return digit * ten * spacing;
+    for (const double digit : {1.0, 2.0, 4.0, 5.0}) {
+      const double step = digit * ten * spacing;
+      const double round = nearest_round_number(step);
+      if (std::abs(round - step) > kSlack * step) continue;
+      if (count_of(min, max, step) <= most) return round;
     }
   }
   return 0;

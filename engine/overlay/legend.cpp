@@ -35,6 +35,7 @@ Measures measures_of(float scale, glm::vec2 extent) {
 GlyphAtlas atlas_of(const Legend& legend, float line) {
   std::vector<std::string> texts = {legend.title, legend.caption, std::string(kEllipsis), "0"};
   for (const Tick& tick : legend.ticks) texts.push_back(tick.label);
+  for (const Key& key : legend.keys) texts.push_back(key.label);
   return GlyphAtlas::build(line, texts);
 }
 
@@ -169,6 +170,28 @@ void draw_column(const Legend& legend, const Column& column, float stroke, Overl
   }
 }
 
+/// Height of what was drawn, 0 where there is no room.
+float draw_keys(const Legend& legend, const Measures& m, glm::vec2 extent, Overlay& overlay) {
+  const float swatch = 1.6F * m.line;
+  float width = 0;
+  for (const Key& key : legend.keys) width = std::max(width, overlay.atlas.width_of(key.label));
+  width += 1.3F * swatch;
+  const float height = overlay.atlas.line_height() * static_cast<float>(legend.keys.size());
+  if (legend.keys.empty() || width > extent.x - 2 * m.margin || height > 0.25F * extent.y) return 0;
+  draw_paper(legend, {m.margin, m.margin}, {m.margin + width, m.margin + height}, m.margin,
+             overlay);
+  float top = m.margin;
+  for (const Key& key : legend.keys) {
+    const float middle = std::round(top + 0.55F * overlay.atlas.line_height());
+    overlay.add_rectangle({m.margin, middle - m.stroke}, {m.margin + swatch, middle + m.stroke},
+                          glm::vec4(key.colour, 1));
+    overlay.add_text({m.margin + 1.3F * swatch, top + overlay.atlas.ascent()}, key.label,
+                     glm::vec4(legend.ink, 1));
+    top += overlay.atlas.line_height();
+  }
+  return height;
+}
+
 }  // namespace
 
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
@@ -190,6 +213,8 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
     bottom = top - std::round(0.4F * m.line);
     layout.insets.bottom = extent.y - bottom;
   }
+  const float keys = draw_keys(legend, m, extent, overlay);
+  if (keys > 0) layout.insets.top = m.margin + keys;
   if (legend.bar && legend.colours.size() >= 2 && side >= kSmallestForBar) {
     const Column column = lay_out_column(legend, overlay.atlas, m, extent, bottom);
     if (column.fits) {

@@ -15,6 +15,12 @@ struct Tick {
   std::string label;
 };
 
+/// What a colour in the picture stands for.
+struct Key {
+  glm::vec3 colour{0};
+  std::string label;
+};
+
 /// What is written around the model; empty parts are left out.
 struct Legend {
   bool bar = false;
@@ -24,6 +30,7 @@ struct Legend {
   std::string title;  ///< over the bar: what the values are, and their unit
   /// One line along the lower edge; cut with an ellipsis where it is too long.
   std::string caption;
+  std::vector<Key> keys;        ///< one a line in the upper left corner
   glm::vec3 ink{0};             ///< colour of letters and frames
   glm::vec4 paper{1, 1, 1, 0};  ///< under them, so that they can be read where the model lies there
   float scale = 1;              ///< of letters and bar; 1 suits a picture 720 pixels high

@@ -11,8 +11,6 @@ namespace {
 
 constexpr int kLastLevel = 34;  // kCoarsest / 2^17: below a millionth of the model's size
 
-constexpr float kLeastFacing = 0.12F;  // cosine between a face's normal and the view
-
 /// 21 bits of each coordinate of a point of [-1, 1]^3, interleaved.
 std::uint64_t morton(const glm::vec3& p) {
   const auto spread = [](float x) {
@@ -172,48 +170,6 @@ ArrowPlaces::ArrowPlaces(const SurfaceGeometry& geometry) {
   DartBoard board(draft_places(geometry));
   for (int level = 0; level <= kLastLevel && !board.full(); ++level) board.throw_level(level);
   places_ = board.finish();
-}
-
-ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
-                             const ArrowStyle& style, float scale,
-                             std::span<const glm::vec3> primary,
-                             std::span<const glm::vec3> secondary) {
-  ArrowSelection selection;
-  const bool first = style.primary && !primary.empty();
-  const bool second = style.secondary && !secondary.empty();
-  if (!first && !second) return selection;
-  const float wanted = style.spacing * scale;
-  constexpr float kReach = 1.0F;  // every point is at most this far from the origin
-  const float nearest_depth = std::max(-(camera.view * glm::vec4(0, 0, 0, 1)).z - kReach, 1e-4F);
-  for (const ArrowPlaces::Place& place : places.places()) {
-    if (place.spacing * camera.pixels_per_unit / (camera.orthographic ? 1.0F : nearest_depth) <
-        wanted) {
-      break;  // all that follow are closer together still
-    }
-    const float depth = -(camera.view * glm::vec4(place.centre, 1)).z;
-    if (depth <= 1e-4F) continue;
-    const float per_unit = camera.pixels_per_unit / (camera.orthographic ? 1.0F : depth);
-    if (place.spacing * per_unit < wanted) continue;
-    const glm::vec3 at = camera.project(place.centre);
-    const float margin = 4 * wanted;
-    if (at.x < -margin || at.y < -margin || at.x > camera.extent.x + margin ||
-        at.y > camera.extent.y + margin) {
-      continue;
-    }
-    // One that is seen edge-on is a speck on the silhouette.
-    if (std::abs(glm::dot(place.normal, camera.to_eye(place.centre))) < kLeastFacing) continue;
-    const float length = std::max(0.92F * wanted / per_unit, 0.55F * place.face_size);
-    glm::vec3 tail = place.centre;
-    const auto add = [&](std::span<const glm::vec3> field, std::vector<ArrowInstance>& to) {
-      const glm::vec3 along = field[place.face] * length;
-      if (along == glm::vec3(0)) return;
-      if (tail == place.centre) tail -= 0.5F * along;
-      to.push_back({tail, along, place.normal});
-    };
-    if (first) add(primary, selection.primary);
-    if (second) add(secondary, selection.secondary);
-  }
-  return selection;
 }
 
 }  // namespace geotherm::engine

@@ -35,23 +35,4 @@ class ArrowPlaces {
   std::vector<Place> places_;
 };
 
-/// An arrow to draw; lengths in scene units.
-struct ArrowInstance {
-  glm::vec3 tail, along, normal;
-};
-
-struct ArrowSelection {
-  std::vector<ArrowInstance> primary, secondary;
-};
-
-/// The arrows that this view has room for: those whose places are further apart than
-/// style.spacing * scale pixels where they stand, and that are inside the picture. Each is as long
-/// as the room between arrows allows (longer on faces that are larger than that), times the length
-/// of its vector. The first field's are centred on their places; the second's have the same tails.
-/// Cost: O(places up to the finest level that shows).
-ArrowSelection select_arrows(const ArrowPlaces& places, const Camera& camera,
-                             const ArrowStyle& style, float scale,
-                             std::span<const glm::vec3> primary,
-                             std::span<const glm::vec3> secondary);
-
 }  // namespace geotherm::engine

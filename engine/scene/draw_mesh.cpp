@@ -10,6 +10,10 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// Every face at a vertex is compared with every other there, up to this many; beyond, all are
+/// taken for one fan.
+constexpr std::uint32_t kMostCompared = 64;
+
 /// Area vectors of all faces: normals as long as twice the area.
 std::vector<glm::vec3> area_vectors(const SurfaceGeometry& geometry) {
   std::vector<glm::vec3> vectors(geometry.faces.size());
@@ -80,6 +84,10 @@ class Builder {
     const float crease = std::cos(glm::radians(kCreaseAngle));
     for (std::size_t v = 0; v < geometry_.positions.size(); ++v) {
       const std::size_t first_group = groups_.size();
+      if (corners.first[v + 1] - corners.first[v] > kMostCompared) {
+        group_as_one(corners, v, areas, normals);
+        continue;
+      }
       for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
         const std::uint32_t corner = corners.list[i];
         const glm::vec3& own = normals[corner / 3];
@@ -91,6 +99,22 @@ class Builder {
         }
         corner_group_[corner] = group_of(first_group, unit(sum));
       }
+    }
+  }
+
+  /// One normal for all corners at a vertex, turned to each face's side.
+  void group_as_one(const Corners& corners, std::size_t v, const std::vector<glm::vec3>& areas,
+                    const std::vector<glm::vec3>& normals) {
+    const std::size_t first_group = groups_.size();
+    glm::vec3 sum(0);
+    for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
+      const glm::vec3& area = areas[corners.list[i] / 3];
+      sum += glm::dot(sum, area) < 0 ? -area : area;
+    }
+    const glm::vec3 mean = unit(sum);
+    for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
+      const bool away = glm::dot(mean, normals[corners.list[i] / 3]) < 0;
+      corner_group_[corners.list[i]] = group_of(first_group, away ? -mean : mean);
     }
   }
 

@@ -24,11 +24,12 @@ struct DrawMesh {
 };
 
 /// Faces that meet at more than this angle (degrees) get normals of their own.
-inline constexpr float kCreaseAngle = 40;
+inline constexpr float kCreaseAngle = 60;
 
 /// Every corner's normal is the mean of the normals, weighted by area, of the faces at its vertex
 /// that meet its own face at less than kCreaseAngle, turned to its own face's side: neighbours may
-/// be oriented differently. Faces without area take any normal of their vertices.
+/// be oriented differently. Faces without area take any normal of their vertices; where more than
+/// 64 faces meet, all share one.
 ///
 /// The three corners of each face get labels -1, 0 and 1, which is how the shader knows how far it
 /// is from each edge: a vertex is copied when faces need it under several labels (on ordinary

@@ -18,6 +18,7 @@ inline constexpr float kNoValue = -std::numeric_limits<float>::max();
 struct SurfaceGeometry {
   std::span<const glm::vec3> positions;                 ///< V
   std::span<const std::array<std::uint32_t, 3>> faces;  ///< F, every corner in [0, V)
+  bool solid = false;  ///< closed, all faces counter-clockwise from outside: no back is ever seen
 };
 
 /// A source: a point (both ends the same) or a straight piece of a curve.

@@ -14,7 +14,10 @@ namespace {
 
 using Usage = vk::BufferUsageFlagBits;
 constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
-constexpr float kHiddenOpacity = 0.22F;
+constexpr float kHiddenOpacity = 0.33F;  // of the rim; what lies on it adds as much
+/// Arrows towards the eye, in their full lengths; the second field lies on the first.
+constexpr float kLift = 0.35F;
+constexpr float kLiftOfSecond = 0.42F;
 
 /// Writes bytes that change with every frame, into a larger buffer where they do not fit.
 void write_host(const Device::State& device, Buffer& buffer, std::span<const std::byte> bytes,
@@ -151,14 +154,11 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
     attachments_ = {};  // first, so that both are never there at once
     attachments_ = Attachments(*device_, size, frame.format, samples_);
   }
-  const shared::Frame uniforms = frame_uniforms(scene);
+  const shared::Frame uniforms = frame_uniforms(scene, frame.origin, extent);
   std::memcpy(frame_.memory.mapped(), &uniforms, sizeof(uniforms));
 
-  // The viewport is the whole picture, of which the target shows a part.
-  const glm::vec2 whole = scene.camera.extent;
-  const vk::Viewport viewport(static_cast<float>(-frame.origin.x),
-                              static_cast<float>(-frame.origin.y), whole.x, whole.y, 0, 1);
-  commands.setViewport(0, viewport);
+  commands.setViewport(
+      0, vk::Viewport(0, 0, static_cast<float>(extent.x), static_cast<float>(extent.y), 0, 1));
   commands.setScissor(0, vk::Rect2D({0, 0}, size));
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0, *set_, {});
 
@@ -169,7 +169,7 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
   commands.endRendering();
   if (overlay_count_ == 0) return;
   record_overlay_begin(commands, size, frame.image, frame.view);
-  record_overlay(commands, whole);
+  record_overlay(commands);
   commands.endRendering();
 }
 
@@ -192,11 +192,11 @@ void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.arrows());
   commands.bindVertexBuffers(0, *arrows_.buffer, {0});
   if (primary_count_ > 0) {
-    push(commands, shared::ArrowPush{glm::vec4(style.primary_colour, 1)});
+    push(commands, shared::ArrowPush{glm::vec4(style.primary_colour, 1), kLift});
     commands.draw(kVerticesOfAnArrow, primary_count_, 0, 0);
   }
   if (secondary_count_ > 0) {
-    push(commands, shared::ArrowPush{glm::vec4(style.secondary_colour, 1)});
+    push(commands, shared::ArrowPush{glm::vec4(style.secondary_colour, 1), kLiftOfSecond});
     commands.draw(kVerticesOfAnArrow, secondary_count_, 0, primary_count_);
   }
 }
@@ -214,10 +214,9 @@ void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands) {
   draw(pipelines_.visible_markers(), 1);
 }
 
-void FrameRecorder::record_overlay(const vk::raii::CommandBuffer& commands, glm::vec2 extent) {
+void FrameRecorder::record_overlay(const vk::raii::CommandBuffer& commands) {
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay());
   commands.bindVertexBuffers(0, *overlay_.buffer, {0});
-  push(commands, extent);
   commands.draw(overlay_count_, 1, 0, 0);
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "engine/overlay/overlay.h"
-#include "engine/scene/arrow_places.h"
+#include "engine/scene/arrow_selection.h"
 #include "engine/scene/colour_map.h"
 #include "engine/scene/draw_mesh.h"
 #include "engine/vulkan/attachments.h"
@@ -15,7 +15,8 @@
 namespace geotherm::engine {
 
 /// What of a renderer lives on the device, and the commands that draw it. Nothing may be drawing
-/// while it is changed. Methods throw and then leave what was there.
+/// while it is changed or prepared: there is one copy of each buffer, so targets wait for a frame
+/// before they begin the next. Methods throw and then leave what was there.
 class FrameRecorder {
  public:
   FrameRecorder(std::shared_ptr<Device::State> device, int samples);
@@ -36,7 +37,7 @@ class FrameRecorder {
   void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_markers(const vk::raii::CommandBuffer& commands);
-  void record_overlay(const vk::raii::CommandBuffer& commands, glm::vec2 extent);
+  void record_overlay(const vk::raii::CommandBuffer& commands);
   template <class Push>
   void push(const vk::raii::CommandBuffer& commands, const Push& values);
 

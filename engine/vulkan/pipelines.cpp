@@ -12,7 +12,7 @@
 #include "embedded/surface_frag.h"
 #include "embedded/surface_vert.h"
 #include "engine/overlay/overlay.h"
-#include "engine/scene/arrow_places.h"
+#include "engine/scene/arrow_selection.h"
 #include "engine/scene/draw_mesh.h"
 #include "shaders/shared.h"
 
@@ -149,13 +149,15 @@ vk::Pipeline Pipelines::surface(std::uint32_t features) {
 }
 
 vk::Pipeline Pipelines::arrows() {
-  return made(1U << 16, {.vertex = embedded::arrow_vert(),
-                         .fragment = embedded::arrow_frag(),
-                         .bindings = {{0, sizeof(ArrowInstance), kPerInstance}},
-                         .attributes = {{0, 0, kFloat3, offsetof(ArrowInstance, tail)},
-                                        {1, 0, kFloat3, offsetof(ArrowInstance, along)},
-                                        {2, 0, kFloat3, offsetof(ArrowInstance, normal)}},
-                         .write_depth = true});
+  return made(1U << 16,
+              {.vertex = embedded::arrow_vert(),
+               .fragment = embedded::arrow_frag(),
+               .bindings = {{0, sizeof(ArrowInstance), kPerInstance}},
+               .attributes = {{0, 0, kFloat3, offsetof(ArrowInstance, tail)},
+                              {1, 0, kFloat3, offsetof(ArrowInstance, along)},
+                              {2, 0, kFloat3, offsetof(ArrowInstance, normal)},
+                              {3, 0, vk::Format::eR32Sfloat, offsetof(ArrowInstance, full)}},
+               .write_depth = true});
 }
 
 vk::Pipeline Pipelines::visible_markers() {

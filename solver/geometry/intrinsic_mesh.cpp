@@ -7,14 +7,21 @@
 namespace geotherm {
 namespace {
 
-/// Relative amount by which each triangle inequality must be strict (Sharp, Crane 2020).
+/// By how much each triangle inequality must be strict, relative to the longest side of the face
+/// (Sharp, Crane 2020): faces of any size keep their shape unless that is degenerate.
 constexpr double kMollify = 1e-5;
+/// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
+constexpr double kPoint = 1e-70;
 
+/// The smallest length that does it when added to every edge.
 double mollification(const std::vector<std::array<double, 3>>& lengths) {
   double needed = 0;
   for (const auto& l : lengths) {
+    const double longest = std::max({l[0], l[1], l[2]});
+    const double size = longest > kPoint ? longest : 1.0;
     for (int k = 0; k < 3; ++k) {
-      needed = std::max(needed, kMollify + l[k] - l[next_corner(k)] - l[previous_corner(k)]);
+      const double missing = kMollify * size + l[k] - l[next_corner(k)] - l[previous_corner(k)];
+      needed = std::max(needed, missing / (1 - kMollify));  // the longest side grows as well
     }
   }
   return needed;

@@ -32,8 +32,8 @@ double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges)
 /// Builds the intrinsic mesh of clean faces. Lengths are divided by `unit` (> 0), so that what
 /// follows sees numbers of order 1 at any scale. Faces that are degenerate or nearly so are
 /// mollified: the smallest common length is added to all edges that makes every triangle
-/// inequality strict by a relative 1e-5 (Sharp, Crane 2020, section 4.5). Edges with a number of
-/// sides other than two, or whose faces disagree in orientation, get no twins.
+/// inequality strict by 1e-5 of the face's longest side (Sharp, Crane 2020, section 4.5). Edges
+/// with a number of sides other than two, or whose faces disagree in orientation, get no twins.
 /// Cost: O(F).
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
                                    double unit);

@@ -12,10 +12,10 @@ namespace geotherm {
 struct Quality {
   double heat_residual = 0;        ///< |M u - b| / |b|, Euclidean, M = A + t L, free rows
   double poisson_residual = 0;     ///< |L phi - b| / |b|, Euclidean, rows that are not held
-  double max_source_distance = 0;  ///< largest |d| on a source before clamping, model units
+  double max_source_distance = 0;  ///< largest |d| on a source as solved, model units
   double eikonal_error_mean = 0;   ///< area-weighted mean of | |grad phi| - 1 |
-  Index zero_gradient_faces = 0;   ///< faces (reached) whose gradient of u is zero or not finite
-  Index clamped_vertices = 0;      ///< vertices whose value was below 0 and was set to 0
+  Index zero_gradient_faces = 0;   ///< faces (in reach, not held) without a gradient of u
+  Index clamped_vertices = 0;      ///< values below 0 by more than round-off, set to 0
   int iterations_heat = 0;         ///< 0 for direct backends
   int iterations_poisson = 0;
 };

@@ -9,6 +9,7 @@
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_step.h"
+#include "solver/heat/judge.h"
 #include "solver/heat/option_text.h"
 #include "solver/heat/poisson.h"
 #include "solver/heat/query.h"
@@ -64,6 +65,19 @@ double unit_time(const Surface& surface, const TimeStep& step) {
   return step.absolute / surface.mean_edge / surface.mean_edge;
 }
 
+/// The public functions let no std::bad_alloc out.
+Error out_of_memory(const char* stage, Index faces, const std::string& backend) {
+  return {ErrorCode::kOutOfMemory, std::string("the memory ended in the ") + stage + " for " +
+                                       std::to_string(faces) + " faces with " + backend +
+                                       (backend == "cg" ? "; take a mesh with fewer faces"
+                                                        : "; try --backend cg, which needs less, "
+                                                          "or a mesh with fewer faces")};
+}
+
+std::string backend_name(const HeatOptions& options) {
+  return options.backend.empty() ? backend_names().front() : options.backend;
+}
+
 /// Half of the mass is consistent where the mesh resolves the diffusion length, t >= 0.8 h^2; the
 /// expansion behind it fails below, and at t = 0.2 h^2 the lumped mass is better (measured).
 double consistent_share(Variant variant, double unit_t) {
@@ -73,15 +87,13 @@ double consistent_share(Variant variant, double unit_t) {
 }  // namespace
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
-                                     const HeatOptions& options, const Progress& progress) {
-  const auto backend =
-      find_backend(options.backend.empty() ? backend_names().front() : options.backend);
+                                     const HeatOptions& options, const Progress& progress) try {
+  const auto backend = find_backend(backend_name(options));
   if (!backend) return backend.error();
   if (const auto valid = check(options); !valid) return valid.error();
   if (!report(progress, "operators", 0.0)) return cancelled();
   Stopwatch watch;
-  auto surface =
-      build_surface(std::move(mesh), **backend, options.laplacian, thread_count(options.threads));
+  auto surface = build_surface(mesh, **backend, options.laplacian, thread_count(options.threads));
   if (!surface) return surface.error();
   auto state = std::make_shared<State>();
   state->backend = *backend;
@@ -94,11 +106,14 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   timed->timing.analyze = timed->surface->analyze_ms;
   timed->timing.setup = watch.milliseconds();
   return HeatMethod(std::move(timed));
+} catch (const std::bad_alloc&) {
+  return out_of_memory("set-up", mesh->face_count(), backend_name(options));
 }
 
-Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const {
+Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const
+    try {
   if (const auto valid = check(options); !valid) return valid.error();
-  const std::string name = options.backend.empty() ? backend_names().front() : options.backend;
+  const std::string name = backend_name(options);
   const bool fresh = state_->heat == nullptr;
   if (!fresh &&
       (name != state_->backend->name() || options.laplacian != state_->options.laplacian)) {
@@ -111,6 +126,11 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   next->options.backend = name;
   const double edge = next->surface->mean_edge;
   const double unit_t = unit_time(*next->surface, options.time_step);
+  if (!(unit_t > 0) || !std::isfinite(unit_t)) {
+    return Error{ErrorCode::kBadInput, "the diffusion time is " + rounded_text(unit_t) +
+                                           " squared mean edges, where an edge is " +
+                                           rounded_text(edge) + " long; choose one near 1"};
+  }
   next->unit_t = unit_t;
   next->t = options.time_step.rule == TimeRule::kAbsolute ? options.time_step.absolute
                                                           : unit_t * edge * edge;
@@ -142,12 +162,17 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
           poisson_done = built.error();
         }
       });
-  if (!heat_done) return heat_done.error();
+  if (!heat_done) return with_time_cure(heat_done.error(), unit_t);
   if (!poisson_done) return poisson_done.error();
   next->warnings = next->surface->warnings;
+  if (options.time_step.rule != TimeRule::kAbsolute && !next->surface->scale_warning.empty()) {
+    next->warnings.push_back(next->surface->scale_warning);
+  }
   next->timing.factorize = next->timing.setup = watch.milliseconds();
   if (!report(progress, "factorize", 1.0)) return cancelled();
   return HeatMethod(std::move(next));
+} catch (const std::bad_alloc&) {
+  return out_of_memory("factorisation", state_->surface->mesh->face_count(), backend_name(options));
 }
 
 Result<DistanceResult> HeatMethod::solve(const SourceSet& sources,
@@ -159,10 +184,16 @@ Result<DistanceResult> HeatMethod::solve(const SourceSet& sources,
 
 Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
                                                            const QueryOptions& query,
-                                                           const Progress& progress) const {
+                                                           const Progress& progress) const try {
   const QueryPipeline pipeline{*state_->surface, *state_->heat,  *state_->poisson,
                                state_->options,  state_->unit_t, *state_->pool};
-  return run_queries(pipeline, sets, query, progress);
+  auto results = run_queries(pipeline, sets, query, progress);
+  if (results || results.error().code != ErrorCode::kOutOfMemory) return results;
+  throw std::bad_alloc();  // for the sizes in the message
+} catch (const std::bad_alloc&) {
+  const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
+  return out_of_memory(queries.c_str(), state_->surface->mesh->face_count(),
+                       state_->options.backend);
 }
 
 const HeatOptions& HeatMethod::options() const { return state_->options; }

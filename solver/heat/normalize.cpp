@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/core/number_text.h"
-
 namespace geotherm {
 namespace {
 
-/// Residuals above this are worth a word: backends reach 1e-9 and better.
-constexpr double kSuspiciousResidual = 1e-6;
+/// Of the largest distance: values below 0 by less are what solvers leave of a 0.
+constexpr double kRoundOff = 1e-6;
 
 /// What must be added to phi on every component: 0 where no source is.
 std::vector<double> shifts(const Surface& surface, std::span<const double> phi,
@@ -40,23 +38,27 @@ Result<void> normalize(const Surface& surface, std::span<double> phi, const Sour
     for (std::size_t i = 0; i < phi.size(); ++i) phi[i] += shift[components.of[i]];
   }
   for (const auto& anchor : anchors.anchors) {
-    if (pinned) phi[anchor.row] = anchor.offset;  // held: what is left is the solve's round-off
-    result.quality.max_source_distance = std::max(result.quality.max_source_distance,
-                                                  std::abs(phi[anchor.row] - anchor.offset) * unit);
+    const double off = std::abs(phi[anchor.row] - anchor.offset) * unit;
+    if (!(off <= result.quality.max_source_distance)) result.quality.max_source_distance = off;
+    if (pinned) phi[anchor.row] = anchor.offset;  // held: what was off is the solve's round-off
   }
   std::vector<char> holds(static_cast<std::size_t>(components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;
   result.distances.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kUnreached);
+  double most = 0;
   for (std::size_t i = 0; i < phi.size(); ++i) {
     if (!holds[components.of[i]]) continue;
-    if (!std::isfinite(phi[i])) {
+    if (!std::isfinite(phi[i] * unit)) {
       return Error{ErrorCode::kNumericalFailure,
                    "the distance of vertex " + std::to_string(surface.vertex_of_row[i]) +
-                       " is not finite; try another backend, a larger --time-factor or "
-                       "--laplacian intrinsic-delaunay"};
+                       " is not finite; try another backend or --laplacian "
+                       "intrinsic-delaunay"};
     }
-    result.quality.clamped_vertices += phi[i] < 0;
+    most = std::max(most, phi[i]);
     result.distances[surface.vertex_of_row[i]] = std::max(phi[i], 0.0) * unit;
+  }
+  for (std::size_t i = 0; i < phi.size(); ++i) {
+    result.quality.clamped_vertices += holds[components.of[i]] && phi[i] < -kRoundOff * most;
   }
   return {};
 }
@@ -85,22 +87,6 @@ std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatFie
     out[surface.vertex_of_row[i]] = std::log(heat.u(i, column)) + level * step - largest;
   }
   return out;
-}
-
-void add_quality_warnings(DistanceResult& result) {
-  const Quality& q = result.quality;
-  if (q.zero_gradient_faces > 0) {
-    result.warnings.push_back("the heat has no direction on " +
-                              std::to_string(q.zero_gradient_faces) +
-                              " faces, distances there follow their surroundings; raise "
-                              "--time-factor");
-  }
-  for (const auto& [name, residual] :
-       {std::pair{"heat", q.heat_residual}, std::pair{"Poisson", q.poisson_residual}}) {
-    if (!(residual > kSuspiciousResidual)) continue;
-    result.warnings.push_back(std::string("the ") + name + " system was solved to a residual of " +
-                              rounded_text(residual) + " only");
-  }
 }
 
 }  // namespace geotherm

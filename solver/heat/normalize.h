@@ -12,9 +12,9 @@ namespace geotherm {
 /// Makes distances of phi (n values, elimination order, units of the intrinsic mesh), which is
 /// shifted in place. Under kPinSources the anchors have their value exactly; otherwise each
 /// component is shifted so that phi agrees with the anchors in the mean. Distances below 0 become 0
-/// and are counted. Fills `distances` (file order, model units, kUnreached elsewhere),
-/// `max_source_distance` and `clamped_vertices`. Errors: kNumericalFailure when a value is not
-/// finite.
+/// and are counted where that is more than round-off. Fills `distances` (file order, model units,
+/// kUnreached elsewhere), `max_source_distance` and `clamped_vertices`. Errors: kNumericalFailure
+/// when a value is not finite.
 Result<void> normalize(const Surface& surface, std::span<double> phi, const SourceAnchors& anchors,
                        ConstraintMode mode, DistanceResult& result);
 
@@ -25,8 +25,5 @@ std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& 
 /// The natural logarithm of the same, of any level; -inf where u is 0 or below.
 std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatField& heat,
                                            Eigen::Index column);
-
-/// Appends what a person should know about these quality figures.
-void add_quality_warnings(DistanceResult& result);
 
 }  // namespace geotherm

@@ -52,22 +52,34 @@ double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, c
   return norm > 0 ? std::sqrt(error / norm) : std::sqrt(error);
 }
 
-void inspect_faces(const OperatorMesh& mesh, const UnitField& field, std::span<const double> phi,
-                   Eigen::Index column, const SourceAnchors& anchors, Quality& quality) {
+FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
+                         std::span<const double> phi, Eigen::Index column,
+                         const SourceAnchors& anchors, std::span<const char> held_at_zero,
+                         Quality& quality) {
+  std::vector<char> held(phi.size(), 0);
+  std::ranges::copy(held_at_zero, held.begin());
+  for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
   std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;
   double error = 0, area = 0;
+  FaceCounts faces;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& face = mesh.faces[f];
     if (!holds[mesh.components.of[face[0]]]) continue;
+    ++faces.in_reach;
     const auto x = field.of_face(f, column);
-    if (x[0] == 0 && x[1] == 0) ++quality.zero_gradient_faces;
+    const bool known = held[face[0]] && held[face[1]] && held[face[2]];
+    if (x[0] == 0 && x[1] == 0) {
+      ++faces.without_direction;
+      if (!known) ++quality.zero_gradient_faces;
+    }
     const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
     const double face_area = mesh.layout[f].base * mesh.layout[f].height / 2;
     error += face_area * std::abs(std::hypot(g[0], g[1]) - 1);
     area += face_area;
   }
   quality.eikonal_error_mean = area > 0 ? error / area : 0.0;
+  return faces;
 }
 
 }  // namespace geotherm

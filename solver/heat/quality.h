@@ -16,9 +16,18 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
 double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
                         Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors);
 
+/// Faces in the components that hold a source, and those of them where the heat has no direction,
+/// whether or not it could have one.
+struct FaceCounts {
+  Index in_reach = 0, without_direction = 0;
+};
+
 /// What the faces say: mean of | |grad phi| - 1 | by area, and lost gradients of u, over the
-/// components that hold a source. `phi` in units of the intrinsic mesh.
-void inspect_faces(const OperatorMesh& mesh, const UnitField& field, std::span<const double> phi,
-                   Eigen::Index column, const SourceAnchors& anchors, Quality& quality);
+/// components that hold a source. `phi` in units of the intrinsic mesh. Faces whose corners are all
+/// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose.
+FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
+                         std::span<const double> phi, Eigen::Index column,
+                         const SourceAnchors& anchors, std::span<const char> held_at_zero,
+                         Quality& quality);
 
 }  // namespace geotherm

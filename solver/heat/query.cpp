@@ -9,6 +9,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/heat/judge.h"
 #include "solver/heat/normalize.h"
 #include "solver/heat/quality.h"
 #include "solver/heat/unit_field.h"
@@ -50,11 +51,17 @@ std::vector<std::vector<double>> split_columns(const Block& block) {
   return columns;
 }
 
+/// Rows that every source set finds at 0, but for its own.
+std::span<const char> held_at_zero(const QueryPipeline& p) {
+  if (p.options.boundary != BoundaryRule::kDirichlet) return {};
+  return p.surface.on_boundary;
+}
+
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, std::span<DistanceResult> results) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool);
-  if (!heat) return heat.error();
+  if (!heat) return with_time_cure(heat.error(), p.unit_t);
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   const UnitField field(*p.surface.operators, heat->field,
                         p.options.variant == Variant::kClassic ? 0.0 : p.unit_t, p.pool);
@@ -69,7 +76,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     const auto normalized =
         normalize(p.surface, phi[c], anchors[c], p.options.constraint.mode, results[c]);
-    if (!normalized) return normalized.error();
+    if (!normalized) return with_time_cure(normalized.error(), p.unit_t);
   }
   const double poisson_ms = watch.lap();
 
@@ -87,8 +94,10 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
       result.quality.poisson_residual =
           poisson_residual(*p.surface.operators, phi[c], right, column, anchors[c],
                            p.options.constraint.mode == ConstraintMode::kPinSources);
-      inspect_faces(*p.surface.operators, field, phi[c], column, anchors[c], result.quality);
-      add_quality_warnings(result);
+      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi[c], column,
+                                             anchors[c], held_at_zero(p), result.quality);
+      const auto judged = judge(p.options, p.unit_t, faces, result);
+      if (!judged) return judged.error();
     }
     if (query.fields) {
       result.heat = heat_in_file_order(p.surface, heat->field, column);

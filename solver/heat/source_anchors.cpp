@@ -210,21 +210,31 @@ class Placer {
       const Face& face = mesh.faces[f];
       for (const Index row : face) near_.try_emplace(row, kUnreached);
     }
-    for (const Index f : touched_) {
-      const Face& face = mesh.faces[f];
-      const auto at = corners(mesh.layout[f]);
-      for (int k = 0; k < 3; ++k) {
-        const Index a = face[next_corner(k)];
-        const Index b = face[previous_corner(k)];
-        double& value = near_.at(face[k]);
-        value = std::min(value, near_.at(a) + (at[k] - at[next_corner(k)]).norm());
-        value = std::min(value, near_.at(b) + (at[k] - at[previous_corner(k)]).norm());
-        if (edges_.contains({std::min(a, b), std::max(a, b)})) {
-          value = std::min(value,
-                           distance_to_segment(at[k], at[next_corner(k)], at[previous_corner(k)]));
-        }
-      }
+    // Shortest ways along edges, whatever the order of the faces: until nothing changes.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Index f : touched_) changed = shorten(f) || changed;
     }
+  }
+
+  /// Brings the corners of a face as near as the others allow; true where that changed one.
+  bool shorten(Index f) {
+    const Face& face = surface_.operators->faces[f];
+    const auto at = corners(surface_.operators->layout[f]);
+    bool changed = false;
+    for (int k = 0; k < 3; ++k) {
+      const int i = next_corner(k), j = previous_corner(k);
+      const Index a = face[i], b = face[j];
+      double least =
+          std::min(near_.at(a) + (at[k] - at[i]).norm(), near_.at(b) + (at[k] - at[j]).norm());
+      if (edges_.contains({std::min(a, b), std::max(a, b)})) {
+        least = std::min(least, distance_to_segment(at[k], at[i], at[j]));
+      }
+      double& value = near_.at(face[k]);
+      changed = changed || least < value;
+      value = std::min(value, least);
+    }
+    return changed;
   }
 
   const Surface& surface_;

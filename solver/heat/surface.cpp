@@ -2,6 +2,7 @@
 #include "solver/heat/surface.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
@@ -39,6 +40,38 @@ void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
   }
 }
 
+/// A component whose mean edge differs from that of all by more than this is badly served by one t.
+constexpr double kOtherScale = 4;
+
+/// What to say about components whose edges are much longer or shorter than the mean edge of all.
+std::string compare_scales(const Surface& surface, const EdgeTable& edges) {
+  const Components& components = surface.operators->components;
+  std::vector<double> sum(static_cast<std::size_t>(components.count), 0.0);
+  std::vector<Index> count(sum.size(), 0);
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const Vec3& low = surface.mesh->positions()[edges.low(e)];
+    const Vec3& high = surface.mesh->positions()[edges.high(e)];
+    const Index c = components.of[surface.row_of_vertex[edges.low(e)]];
+    sum[c] += (low - high).stableNorm() / surface.mean_edge;
+    ++count[c];
+  }
+  Index others = 0;
+  double farthest = 1;
+  for (std::size_t c = 0; c < sum.size(); ++c) {
+    const double mean = sum[c] / count[c];
+    if (mean < kOtherScale && mean > 1 / kOtherScale) continue;
+    ++others;
+    if (std::abs(std::log(mean)) > std::abs(std::log(farthest))) farthest = mean;
+  }
+  if (others == 0) return {};
+  return std::to_string(others) + " of " + std::to_string(components.count) +
+         " components have edges of quite another length (" +
+         rounded_text(farthest * surface.mean_edge) + " on average, all together " +
+         rounded_text(surface.mean_edge) +
+         "), and t, which follows the latter, fits them badly; solve them apart or use --time-step "
+         "absolute:T";
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
@@ -50,6 +83,13 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   CleanFaces clean = clean_faces(*out->mesh);
   const auto positions = out->mesh->positions();
   out->mean_edge = mean_edge_length(positions, clean.edges);
+  if (!std::isfinite(out->mean_edge)) {
+    double most = 0;
+    for (const Vec3& p : positions) most = std::max(most, p.cwiseAbs().maxCoeff());
+    return Error{ErrorCode::kBadInput,
+                 "the edges of the mesh are too long to be added up (coordinates go up to " +
+                     rounded_text(most) + "); scale the model down"};
+  }
   if (clean.faces.empty() || !(out->mean_edge > 0)) {
     return Error{ErrorCode::kBadInput,
                  "the mesh has no face with area (" + std::to_string(out->mesh->face_count()) +
@@ -109,6 +149,9 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   out->clean_of_face.assign(static_cast<std::size_t>(out->mesh->face_count()), kNoIndex);
   for (std::size_t c = 0; c < clean.original.size(); ++c) {
     out->clean_of_face[clean.original[c]] = static_cast<Index>(c);
+  }
+  if (out->operators->components.count > 1) {
+    out->scale_warning = compare_scales(*out, clean.edges);
   }
   out->clean_faces = std::move(clean.faces);
   out->operators_ms += watch.lap();

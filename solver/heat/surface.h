@@ -34,6 +34,7 @@ struct Surface {
   double unit_area = 0;  ///< total, in squares of mean_edge
   double operators_ms = 0, analyze_ms = 0;
   std::vector<std::string> warnings;
+  std::string scale_warning;  ///< for times that follow the mean edge; empty where that fits all
 };
 
 /// Errors: kBadInput (no face with area), and the backend's.

@@ -15,6 +15,11 @@ using Field = std::array<double, 2>;
 constexpr double kSafeLow = 1e-280;
 constexpr double kSafeHigh = 1e280;
 
+/// Diffusion lengths, as shares of the extent, between which shortening fades out. Measured against
+/// exact distances: below the first it helps, above the second it harms.
+constexpr double kShort = 0.15;
+constexpr double kLong = 0.35;
+
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
   Field g = gradient(p, u0, u1, u2);
@@ -45,11 +50,41 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, 
   if (!(t > 0)) return;
   log_u_ = pool.take(heat.u.rows(), heat.u.cols());
   logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
-  if (heat.level.empty()) return;
-  const double step = std::log(heat.step);
-  for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-    log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+  if (!heat.level.empty()) {
+    const double step = std::log(heat.step);
+    for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
+      log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+    }
   }
+  measure_trust();
+}
+
+/// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
+void UnitField::measure_trust() {
+  const Eigen::Index columns = log_u_.cols();
+  Block high = Block::Constant(mesh_.components.count, columns, -kUnreached);
+  Block low = -high;
+  for (Eigen::Index i = 0; i < log_u_.rows(); ++i) {
+    const Index component = mesh_.components.of[i];
+    for (Eigen::Index c = 0; c < columns; ++c) {  // comparisons that are false where u <= 0
+      if (log_u_(i, c) > high(component, c)) high(component, c) = log_u_(i, c);
+      if (log_u_(i, c) < low(component, c)) low(component, c) = log_u_(i, c);
+    }
+  }
+  std::vector<double> trust(static_cast<std::size_t>(high.size()), 1.0);
+  bool whole = true;
+  for (std::size_t e = 0; e < trust.size(); ++e) {
+    const double fall = high.data()[e] - low.data()[e];
+    if (!(fall * kShort < 1) || fall < 0) continue;  // also: no heat in this component
+    trust[e] = fall > 0 ? std::clamp((kLong - 1 / fall) / (kLong - kShort), 0.0, 1.0) : 0.0;
+    whole = false;
+  }
+  if (!whole) trust_ = std::move(trust);
+}
+
+double UnitField::trust(Index row, Eigen::Index column) const {
+  if (trust_.empty()) return 1;
+  return trust_[static_cast<std::size_t>(mesh_.components.of[row] * log_u_.cols() + column)];
 }
 
 double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index column) const {
@@ -58,7 +93,8 @@ double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index col
       gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
   const double square = g[0] * g[0] + g[1] * g[1];
   if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
-  return field_length(p.base, p.x, p.height, g[0], g[1], root_t_);
+  const double whole = field_length(p.base, p.x, p.height, g[0], g[1], root_t_);
+  return 1 - trust(face[0], column) * (1 - whole);
 }
 
 Field UnitField::of_face(Index f, Eigen::Index column) const {
@@ -82,6 +118,14 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
 }
 
 void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
+  if (!trust_.empty()) {  // rare: face by face
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      for (Eigen::Index c = first; c < first + group; ++c) {
+        add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
+      }
+    }
+    return;
+  }
   struct Context {
     const UnitField* field;
     Eigen::Index first;

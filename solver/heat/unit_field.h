@@ -15,7 +15,9 @@ namespace geotherm {
 /// vectors is shorter than 1, and stretching it to 1 makes distances too long. There sqrt(t) |grad
 /// log u|, which is 1 along a single front and falls to the cosine of the fronts' half angle at the
 /// crease, says how long X is: where it is below kFront of what the mesh resolves, X is shortened
-/// in proportion (t > 0; t = 0 keeps |X| = 1, as published).
+/// in proportion (t > 0; t = 0 keeps |X| = 1, as published). Where the heat has reached everything
+/// and its slope is small everywhere, that says nothing about creases: as sqrt(t) grows from kShort
+/// to kLong of the component's extent, measured by how far log u falls, X goes back to length 1.
 class UnitField {
  public:
   /// `t` in units of the intrinsic mesh squared, or 0. Keeps references. Cost: a logarithm a row.
@@ -34,6 +36,8 @@ class UnitField {
 
  private:
   void add_group(Eigen::Index first, int group, Block& b) const;
+  void measure_trust();
+  double trust(Index row, Eigen::Index column) const;
   double length(const FaceLayout& layout, const Face& face, Eigen::Index column) const;
 
   const OperatorMesh& mesh_;
@@ -41,6 +45,7 @@ class UnitField {
   double root_t_;
   BlockPool& pool_;
   Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
+  std::vector<double> trust_;  ///< how far lengths count, per component and column; empty: wholly
 };
 
 }  // namespace geotherm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/text.h"
+#include "app/shell_command.h"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,13 @@ TEST(TextTables, AlignTheirColumns) {
   table.add_row({"a", "1,000"});
   table.add_row({"\xc3\xa4\xc3\xb6", "2"});  // two characters of two bytes each
   EXPECT_EQ(table.text(), "name     ms\na     1,000\n\xc3\xa4\xc3\xb6        2\n");
+}
+
+TEST(ShellCommand, QuotesWhatAShellWouldTakeApart) {
+  EXPECT_EQ(shell_command("geotherm", {"render", "a b.obj", "it's", "", "-s", "3,9"}),
+            "geotherm render 'a b.obj' 'it'\\''s' '' -s 3,9");
+  EXPECT_EQ(shell_command("g", {"\xc3\xa4.obj"}), "g '\xc3\xa4.obj'");
+  EXPECT_EQ(shell_command("g", {"new\nline", "a\xff\\b"}), "g $'new\\012line' $'a\\377\\\\b'");
 }
 
 TEST(ProgressLines, ShowTheShareThatIsDone) {

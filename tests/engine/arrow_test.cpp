@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/scene/arrow_places.h"
+#include "engine/scene/arrow_selection.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 
@@ -50,9 +50,12 @@ glm::vec3 direction(double degrees) {
 
 class Arrows : public GpuTest {
  protected:
+  static constexpr float kRoomForOne = 120;  ///< pixels; a single face is given one arrow
+
   static Stage stage_with(Model model) {
     Stage stage(device(), std::move(model));
     stage.scene.arrows.primary = stage.scene.arrows.secondary = true;
+    if (stage.model.faces.size() == 1) stage.scene.arrows.spacing = kRoomForOne;
     return stage;
   }
 };
@@ -158,8 +161,9 @@ TEST_P(ArrowDensity, FitsThePictureAtEveryZoom) {
   const std::vector<glm::vec3> field(model.faces.size(), glm::vec3(1, 0, 0));
   ArrowStyle style;
   style.primary = true;
+  const ArrowPlaces places(model.geometry());
   const auto chosen =
-      select_arrows(ArrowPlaces(model.geometry()), camera, style, 1, field, {}).primary;
+      select_arrows({model.geometry(), places}, camera, style, 1, field, {}).primary;
   int seen = 0;
   for (const ArrowInstance& arrow : chosen) {
     const glm::vec3 at = camera.project(arrow.tail + 0.5F * arrow.along);
@@ -179,6 +183,51 @@ TEST_P(ArrowDensity, FitsThePictureAtEveryZoom) {
 INSTANTIATE_TEST_SUITE_P(All, ArrowDensity, testing::Values(0.5F, 1.0F, 1.5F, 2.0F, 3.0F),
                          [](const auto& test) { return std::to_string(test.index); });
 
+class ArrowZoom : public testing::TestWithParam<float> {};
+
+TEST_P(ArrowZoom, FillsLargeFacesWithArrowsOfReadableLength) {
+  const Model model = plane_model(2, 2);
+  Orbit orbit = kFromFront;
+  orbit.zoom = GetParam();
+  const Camera camera = make_camera(orbit, model.positions, kSmallPicture);
+  const std::vector<glm::vec3> field(model.faces.size(), glm::vec3(1, 0, 0));
+  ArrowStyle style;
+  style.primary = true;
+  const ArrowPlaces places(model.geometry());
+  const auto arrows =
+      select_arrows({model.geometry(), places}, camera, style, 1, field, {}).primary;
+  int seen = 0;
+  for (const ArrowInstance& arrow : arrows) {
+    const glm::vec3 at = camera.project(arrow.tail + 0.5F * arrow.along);
+    seen += at.x >= 0 && at.y >= 0 && at.x < kSmallPicture.x && at.y < kSmallPicture.y;
+    EXPECT_LE(glm::length(arrow.along) * camera.pixels_per_unit, 2.1F * style.spacing);
+  }
+  EXPECT_GE(seen, 15);
+  EXPECT_LE(seen, 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ArrowZoom, testing::Values(1.0F, 4.0F, 20.0F, 100.0F),
+                         [](const auto& test) { return std::to_string(test.index); });
+
+TEST(ArrowChoice, LeavesOutTheBacksOfSolids) {
+  const Model model = model_of(sphere(4));
+  const Camera camera = make_camera(kFromFront, model.positions, kSmallPicture);
+  const std::vector<glm::vec3> field(model.faces.size(), glm::vec3(1, 0, 0));
+  ArrowStyle style;
+  style.primary = true;
+  const ArrowPlaces places(model.geometry());
+  for (const bool solid : {false, true}) {
+    SurfaceGeometry geometry = model.geometry();
+    geometry.solid = solid;
+    int behind = 0;
+    for (const auto& arrow :
+         select_arrows({geometry, places}, camera, style, 1, field, {}).primary) {
+      behind += arrow.tail.z < -0.1F;
+    }
+    EXPECT_EQ(behind == 0, solid);
+  }
+}
+
 TEST(ArrowChoice, KeepsItsSpacingNearAndFar) {
   const Model model = plane_model(160, 120);
   const Camera camera = make_camera({.azimuth = 70, .elevation = 0, .field_of_view = 60},
@@ -186,8 +235,9 @@ TEST(ArrowChoice, KeepsItsSpacingNearAndFar) {
   const std::vector<glm::vec3> field(model.faces.size(), glm::vec3(0, 1, 0));
   ArrowStyle style;
   style.primary = true;
+  const ArrowPlaces places(model.geometry());
   const auto arrows =
-      select_arrows(ArrowPlaces(model.geometry()), camera, style, 1, field, {}).primary;
+      select_arrows({model.geometry(), places}, camera, style, 1, field, {}).primary;
   EXPECT_GE(arrows.size(), 100U);
   const auto middle = [](const ArrowInstance& a) { return a.tail + 0.5F * a.along; };
   const auto pixels_per_unit = [&](const glm::vec3& p) {
@@ -220,7 +270,8 @@ TEST(ArrowChoice, KeepsWhatIsThereWhileOneZoomsIn) {
     orbit.zoom = zoom;
     const Camera camera = make_camera(orbit, model.positions, {2000, 1500});
     std::vector<glm::vec3> all;
-    for (const auto& arrow : select_arrows(places, camera, style, 4, field, {}).primary) {
+    for (const auto& arrow :
+         select_arrows({model.geometry(), places}, camera, style, 4, field, {}).primary) {
       all.push_back(arrow.tail + 0.5F * arrow.along);
     }
     return all;

@@ -78,6 +78,27 @@ TEST_P(BoundaryRules, TakeASourceInACorner) {
   EXPECT_FALSE(result.warnings.empty());
 }
 
+// One vertex wide, so that the border is all there is beside the source.
+TEST_P(BoundaryRules, NameTheBorderWhereItCutsTheHeatOff) {
+  const MeshPtr strip = finish(plane_grid(40, 1, 40, 1));
+  const auto result = solve(strip, {7}, under(BoundaryRule::kDirichlet, GetParam()));
+  const auto names_it = [](const std::string& w) {
+    return w.find("77 of 80 faces (96.2 %)") != std::string::npos &&
+           w.find("--boundary neumann") != std::string::npos &&
+           w.find("--time-factor") == std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(result.warnings, names_it), 1);
+}
+
+// Faces between held corners have no gradient of heat, and none to lose.
+TEST_P(BoundaryRules, LoseNoFaceThatLiesWithinTheBorder) {
+  Draft square = jittered_plane(12, 0.2, 3);
+  square.faces.push_back({0, 1, square.add({-0.1, -0.1, 0})});
+  const auto result =
+      solve(finish(square), {grid_vertex(12, 6, 6)}, under(BoundaryRule::kDirichlet, GetParam()));
+  EXPECT_EQ(result.quality.zero_gradient_faces, 0);
+}
+
 TEST_P(BoundaryRules, TakeAWholeBorderOfSources) {
   std::vector<Index> border;
   for (Index i = 0; i < kN; ++i) {

@@ -100,6 +100,68 @@ TEST_P(SmoothMesh, HasPositiveHeatEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Zoo, SmoothMesh, testing::ValuesIn(zoo(kSmooth)), zoo_name);
 
+TEST(MeshAtTheEndOfTheDoubles, IsOneClearErrorWithTheCure) {
+  for (const double size : {3e307, 1.7e308}) {
+    const auto method =
+        HeatMethod::build(finish(transformed(sphere(2), size, Vec3::Zero(), false)));
+    ASSERT_FALSE(method) << size;
+    EXPECT_EQ(method.error().code, ErrorCode::kBadInput);
+    EXPECT_NE(method.error().message.find("scale"), std::string::npos) << method.error().message;
+    EXPECT_NE(method.error().message.find("e+30"), std::string::npos) << method.error().message;
+  }
+}
+
+// Well-shaped triangles whose sizes span eleven decades, about the source: no size is special.
+TEST(GradedDisc, HasDistancesOnItsSmallestTriangles) {
+  constexpr Index kRings = 100, kAround = 24;
+  constexpr double kRelative = 0.05;  // straight sides, and one row of triangles a ring
+  Draft draft;
+  draft.add(Vec3::Zero());
+  for (Index r = 0; r < kRings; ++r) {
+    const double radius = std::pow(1.3, r + 1 - kRings);
+    for (Index s = 0; s < kAround; ++s) {
+      const double angle = 2 * std::numbers::pi * (s + 0.5 * (r % 2)) / kAround;
+      draft.add({radius * std::cos(angle), radius * std::sin(angle), 0});
+    }
+  }
+  for (Index s = 0; s < kAround; ++s) {
+    const Index next = (s + 1) % kAround;
+    draft.faces.push_back({0, 1 + s, 1 + next});
+    for (Index r = 0; r + 1 < kRings; ++r) {
+      const Index a = 1 + r * kAround, b = a + kAround;
+      if (r % 2 == 0) {
+        draft.faces.insert(draft.faces.end(),
+                           {{a + s, b + s, a + next}, {a + next, b + s, b + next}});
+      } else {
+        draft.faces.insert(draft.faces.end(),
+                           {{a + s, b + s, b + next}, {a + s, b + next, a + next}});
+      }
+    }
+  }
+  const auto d = solve(finish(draft), {0}).distances;
+  for (std::size_t v = 1; v < d.size(); ++v) {
+    EXPECT_NEAR(d[v], draft.positions[v].norm(), kRelative * draft.positions[v].norm()) << v;
+  }
+}
+
+TEST(ComponentOfAnotherScale, IsSaid) {
+  const auto warnings = [](double scale, TimeRule rule) {
+    Draft draft = sphere(2);
+    append(draft, transformed(sphere(2), scale, Vec3(5, 0, 0), false));
+    HeatOptions options;
+    options.time_step = {rule, 1, 0.01};
+    return method_of(finish(draft), options).warnings();
+  };
+  EXPECT_TRUE(warnings(1.0 / 3, TimeRule::kMeanEdge).empty());
+  EXPECT_TRUE(warnings(1e-3, TimeRule::kAbsolute).empty());
+  for (const TimeRule rule : {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea}) {
+    const auto said = warnings(1e-3, rule);
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0].find("1 of 2 components"), 0U) << said[0];
+    EXPECT_NE(said[0].find("--time-step absolute"), std::string::npos) << said[0];
+  }
+}
+
 TEST(MeshWithoutArea, IsOneClearError) {
   Draft points, line;
   points.positions.assign(3, Vec3(1, 2, 3));

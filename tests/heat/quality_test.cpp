@@ -36,7 +36,7 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
   EXPECT_LE(q.heat_residual, residual);
   EXPECT_LE(q.poisson_residual, residual);
   EXPECT_EQ(q.zero_gradient_faces, 0);
-  EXPECT_EQ(q.max_source_distance, 0);
+  EXPECT_LE(q.max_source_distance, residual * largest(result.distances));
   EXPECT_GT(q.eikonal_error_mean, 0);
   EXPECT_LE(q.eikonal_error_mean, kSlopeError);
   EXPECT_EQ(q.iterations_heat > 0, iterative);
@@ -80,8 +80,19 @@ class QualityResponds : public testing::Test {
 };
 
 TEST_F(QualityResponds, SourcesOffZeroShowBeforeTheyAreMoved) {
-  EXPECT_GT(with_constraint(ConstraintMode::kPinVertex).quality.max_source_distance, 0);
-  EXPECT_EQ(with_constraint(ConstraintMode::kPinSources).quality.max_source_distance, 0);
+  const DistanceResult shifted = with_constraint(ConstraintMode::kPinVertex);
+  const DistanceResult pinned = with_constraint(ConstraintMode::kPinSources);
+  EXPECT_GT(shifted.quality.max_source_distance, kDirectResidual * largest(shifted.distances));
+  EXPECT_LE(pinned.quality.max_source_distance, kDirectResidual * largest(pinned.distances));
+}
+
+TEST_F(QualityResponds, DistancesBelowZeroAreCountedAndSaid) {
+  const DistanceResult shifted = with_constraint(ConstraintMode::kPinVertex);
+  ASSERT_GT(shifted.quality.clamped_vertices, 0);
+  const std::string count = std::to_string(shifted.quality.clamped_vertices) + " vertices (";
+  ASSERT_EQ(shifted.warnings.size(), 1U);
+  EXPECT_NE(shifted.warnings[0].find(count), std::string::npos) << shifted.warnings[0];
+  EXPECT_NE(shifted.warnings[0].find("pin-sources"), std::string::npos) << shifted.warnings[0];
 }
 
 TEST_F(QualityResponds, ALargeTimeBlursTheSlope) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/core/result.h"
+#include "solver/heat/distance_result.h"
+#include "solver/heat/heat_options.h"
+#include "solver/heat/quality.h"
+
+namespace geotherm {
+
+/// A kNumericalFailure or kBudgetEnded of the heat step with what to do about the diffusion time
+/// added, where that is extreme.
+/// `unit_t`: t in squares of the mean edge.
+Error with_time_cure(Error error, double unit_t);
+
+/// Appends to an answer what a person should know about its quality figures, which must be filled
+/// in. Errors: kNumericalFailure where residuals say
+/// that this is no answer at all.
+Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& faces,
+                   DistanceResult& result);
+
+}  // namespace geotherm
