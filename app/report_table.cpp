@@ -110,7 +110,8 @@ std::string solve_table(const SolveFigures& f) {
                                  " on average, " + counted(q.zero_gradient_faces, "face", "faces") +
                                  " without direction"});
   table.add_row({"residuals", residuals_in_words(q)});
-  if (q.max_source_distance > 0) {
+  constexpr double kRoundOff = 1e-9;
+  if (q.max_source_distance > kRoundOff * f.distance.max) {
     table.add_row({"at sources", "|d| was at most " + significant(q.max_source_distance, 2) +
                                      " before it was set to 0"});
   }

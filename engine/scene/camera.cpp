@@ -103,7 +103,7 @@ struct Placement {
   double pixels_per_unit = 1;
 };
 
-/// Fits a sphere. `tangents`: of the angles that the region's half sides span (perspective).
+/// Fits the sphere of radius 1 about `centre`.
 Placement place_sphere(const dvec3& centre, const Region& region, double pixels_per_tangent,
                        bool orthographic) {
   const double half = std::min(region.half.x, region.half.y);

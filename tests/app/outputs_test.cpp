@@ -65,6 +65,30 @@ TEST(OutputFiles, WithoutPermissionAreRefusedBeforeTheWork) {
   }));
 }
 
+TEST(OutputFiles, ThatFailSayWhatToDo) {
+  Outputs outputs;
+  ASSERT_TRUE(outputs.expect("/dev/full", "-o"));
+  std::string unused;
+  const auto failed = outputs.write_text("/dev/full", "x", unused);
+  ASSERT_FALSE(failed);
+  EXPECT_TRUE(failed.error().message.ends_with("; make room there, or choose another place"))
+      << failed.error().message;
+}
+
+TEST(OutputFiles, ThatWereMadeAreListedWithoutThoseThatWereThere) {
+  const TemporaryDirectory folder;
+  const std::string old = folder.write("old", "before");
+  const std::string made = folder.path("new");
+  Outputs outputs;
+  std::string text;
+  for (const std::string& path : {old, made, std::string("-")}) {
+    ASSERT_TRUE(outputs.expect(path, "-o"));
+    ASSERT_TRUE(outputs.write_text(path, "x", text));
+  }
+  EXPECT_EQ(outputs.made(), std::vector<std::string>{made});
+  EXPECT_EQ(text, "x");
+}
+
 TEST(OutputFiles, MayUseStandardOutputOnce) {
   Outputs outputs;
   EXPECT_FALSE(outputs.uses_stdout());
@@ -78,9 +102,13 @@ TEST(OutputFiles, AreFoundToBeTheModelUnderAnotherName) {
   const std::string model = folder.write("m.ply", "x");
   ASSERT_EQ(::symlink(model.c_str(), folder.path("link.ply").c_str()), 0);
   Outputs outputs;
-  EXPECT_EQ(outputs.expect(folder.path("link.ply"), "-o", model).error().code,
-            ErrorCode::kBadInput);
-  EXPECT_TRUE(outputs.expect(folder.path("other.ply"), "-o", model));
+  outputs.protect("", "nothing");
+  outputs.protect(model, "the model itself");
+  const auto refused = outputs.expect(folder.path("link.ply"), "-o");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(refused.error().message.find("is the model itself; give"), std::string::npos);
+  EXPECT_TRUE(outputs.expect(folder.path("other.ply"), "-o"));
 }
 
 }  // namespace

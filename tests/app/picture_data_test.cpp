@@ -219,6 +219,41 @@ TEST(PictureScaleOf, TheSettingsGoesBeforeThatOfTheData) {
   EXPECT_FALSE(picture_scale(data, settings).bar);
 }
 
+TEST(PictureScaleOf, IsolinesCloserThanPixelsHasNone) {
+  PictureData data;
+  app::add_distances(data, std::vector<double>{0, 4});
+  PictureSettings settings;
+  settings.width = settings.height = 100;
+  settings.line_spacing = 0.05;  // 80 lines
+  EXPECT_EQ(picture_scale(data, settings).spacing, 0.05);
+  settings.line_spacing = 0.03;  // 133
+  EXPECT_EQ(picture_scale(data, settings).spacing, 0);
+  EXPECT_TRUE(picture_scale(data, settings).coloured);
+}
+
+TEST(Solids, AreClosedAndTurnedOutwards) {
+  const auto solid = [](const Draft& draft) {
+    const MeshPtr mesh = finish(draft);
+    return app::is_solid(*mesh, inspect_mesh(*mesh));
+  };
+  Draft ball = sphere(2);
+  EXPECT_TRUE(solid(ball));
+  EXPECT_TRUE(solid(transformed(ball, 1e200, Vec3(1e201, 0, 0), true)));
+  Draft inside_out = ball;
+  for (Face& face : inside_out.faces) std::swap(face[0], face[1]);
+  EXPECT_FALSE(solid(inside_out));
+  Draft mixed = ball;
+  std::swap(mixed.faces[5][0], mixed.faces[5][1]);
+  EXPECT_FALSE(solid(mixed));
+  Draft open = ball;
+  open.faces.pop_back();
+  EXPECT_FALSE(solid(open));
+  EXPECT_FALSE(solid(moebius(20, 3)));
+  Draft two = ball;
+  append(two, transformed(ball, 0.5, Vec3::Zero(), false));
+  EXPECT_FALSE(solid(two));
+}
+
 TEST(PictureScaleOf, AnEndBeyondAllDistancesIsARangeAllTheSame) {
   PictureData data;
   app::add_distances(data, std::vector<double>{0, 4});

@@ -118,6 +118,15 @@ TEST(PictureLegend, OfCountlessIsolinesShowsNone) {
   EXPECT_TRUE(legend_of(settings).lines.empty());
 }
 
+TEST(PictureLegend, SaysWhatTheColoursOfArrowsAre) {
+  PictureSettings settings;
+  EXPECT_TRUE(legend_of(settings).keys.empty());
+  settings.view = app::View::kGradientError;
+  EXPECT_EQ(legend_of(settings).keys.size(), 2U);
+  settings.bar = false;
+  EXPECT_TRUE(legend_of(settings).keys.empty());
+}
+
 TEST(PictureCamera, LeavesAMarginAboutTheModel) {
   const std::vector<glm::vec3> points = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
   const glm::vec2 extent(400, 200);

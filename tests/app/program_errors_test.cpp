@@ -32,6 +32,7 @@ void write_files(const TemporaryDirectory& folder) {
   folder.write("two.obj",
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n");
   folder.write("apart.txt", "0\n4\n");
+  folder.write("apart.png", "0\n4\n");
   folder.write("nothing.txt", "# only a comment\n");
 }
 
@@ -51,6 +52,21 @@ const std::vector<Failure>& failures() {
       {"TwoCommands", {"backends", "models"}, 2, {"models"}},
       {"NoValue", {"solve", "bunny", "-s"}, 2, {"--source"}},
       {"NoSource", {"solve", "bunny"}, 2, {"no source", "-s 17"}},
+      // Empty values.
+      {"EmptyJson", {"solve", "bunny", "-s", "1", "--json", ""}, 2, {"--json: was given an empty"}},
+      {"EmptyOutput", {"solve", "bunny", "-s", "1", "-o", ""}, 2, {"--output: was given an empty"}},
+      {"EmptyCsv", {"compare", "bunny", "--csv", ""}, 2, {"--csv: was given", "leave it out"}},
+      {"EmptyHtml", {"compare", "bunny", "--html", ""}, 2, {"--html: was given an empty value; "}},
+      {"EmptyReference", {"compare", "bunny", "--reference", ""}, 2, {"--reference: was given"}},
+      {"EmptySourceFile", {"solve", "bunny", "-s", "1", "--source-file", ""}, 2, {"--source-file"}},
+      {"EmptyBackend", {"solve", "bunny", "-s", "1", "--backend", ""}, 2, {"--backend: was given"}},
+      {"EmptyThreads", {"solve", "bunny", "-s", "1", "--threads", ""}, 2, {"--threads: was given"}},
+      {"EmptyFactor", {"solve", "bunny", "-s", "1", "-m", ""}, 2, {"--time-factor: was given"}},
+      {"EmptyFit", {"render", "bunny", "-o", "a.png", "--fit", ""}, 2, {"--fit: was given"}},
+      {"EmptyDevice", {"render", "bunny", "-o", "a.png", "--device", ""}, 2, {"--device: was"}},
+      {"EmptyRange", {"render", "bunny", "-o", "a.png", "--range", ""}, 2, {"--range: was given"}},
+      {"EmptyModel", {"solve", "", "-s", "1"}, 2, {"MODEL: was given an empty value; give one"}},
+      {"EmptyList", {"backends", "--json", ""}, 2, {"--json: was given an empty value"}},
       // Values of options.
       {"SourceText", {"solve", "bunny", "-s", "foo"}, 2, {"'foo'", "random:K"}},
       {"SourceNegative", {"solve", "bunny", "-s", "-1"}, 2, {"'-1'"}},
@@ -60,6 +76,10 @@ const std::vector<Failure>& failures() {
       {"SourceFace", {"solve", "bunny", "-s", "face:99999:1:0:0"}, 2, {"face 99999"}},
       {"SourceWeights", {"solve", "bunny", "-s", "face:1:1:1:1"}, 2, {"sum to 3"}},
       {"SourceRandom", {"solve", "bunny", "-s", "random:99999"}, 2, {"99,999"}},
+      {"SourceRandomText", {"solve", "bunny", "-s", "random:x"}, 2, {"'random:x'", "; write"}},
+      {"SourceNumber", {"solve", "bunny", "-s", "xyz:1:2:z"}, 2, {"'z'", "; write one"}},
+      {"PenaltyText", {"solve", "bunny", "-s", "1", "--constraint", "penalty:x"}, 2, {"; write"}},
+      {"TimeStepText", {"solve", "bunny", "-s", "1", "--time-step", "absolute:x"}, 2, {"; write"}},
       {"SourceXyz", {"solve", "bunny", "-s", "xyz:1:2"}, 2, {"xyz:x:y:z"}},
       {"CurveAlone", {"solve", "bunny", "-s", "1", "--curve"}, 2, {"--source-file"}},
       {"Backend", {"solve", "bunny", "-s", "1", "--backend", "magic"}, 2, {"'magic'", "cg"}},
@@ -93,6 +113,22 @@ const std::vector<Failure>& failures() {
        {"solve", "triangle.obj", "-s", "1", "--json", "triangle.obj"},
        2,
        {"model"}},
+      {"OutputIsSourceFile",
+       {"solve", "bunny", "--source-file", "apart.txt", "--json", "./apart.txt"},
+       2,
+       {"--json", "apart.txt is the source file; give another name"}},
+      {"PictureIsSourceFile",
+       {"render", "bunny", "--source-file", "apart.png", "-o", "apart.png"},
+       2,
+       {"--output", "is the source file"}},
+      {"TableIsSourceFile",
+       {"compare", "bunny", "--source-file", "apart.txt", "--csv", "apart.txt"},
+       2,
+       {"--csv", "is the source file"}},
+      {"PageIsSecondModel",
+       {"compare", "bunny", "triangle.obj", "--html", "triangle.obj"},
+       2,
+       {"--html", "is the model itself"}},
       {"NoFolder", {"solve", "bunny", "-s", "1", "-o", "no/d.csv"}, 1, {"no/d.csv", "no folder"}},
       {"FolderIsFile", {"solve", "bunny", "-s", "1", "-o", "plain.txt/d.csv"}, 1, {"no folder"}},
       {"OutputIsFolder", {"solve", "bunny", "-s", "1", "--json", "."}, 1, {"folder"}},
@@ -108,15 +144,24 @@ const std::vector<Failure>& failures() {
        {"/proc/d.json"}},
       {"LateGenerate", {"generate", "bunny", "-o", "/proc/d.ply"}, 1, {"/proc/d.ply"}},
       // Files that cannot be used.
-      {"NoFile", {"solve", "missing.obj", "-s", "1"}, 1, {"missing.obj", "no such file"}},
+      {"NoFile",
+       {"solve", "missing.obj", "-s", "1"},
+       1,
+       {"missing.obj", "no such file; check the path"}},
       {"NoBundled", {"solve", "bunnny", "-s", "1"}, 1, {"bunnny", "terrain"}},
-      {"BrokenFile", {"info", "broken.obj"}, 1, {"broken.obj", "line 4", "7"}},
-      {"EmptyFile", {"info", "empty.obj"}, 1, {"empty.obj", "empty"}},
+      {"BrokenFile",
+       {"info", "broken.obj"},
+       1,
+       {"broken.obj", "line 4", "7", "; choose another file"}},
+      {"EmptyFile", {"info", "empty.obj"}, 1, {"empty.obj", "empty (0 bytes); "}},
       {"UnknownFormat", {"info", "mesh.xyz"}, 1, {".xyz", ".obj"}},
       {"ModelIsFolder", {"info", "."}, 1, {"directory"}},
       {"NoArea", {"solve", "flat.obj", "-s", "0"}, 1, {"flat", "no face with area"}},
       {"CompareNoFile", {"compare", "bunny", "missing.obj"}, 1, {"missing.obj"}},
-      {"SourceFileMissing", {"solve", "bunny", "--source-file", "none.txt"}, 1, {"none.txt"}},
+      {"SourceFileMissing",
+       {"solve", "bunny", "--source-file", "none.txt"},
+       1,
+       {"none.txt", "; check"}},
       {"SourceFileEmpty", {"solve", "bunny", "--source-file", "nothing.txt"}, 1, {"no source"}},
       {"SourceFileFolder", {"solve", "bunny", "--source-file", "."}, 1, {"folder"}},
       {"SourceFileLine", {"solve", "bunny", "--source-file", "bad_sources.txt"}, 1, {"line 4"}},
@@ -161,8 +206,23 @@ TEST(ProgramStreams, AFullStandardOutputIsAnError) {
   }
 }
 
+TEST(ProgramStreams, AFullStandardOutputLeavesNoFile) {
+  const TemporaryDirectory folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"solve", "bunny", "-s", "1", "-o", "a.csv", "--json", "-"},
+        {"solve", "bunny", "-s", "1", "-o", "a.csv"},
+        {"compare", "bunny", "--queries", "1", "--csv", "a.csv"},
+        {"generate", "bunny", "-o", "a.ply"},
+        {"info", "bunny", "--json", "a.json"},
+        {"models", "--json", "a.json"}}) {
+    EXPECT_EQ(run_program(folder.path("."), arguments, Stdout::kFull).code, 1);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{}) << arguments.front();
+  }
+}
+
 TEST(ProgramStreams, AClosedStandardOutputIsAnErrorAndGetsIntoNoFile) {
   const TemporaryDirectory folder;
+  folder.write("d.csv", "old");
   const ProgramRun run =
       run_program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "d.csv"}, Stdout::kClosed);
   EXPECT_EQ(run.code, 1);

@@ -61,6 +61,22 @@ TEST_F(Program, SolveJsonHoldsTheTimeStepToRoundOff) {
   const Json given =
       json({"solve", "bunny", "-s", "1", "--time-step", "absolute:0.01", "--json", "-"});
   EXPECT_EQ(given["options"]["t"], 0.01);
+  EXPECT_TRUE(given["options"]["time_factor"].is_null());
+  EXPECT_EQ(given["warnings"], Json::array());
+}
+
+TEST_F(Program, SaysThatATimeFactorBesideAnAbsoluteTimeIsNotUsed) {
+  const std::vector<std::string> options = {"--time-step", "absolute:0.01", "-m", "3"};
+  const auto with = [&options](std::vector<std::string> words) {
+    words.insert(words.end(), options.begin(), options.end());
+    return words;
+  };
+  const ProgramRun solved = run(with({"solve", "bunny", "-s", "1", "--json", "-"}));
+  EXPECT_NE(solved.err.find("geotherm: warning: --time-factor 3 is not used"), std::string::npos)
+      << solved.err;
+  EXPECT_EQ(Json::parse(solved.out)["warnings"].size(), 1U);
+  const ProgramRun compared = run(with({"compare", "bunny", "--queries", "1"}));
+  EXPECT_NE(compared.err.find("--time-factor 3 is not used"), std::string::npos) << compared.err;
 }
 
 TEST_F(Program, SolveWritesEveryFormatAndNothingElse) {
@@ -195,6 +211,23 @@ TEST_F(Program, ListsNameOneThingALine) {
             bundled_models().size());
   for (const BundledModel& model : bundled_models()) {
     EXPECT_NE(models.find(std::string(model.name) + " "), std::string::npos);
+  }
+}
+
+TEST_F(Program, ListsAreTheSameAsJson) {
+  const Json backends = json({"backends", "--json", "-"})["backends"];
+  ASSERT_EQ(backends.size(), backend_names().size());
+  for (std::size_t i = 0; i < backends.size(); ++i) {
+    EXPECT_EQ(backends[i]["name"], backend_names()[i]);
+    EXPECT_EQ(backends[i]["default"], i == 0);
+    EXPECT_NE(backends[i]["description"], "");
+  }
+  run({"models", "--json", "m.json"});
+  const Json models = Json::parse(bytes_of(folder.path("m.json")))["models"];
+  ASSERT_EQ(models.size(), bundled_models().size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    EXPECT_EQ(models[i]["name"], bundled_models()[i].name);
+    EXPECT_EQ(models[i]["faces"], bundled_models()[i].faces);
   }
 }
 

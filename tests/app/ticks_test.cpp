@@ -47,6 +47,14 @@ TEST(RoundSpacing, OfNoRangeIsANumberAllTheSame) {
   }
 }
 
+TEST(Ticks, AreRoundAndOnIsolinesWhereTheyCanBeBoth) {
+  for (const double spacing : {0.1, 0.2, 0.25, 0.5}) {
+    const double step = make_ticks(0, 25 * spacing, 7, spacing).step;
+    EXPECT_EQ(step, nearest_round_number(step)) << spacing;
+    EXPECT_NEAR(step / spacing, std::round(step / spacing), 1e-9) << spacing;
+  }
+}
+
 TEST(TickLabels, HaveTheSameNumberOfDecimalsAndAPlainZero) {
   EXPECT_EQ(make_ticks(0, 1.6, 5).labels, (Labels{"0", "0.5", "1.0", "1.5"}));
   EXPECT_EQ(make_ticks(0, 10, 6).labels, (Labels{"0", "2", "4", "6", "8", "10"}));

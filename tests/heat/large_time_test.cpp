@@ -106,5 +106,15 @@ INSTANTIATE_TEST_SUITE_P(Backends, ExtremeTimes,
                                   std::to_string(std::lround(std::abs(power)));
                          });
 
+TEST(AbsoluteTimes, ThatVanishBesideAnEdgeAreRefusedWithBothNumbers) {
+  HeatOptions options;
+  options.time_step = {TimeRule::kAbsolute, 1, 0.01};
+  const auto method =
+      HeatMethod::build(finish(transformed(sphere(2), 1e200, Vec3::Zero(), false)), options);
+  ASSERT_FALSE(method);
+  EXPECT_EQ(method.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(method.error().message.find("e+199"), std::string::npos) << method.error().message;
+}
+
 }  // namespace
 }  // namespace geotherm::test

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "app/compare_run.h"
+#include "solver/heat/heat_method.h"
+#include "solver/mesh/generate.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::app;
+
+/// How the work in a process with little memory ended.
+enum Ending { kDone, kRefused, kThrown, kWithoutCure, kOther };
+
+/// Leaves this process `megabytes` more than it has.
+void limit_memory(std::size_t megabytes) {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + (megabytes << 20);
+  const rlimit limit{most, most};
+  ::setrlimit(RLIMIT_AS, &limit);
+}
+
+/// `work`, which returns an Ending, in a process of its own that has `megabytes` for it.
+template <class Work>
+Ending with_memory(std::size_t megabytes, const Work& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    limit_memory(megabytes);
+    Ending ending = kOther;
+    try {
+      ending = work();
+    } catch (...) {
+      ending = kThrown;
+    }
+    ::_exit(ending);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? static_cast<Ending>(WEXITSTATUS(status)) : kOther;
+}
+
+Ending ending_of(ErrorCode code, const std::string& message) {
+  if (code != ErrorCode::kOutOfMemory) return kOther;
+  return message.find("; ") == std::string::npos ? kWithoutCure : kRefused;
+}
+
+/// Not cholmod: the BLAS that it works with waits for memory for ever instead of failing.
+class LittleMemory : public testing::TestWithParam<std::string> {
+ protected:
+  /// Tries `work` with ever more memory; it must be refused at first, and done at last.
+  template <class Work>
+  void expect_refusals_then_done(const Work& work) {
+    constexpr std::size_t kStep = 2, kMost = 200;
+    int refused = 0;
+    for (std::size_t megabytes = 1; megabytes < kMost; megabytes += kStep) {
+      const Ending ending = with_memory(megabytes, work);
+      ASSERT_TRUE(ending == kDone || ending == kRefused)
+          << "ending " << ending << " with " << megabytes << " MB";
+      refused += ending == kRefused;
+      if (ending == kDone) break;
+    }
+    EXPECT_GT(refused, 0);
+  }
+
+  Model model{"terrain",
+              "",
+              std::make_shared<const TriangleMesh>(*generate_model("terrain", 20000)),
+              0,
+              {}};
+};
+
+TEST_P(LittleMemory, IsAnErrorOfTheLibraryWithACure) {
+  HeatOptions options;
+  options.backend = GetParam();
+  options.threads = 1;
+  expect_refusals_then_done([&] {
+    const auto method = HeatMethod::build(model.mesh, options);
+    if (!method) return ending_of(method.error().code, method.error().message);
+    const auto result = method->solve(SourceSet::of_vertices({1}));
+    if (!result) return ending_of(result.error().code, result.error().message);
+    HeatOptions other = options;
+    other.time_step.factor = 2;
+    const auto changed = method->with(other);
+    return changed ? kDone : ending_of(changed.error().code, changed.error().message);
+  });
+}
+
+TEST_P(LittleMemory, IsARowOfTheComparison) {
+  CompareTask task;
+  task.options.threads = 1;
+  task.backends = {GetParam()};
+  task.reference = GetParam();
+  task.queries = {SourceSet::of_vertices({1})};
+  task.batch = {SourceSet::of_vertices({2})};
+  expect_refusals_then_done([&] {
+    const auto rows = compare_backends(model, task);
+    if (!rows || rows->size() != 1) return kOther;
+    const CompareRow& row = rows->front();
+    if (row.status == "ok") return kDone;
+    if (row.status != "out of memory") return kOther;
+    return ending_of(ErrorCode::kOutOfMemory, row.message);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LittleMemory, testing::Values("eigen-ldlt", "cg"),
+                         [](const auto& test) {
+                           return test.param == "cg" ? test.param : std::string("eigen");
+                         });
+
+}  // namespace
+}  // namespace geotherm::test
