@@ -72,15 +72,18 @@ double count_of(double min, double max, double step) {
   return std::floor(max / step + kSlack) - std::ceil(min / step - kSlack) + 1;
 }
 
-/// The smallest round multiple of the spacing with at most `most` ticks.
+/// The smallest multiple of the spacing with at most `most` ticks, round where the spacing is.
 double multiple_of(double spacing, double min, double max, int most) {
+  const auto is_round = [](double x) {
+    return std::abs(nearest_round_number(x) - x) <= kSlack * x;
+  };
   double ten = 1;
   for (int power = 0; power < 4; ++power, ten *= 10) {
     for (const double digit : {1.0, 2.0, 4.0, 5.0}) {
       const double step = digit * ten * spacing;
-      const double round = nearest_round_number(step);
-      if (std::abs(round - step) > kSlack * step) continue;
-      if (count_of(min, max, step) <= most) return round;
+      if (is_round(spacing) && !is_round(step)) continue;
+      if (count_of(min, max, step) <= most)
+        return is_round(step) ? nearest_round_number(step) : step;
     }
   }
   return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
+#include "solver/core/number_text.h"
 #include "solver/mesh/io/read_failure.h"
 #include "solver/mesh/io/readers.h"
 #include "solver/mesh/io/text_scanner.h"
@@ -77,8 +78,8 @@ RawMesh read_off(std::string_view text) {
     scanner.skip_line();  // a colour
   }
   if (skipped > 0) {
-    mesh.notes.push_back(std::to_string(skipped) +
-                         " faces with fewer than 3 corners were left out");
+    mesh.notes.push_back(counted_text(skipped, "face", "faces") + " with fewer than 3 corners " +
+                         (skipped == 1 ? "was" : "were") + " left out");
   }
   if (!scanner.at_end()) {
     mesh.notes.emplace_back("what follows the last face in the file was ignored");

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/core/number_text.h"
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/ply_header.h"
 #include "solver/mesh/io/read_failure.h"
@@ -196,8 +197,8 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
     fan.end(mesh.polygons);
   }
   if (skipped > 0) {
-    mesh.notes.push_back(std::to_string(skipped) +
-                         " faces with fewer than 3 corners were left out");
+    mesh.notes.push_back(counted_text(skipped, "face", "faces") + " with fewer than 3 corners " +
+                         (skipped == 1 ? "was" : "were") + " left out");
   }
 }
 
@@ -240,7 +241,8 @@ RawMesh read_body(std::string_view bytes, const PlyHeader& header) {
     }
   }
   if (const std::size_t left = body.bytes_left(); left > 0) {
-    mesh.notes.push_back(std::to_string(left) + " bytes behind the last element were ignored");
+    mesh.notes.push_back(counted_text(left, "byte", "bytes") + " behind the last element " +
+                         (left == 1 ? "was" : "were") + " ignored");
   }
   return mesh;
 }

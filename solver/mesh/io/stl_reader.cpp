@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "solver/core/number_text.h"
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/read_failure.h"
 #include "solver/mesh/io/readers.h"
@@ -91,8 +92,9 @@ RawMesh read_binary(std::string_view bytes, std::size_t face_count) {
   finish(mesh, welder);
   const std::size_t used = kHeaderBytes + kFaceBytes * face_count;
   if (bytes.size() > used) {
-    mesh.notes.push_back(std::to_string(bytes.size() - used) +
-                         " bytes behind the last triangle were ignored");
+    const std::size_t left = bytes.size() - used;
+    mesh.notes.push_back(counted_text(left, "byte", "bytes") + " behind the last triangle " +
+                         (left == 1 ? "was" : "were") + " ignored");
   }
   return mesh;
 }
