@@ -28,11 +28,14 @@ std::vector<Index> number_used(Index vertex_count, const std::vector<Face>& face
 void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
                    std::vector<std::string>& warnings) {
   if (clean.repeated_corner > 0) {
-    warnings.push_back(std::to_string(clean.repeated_corner) +
-                       " faces repeat a corner and were left out");
+    warnings.push_back(counted_text(static_cast<std::size_t>(clean.repeated_corner),
+                                    "face repeats a corner and was left out",
+                                    "faces repeat a corner and were left out"));
   }
   if (clean.duplicate > 0) {
-    warnings.push_back(std::to_string(clean.duplicate) + " duplicate faces were left out");
+    warnings.push_back(counted_text(static_cast<std::size_t>(clean.duplicate),
+                                    "duplicate face was left out",
+                                    "duplicate faces were left out"));
   }
   if (intrinsic.mollified_by > 0) {
     warnings.push_back("degenerate or nearly degenerate faces: every edge was lengthened by " +
