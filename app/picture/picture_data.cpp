@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_data.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -96,14 +95,12 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
     return false;
   }
   const SceneSpace scene(mesh);
-  double volume = 0;  // times six
+  double volume = 0;  // times six: the determinant of each face's corners
   for (const Face& face : mesh.faces()) {
-    std::array<Vec3, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [x, y, z] = scene.of(mesh.positions()[face[k]]);
-      p[k] = Vec3(x, y, z);
-    }
-    volume += p[0].dot(p[1].cross(p[2]));
+    const auto [ax, ay, az] = scene.of(mesh.positions()[face[0]]);
+    const auto [bx, by, bz] = scene.of(mesh.positions()[face[1]]);
+    const auto [cx, cy, cz] = scene.of(mesh.positions()[face[2]]);
+    volume += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
   }
   return volume > 0;
 }
