@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/main_drawing/picture_scene.h"
+#include "app/main_drawing/upload_picture.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"
 #include "engine/offscreen_target.h"
@@ -25,14 +26,8 @@ int runs_for(Index triangles) { return triangles < 500'000 ? 25 : 7; }
 /// A solved model and its picture's scene, without legend.
 struct Stage {
   PictureData data;
-  std::vector<glm::vec3> positions, heat, gradients;
+  std::vector<glm::vec3> positions;
 };
-
-std::vector<glm::vec3> vectors(const std::vector<PictureData::Vector>& all) {
-  std::vector<glm::vec3> out;
-  for (const auto& [x, y, z] : all) out.emplace_back(x, y, z);
-  return out;
-}
 
 Result<Stage> make_stage(Index triangles) {
   auto made = make_mesh("gargoyle", triangles);
@@ -48,21 +43,8 @@ Result<Stage> make_stage(Index triangles) {
   add_sources(stage.data, *mesh, source);
   add_distances(stage.data, result->distances);
   add_fields(stage.data, *mesh, *result);
-  stage.positions = vectors(stage.data.positions);
-  stage.heat = vectors(stage.data.heat_directions);
-  stage.gradients = vectors(stage.data.distance_gradients);
+  stage.positions = scene_vectors(stage.data.positions);
   return stage;
-}
-
-Result<void> upload(engine::Renderer& renderer, const Stage& stage) {
-  if (auto done = renderer.set_surface({stage.positions, stage.data.faces}); !done) return done;
-  if (auto done = renderer.set_values(stage.data.values); !done) return done;
-  if (auto done = renderer.set_arrows(stage.heat, stage.gradients); !done) return done;
-  std::vector<engine::Marker> markers;
-  for (const auto& [from, to] : stage.data.sources) {
-    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
-  }
-  return renderer.set_markers(markers);
 }
 
 /// Something that is timed: a view, or the replacement of the distances.
@@ -107,7 +89,7 @@ Result<void> measure_stage(RenderBench& bench, const engine::Device& device, con
                            Index triangles, int samples) {
   auto renderer = engine::Renderer::build(device, samples);
   if (!renderer) return renderer.error();
-  if (auto done = upload(*renderer, stage); !done) return done;
+  if (auto done = upload_picture(*renderer, stage.data, {}, stage.positions); !done) return done;
   auto target = engine::OffscreenTarget::build(device, kSize);
   if (!target) return target.error();
   std::vector<Task> tasks = make_tasks(stage, triangles, samples);

@@ -13,8 +13,7 @@ namespace geotherm::engine {
 struct DeviceOptions {
   std::string name;         ///< part of the device's name, in any case; empty: the best one
   bool validation = false;  ///< Khronos validation with synchronization validation
-  bool staging =
-      false;  ///< write through staging copies, as on a GPU whose memory the host cannot see
+  bool staging = false;     ///< write through copies, as where the host cannot see device memory
   std::uint64_t memory_limit = 0;  ///< bytes of device memory that may be used; 0: what there is
 };
 

@@ -4,6 +4,7 @@
 
 #include "app/main_drawing/make_drawing.h"
 #include "app/main_drawing/picture_scene.h"
+#include "app/main_drawing/upload_picture.h"
 #include "app/picture/turntable.h"
 #include "engine/device.h"
 #include "engine/picture.h"
@@ -24,35 +25,6 @@ DrawingDevice in_our_words(const engine::DeviceInfo& info) {
   device.chosen = info.chosen;
   device.lacks = info.lacks;
   return device;
-}
-
-std::vector<glm::vec3> vectors(const std::vector<PictureData::Vector>& all) {
-  std::vector<glm::vec3> out;
-  out.reserve(all.size());
-  for (const auto& [x, y, z] : all) out.emplace_back(x, y, z);
-  return out;
-}
-
-Result<void> upload(engine::Renderer& renderer, const PictureData& data,
-                    const PictureSettings& settings, std::span<const glm::vec3> positions) {
-  if (auto done = renderer.set_surface({positions, data.faces, data.solid}); !done) return done;
-  if (!data.values.empty()) {
-    if (auto done = renderer.set_values(data.values); !done) return done;
-  }
-  if (const engine::ColourMap* map = engine::find_colour_map(settings.colour_map)) {
-    const engine::ColourTable table = engine::colour_table(*map, settings.reverse);
-    if (auto done = renderer.set_colours(table); !done) return done;
-  }
-  if (!data.heat_directions.empty()) {
-    const auto done =
-        renderer.set_arrows(vectors(data.heat_directions), vectors(data.distance_gradients));
-    if (!done) return done;
-  }
-  std::vector<engine::Marker> markers;
-  for (const auto& [from, to] : data.sources) {
-    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
-  }
-  return renderer.set_markers(markers);
 }
 
 class EngineDrawing final : public Drawing {
@@ -87,8 +59,8 @@ class EngineDrawing final : public Drawing {
   Result<void> draw(const PictureData& data, const PictureSettings& settings,
                     const TakeFrame& frame) override {
     if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
-    const std::vector<glm::vec3> positions = vectors(data.positions);
-    if (auto done = upload(*renderer_, data, settings, positions); !done) return done;
+    const std::vector<glm::vec3> positions = scene_vectors(data.positions);
+    if (auto done = upload_picture(*renderer_, data, settings, positions); !done) return done;
     const PictureScale scale = picture_scale(data, settings);
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
