@@ -10,11 +10,15 @@
 
 namespace geotherm::engine {
 
+class Window;
+
 struct DeviceOptions {
   std::string name;         ///< part of the device's name, in any case; empty: the best one
   bool validation = false;  ///< Khronos validation with synchronization validation
   bool staging = false;     ///< write through copies, as where the host cannot see device memory
   std::uint64_t memory_limit = 0;  ///< bytes of device memory that may be used; 0: what there is
+  /// Chooses among the devices that can show pictures in this window; outlives what is drawn to it.
+  const Window* window = nullptr;
 };
 
 /// A device of this machine, as `geotherm devices` lists it.

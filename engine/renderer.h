@@ -6,6 +6,7 @@
 
 #include "engine/device.h"
 #include "engine/overlay/overlay.h"
+#include "engine/overlay/panel_draw.h"
 #include "engine/scene/colour_map.h"
 #include "engine/scene/scene.h"
 #include "engine/target.h"
@@ -35,9 +36,17 @@ class Renderer {
   Result<void> set_arrows(std::span<const glm::vec3> primary, std::span<const glm::vec3> secondary);
   Result<void> set_markers(std::span<const Marker> markers);
 
-  Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {});
+  /// The letters of all panels drawn from now on.
+  Result<void> set_panel_font(const PanelFont& font);
+
+  /// `panels` lie over scene and overlay, in pixels of the target whatever part of the picture it
+  /// shows. Precondition: set_panel_font() where there are panels.
+  Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {},
+                      const PanelDraw* panels = nullptr);
 
   int samples() const;
+  /// 1 or 4, from the next frame on; pipelines and attachments of both are kept once made.
+  void set_samples(int samples);
 
  private:
   struct State;

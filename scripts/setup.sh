@@ -10,7 +10,8 @@ usage: scripts/setup.sh [--dev] [--lint]
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
 
-  --dev    also what the tests use: ccache, clang-format, Vulkan's validation layer
+  --dev    also what the tests use: ccache, clang-format, Vulkan's validation layer, a display
+           without a screen (Xvfb) and a hand for it (xdotool)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
 TEXT
 }
@@ -20,10 +21,11 @@ packages=(g++ cmake ninja-build
   libcli11-dev nlohmann-json3-dev libpng-dev        # the program
   libvulkan-dev libglm-dev libstb-dev fonts-dejavu-core glslang-tools spirv-tools  # the renderer
   libvulkan1 mesa-vulkan-drivers                    # drawing, without a GPU as well
+  libglfw3-dev libimgui-dev                         # the viewer
   libgtest-dev libtinyobjloader-dev)                # tests, benchmark
 for argument in "$@"; do
   case $argument in
-    --dev) packages+=(ccache clang-format vulkan-validationlayers) ;;
+    --dev) packages+=(ccache clang-format vulkan-validationlayers xvfb xauth xdotool) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && exit 2 ;;

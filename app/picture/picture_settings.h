@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,8 @@ struct CameraSettings {
   double pan_right = 0, pan_up = 0;  ///< in picture heights
   bool orthographic = false;
   PictureFit fit = PictureFit::kTight;
+  /// Model units; what is in the middle with PictureFit::kSphere. Absent: the middle of the model.
+  std::optional<std::array<double, 3>> centre;
 
   bool operator==(const CameraSettings&) const = default;
 };

@@ -25,6 +25,7 @@ struct Orbit {
   bool orthographic = false;
   float field_of_view = 30;  ///< degrees, vertical; perspective only
   Fit fit = Fit::kTight;
+  glm::vec3 centre{0};  ///< kSphere: what lies in the middle; the sphere of radius 1 is about it
 };
 
 /// Matrices of a view. Clip space is Vulkan's: x right, y down, depth 1 at the near plane and 0 at

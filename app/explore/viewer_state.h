@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/picture_settings.h"
+#include "solver/heat/heat_options.h"
+
+namespace geotherm::app {
+
+/// Which distances are shown when some settings are kept as B.
+enum class Shown {
+  kA,           ///< the present settings
+  kB,           ///< the kept ones
+  kDifference,  ///< d_A - d_B
+};
+
+/// All that decides what the program shows; a plain value. What commands change and session files
+/// hold. Answers, panels and windows are not part of it.
+struct ViewerState {
+  std::string model;                 ///< a path or a bundled name; empty: none is open
+  std::vector<std::string> sources;  ///< text forms (source_spec.h), canonical; one set
+  HeatOptions heat;                  ///< A
+  std::optional<HeatOptions> kept;   ///< B
+  Shown shown = Shown::kA;           ///< kA unless `kept`
+  PictureSettings picture;           ///< width and height: of saved pictures
+  std::optional<std::string> picked;  ///< the point whose figures are shown: face:ID:b0:b1:b2
+  bool rotating = false;
+
+  bool operator==(const ViewerState&) const = default;
+};
+
+/// The state that the viewer starts with: nothing open, the camera the same size from everywhere.
+ViewerState initial_state();
+
+}  // namespace geotherm::app

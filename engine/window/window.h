@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/target.h"
+#include "solver/core/result.h"
+
+namespace geotherm::engine {
+
+struct WindowOptions {
+  std::string title = "geotherm";
+  glm::ivec2 size{1280, 800};
+};
+
+/// A window of the desktop. For the main thread; at most one at a time. Keys, mouse and clipboard
+/// reach Dear ImGui's context (connect_panels); what ImGui does not know comes from here.
+class Window {
+ public:
+  /// Errors: kNoDevice (no display, no Vulkan for windows; with the system's reason).
+  static Result<std::unique_ptr<Window>> open(const WindowOptions& options = {});
+  ~Window();
+
+  /// Connects the window to the current ImGui context (its GLFW back end), until it closes.
+  void connect_panels();
+  /// Sizes, time and mouse for the next ImGui frame.
+  void begin_panels();
+
+  /// Takes in what has happened; waits for it first, for `seconds` at most (negative: without end;
+  /// 0: not at all). False when nothing happened but the time ran out.
+  bool wait(double seconds);
+  /// Ends a wait(), from any thread.
+  static void wake();
+
+  glm::ivec2 pixels() const;      ///< to draw into; 0 when minimised
+  glm::vec2 content_scale() const;  ///< of the monitor: 2 on a HiDPI one
+  bool wants_close() const;
+  std::vector<std::string> take_dropped_files();
+  void set_title(const std::string& title);
+
+  struct State;
+  State& state() const { return *state_; }
+
+ private:
+  explicit Window(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace geotherm::engine

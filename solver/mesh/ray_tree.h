@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/mesh/surface_point.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// Where a ray first meets the surface.
+struct RayHit {
+  SurfacePoint point;   ///< weights in a face, never a bare vertex
+  double distance = 0;  ///< along the ray, in lengths of its direction
+};
+
+/// Answers which face a ray meets first: a tree of boxes over the faces (surface area heuristic
+/// over binned centres: Wald 2007). Immutable; keeps the mesh alive.
+class RayTree {
+ public:
+  /// Cost: O(F log F); 56 bytes a face at most. Errors: kCancelled, kOutOfMemory.
+  static Result<RayTree> build(std::shared_ptr<const TriangleMesh> mesh,
+                               const Progress& progress = {});
+
+  /// The nearest face in front of `origin` along `direction` (any length above 0, finite; model
+  /// units), seen from either side; of faces without area none. Nothing where the ray misses.
+  /// Watertight: a ray between two faces that share an edge meets one of them. Cost: O(log F) on
+  /// ordinary meshes. Source: Woop, Benthin, Wald 2013.
+  std::optional<RayHit> first_hit(const Vec3& origin, const Vec3& direction) const;
+
+ private:
+  struct State;
+  explicit RayTree(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+  std::shared_ptr<const State> state_;
+};
+
+}  // namespace geotherm

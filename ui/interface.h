@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/explore/session.h"
+#include "ui/layout.h"
+
+// The panels and the key map. Reads the session, sends commands, owns nothing but how panels lie.
+// Everything comes from the current ImGui context, so that tests can play mouse and keys.
+namespace geotherm::ui {
+
+/// Pixels from the top left corner of the window, as ImGui counts them.
+struct Rect {
+  float x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The picture behind the panels.
+class Canvas {
+ public:
+  virtual ~Canvas() = default;
+  /// The surface under a pixel of the window.
+  virtual std::optional<SurfacePoint> surface_at(float x, float y) const = 0;
+  /// Where a point (model units) is seen, pixels of the window; nothing behind the eye.
+  virtual std::optional<std::array<float, 2>> place_of(const Vec3& point) const = 0;
+  /// What zooming scales about, pixels of the window.
+  virtual std::array<float, 2> lens_centre() const = 0;
+  virtual double fps() const = 0;  ///< of the frames drawn of late
+  virtual std::vector<std::string> colour_maps() const = 0;
+  virtual std::string device() const = 0;  ///< in words, with "in software" where it is so
+};
+
+/// What a frame of the panels asks for.
+struct FrameOutput {
+  std::vector<app::Command> commands;
+  bool dragging = false;  ///< the mouse moves camera or sources: draw fast
+  bool animating = false;  ///< the next frame is to follow at once
+};
+
+class Interface {
+ public:
+  /// `font`: bytes of a TrueType file that outlive this; `scale`: of everything, 2 on HiDPI.
+  /// Precondition: an ImGui context is current. Loads the font and sets the style.
+  Interface(Layout layout, std::span<const std::byte> font, float scale);
+  ~Interface();
+
+  /// Another scale of letters and panels: ImGui's font image is made anew.
+  void set_scale(float scale);
+  float scale() const;
+
+  /// All panels and what mouse and keys ask for, between ImGui::NewFrame and ImGui::Render.
+  FrameOutput draw(const app::Session& session, const Canvas& canvas);
+
+  /// Where the panels leave room for the picture, as of the last draw().
+  Rect canvas() const;
+  /// Files that were dropped on the window: the first is opened.
+  void drop(const std::vector<std::string>& files);
+  /// The user asked to close the window.
+  void ask_to_quit();
+  /// How panels lie now, to be remembered.
+  const Layout& layout() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace geotherm::ui
