@@ -19,6 +19,7 @@
 #include "app/cmd_lists.h"
 #include "app/cmd_render.h"
 #include "app/cmd_solve.h"
+#include "app/cmd_view.h"
 #include "app/load_model.h"
 #include "app/progress_bar.h"
 #include "app/shell_command.h"
@@ -27,9 +28,9 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::array kCommands = {"solve",    "info",     "compare", "render",
+constexpr std::array kCommands = {"view",     "solve",    "info",    "compare", "render",
                                   "generate", "backends", "devices", "models"};
-constexpr std::array kCommandsToCome = {"view", "path", "study", "isolines", "sample"};
+constexpr std::array kCommandsToCome = {"path", "study", "isolines", "sample"};
 
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
@@ -64,23 +65,31 @@ int run_with_bar(const Arguments& arguments, Run&& run) {
   return finish(result);
 }
 
+bool is_in(const auto& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+/// `geotherm MODEL` is `geotherm view MODEL`.
+bool is_model(const std::string& word) {
+  std::error_code unknown;
+  const std::filesystem::path path(word);
+  return is_bundled(word) || path.has_extension() || std::filesystem::exists(path, unknown);
+}
+
 /// What is wrong with a first word that is no command; empty when it is one or an option.
 std::string first_word_problem(const std::vector<std::string>& arguments) {
   const std::string there_are = "there are " + joined(kCommands);
-  if (arguments.empty()) return "no command was given; " + there_are + "; see geotherm --help";
-  const std::string& word = arguments.front();
-  const auto in = [&word](const auto& list) {
-    return std::find(list.begin(), list.end(), word) != list.end();
-  };
-  if (word.starts_with('-') || in(kCommands)) return {};
-  if (in(kCommandsToCome)) return "this version has no command '" + word + "'; " + there_are;
-  std::error_code unknown;
-  const std::filesystem::path path(word);
-  if (is_bundled(word) || path.has_extension() || std::filesystem::exists(path, unknown)) {
-    return "this version has no viewer to open " + word + " with; " + there_are +
-           "; try geotherm solve " + word + " -s 0";
+  if (arguments.empty()) {
+    return "no command and no model was given; name a model to look at, such as bunny, or a "
+           "command: " +
+           there_are + "; see geotherm --help";
   }
-  return "there is no command '" + word + "'; " + there_are;
+  const std::string& word = arguments.front();
+  if (word.starts_with('-') || is_in(kCommands, word)) return {};
+  if (is_in(kCommandsToCome, word)) {
+    return "this version has no command '" + word + "'; " + there_are;
+  }
+  return "there is no command and no model '" + word + "'; " + there_are;
 }
 
 /// CLI11 leaves long descriptions on one line.
@@ -103,11 +112,10 @@ std::string empty_value_problem(const CLI::App& command) {
 }
 
 /// CLI11 describes what is wrong; the cure is the help of the command.
-int fail_to_parse(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+int fail_to_parse(const CLI::ParseError& error, const std::string& first) {
   std::string what = error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
   std::replace(what.begin(), what.end(), '\n', ' ');
-  const std::string& first = arguments.front();
   const std::string command = first.starts_with('-') ? "" : first + " ";
   return fail(2, what + "; see geotherm " + command + "--help");
 }
@@ -118,7 +126,13 @@ int exit_code(ErrorCode code) {
   return code == ErrorCode::kBadInput || code == ErrorCode::kNotAvailable ? 2 : 1;
 }
 
-int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
+int run_command_line(std::vector<std::string> arguments, Drawing& drawing, ViewerWindow& window) {
+  const std::vector<std::string> words = arguments;
+  if (!arguments.empty() && !arguments.front().starts_with('-') &&
+      !is_in(kCommands, arguments.front()) && !is_in(kCommandsToCome, arguments.front()) &&
+      is_model(arguments.front())) {
+    arguments.insert(arguments.begin(), "view");
+  }
   if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
     return fail(2, problem);
   }
@@ -126,9 +140,10 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   root.set_version_flag("--version", "geotherm " GEOTHERM_VERSION);
   root.require_subcommand(0, 1);
   root.footer(
-      "Example:\n  geotherm solve bunny -s 17 -o distances.ply\n"
+      "Examples:\n  geotherm bunny\n  geotherm solve bunny -s 17 -o distances.ply\n"
       "geotherm COMMAND --help says more about each.");
 
+  ViewArguments view;
   SolveArguments solve;
   InfoArguments info;
   CompareArguments compare;
@@ -136,6 +151,8 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   GenerateArguments generate;
   DevicesArguments devices;
   ListArguments backends, models;
+  CLI::App* const view_app =
+      root.add_subcommand("view", "A window to explore a model in; geotherm MODEL does the same.");
   CLI::App* const solve_app =
       root.add_subcommand("solve", "Distance from a source set to every vertex.");
   CLI::App* const info_app =
@@ -150,6 +167,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   CLI::App* const devices_app =
       root.add_subcommand("devices", "What can draw on this machine, the default marked.");
   CLI::App* const models_app = root.add_subcommand("models", "The bundled models.");
+  add_view_options(*view_app, view);
   add_solve_options(*solve_app, solve);
   add_info_options(*info_app, info);
   add_compare_options(*compare_app, compare);
@@ -161,8 +179,8 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
 
   for (CLI::App* command : root.get_subcommands({})) wrap_descriptions(*command);
 
-  const std::vector<std::string> words = arguments;
-  render.command = shell_command("geotherm", words);
+  const std::string first = arguments.front();
+  render.command = view.command = shell_command("geotherm", words);
   const bool has_empty_word = std::find(words.begin(), words.end(), "") != words.end();
   if (!has_empty_word) complete_bare_fit(arguments);
   try {
@@ -173,12 +191,17 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing) {
   } catch (const CLI::CallForVersion& version) {
     return print({std::string(version.what()) + "\n", {}, {}});
   } catch (const CLI::ParseError& error) {
-    return fail_to_parse(error, words);
+    return fail_to_parse(error, first);
   }
   for (const CLI::App* command : root.get_subcommands()) {
     if (const std::string problem = empty_value_problem(*command); !problem.empty()) {
       return fail(2, problem);
     }
+  }
+  if (view_app->parsed()) {
+    return run_with_bar(view, [&](const ViewArguments& a, const Progress& progress) {
+      return run_view(a, drawing, window, progress);
+    });
   }
   if (solve_app->parsed()) return run_with_bar(solve, run_solve);
   if (info_app->parsed()) return run_with_bar(info, run_info);

@@ -5,14 +5,15 @@
 #include <vector>
 
 #include "app/drawing.h"
+#include "app/viewer_window.h"
 #include "solver/core/result.h"
 
 namespace geotherm::app {
 
 /// Runs the command that `arguments` (without the program's name) ask for; output to standard
 /// output and error. Returns the program's exit code: 0 done, 1 the work failed, 2 the command line
-/// is wrong. `drawing`: what commands with pictures draw with.
-int run_command_line(std::vector<std::string> arguments, Drawing& drawing);
+/// is wrong. `drawing`, `window`: what commands with pictures draw with, and where.
+int run_command_line(std::vector<std::string> arguments, Drawing& drawing, ViewerWindow& window);
 
 /// 1 or 2.
 int exit_code(ErrorCode code);

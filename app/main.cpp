@@ -10,6 +10,7 @@
 
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
+#include "app/main_window/make_window.h"
 
 namespace {
 
@@ -26,7 +27,9 @@ void occupy_closed_streams() {
 int run(int argc, char** argv) {
   try {
     const std::unique_ptr<geotherm::app::Drawing> drawing = geotherm::app::make_drawing();
-    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing);
+    const std::unique_ptr<geotherm::app::ViewerWindow> window = geotherm::app::make_window();
+    return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing,
+                                           *window);
   } catch (const std::bad_alloc&) {
     std::fputs("geotherm: error: not enough memory; try a smaller mesh or --backend cg\n", stderr);
   } catch (const std::system_error& failure) {  // no thread could be started, most likely

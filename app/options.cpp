@@ -4,57 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "app/cure.h"
 #include "app/load_model.h"
 #include "app/option_value.h"
+#include "app/option_values.h"
 #include "app/text.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
 
 namespace geotherm::app {
-namespace {
-
-constexpr int kMostThreads = 1024;
-
-Result<double> time_factor_in(const std::string& text) {
-  if (text.empty()) return 1.0;
-  const auto factor = number_in<double>(text);
-  if (factor && *factor > 0 && std::isfinite(*factor)) return *factor;
-  return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no time factor; it must be a " +
-                                         "positive number, such as 1"};
-}
-
-Result<int> threads_in(const std::string& text) {
-  if (text.empty()) return 0;
-  const auto threads = number_in<int>(text);
-  if (threads && *threads >= 1 && *threads <= kMostThreads) return *threads;
-  return Error{ErrorCode::kBadInput, "'" + one_line(text) +
-                                         "' is no number of threads; give 1 to " +
-                                         std::to_string(kMostThreads)};
-}
-
-Result<std::string> backend_in(const std::string& text) {
-  if (text.empty()) return backend_names().front();
-  const auto backend = find_backend(text);
-  if (!backend) return backend.error();
-  return text;
-}
-
-Result<std::string> method_in(const std::string& text) {
-  if (text == "heat") return text;
-  return Error{ErrorCode::kNotAvailable,
-               "there is no method '" + one_line(text) + "' in this version; there is heat"};
-}
-
-Result<LaplacianKind> laplacian_in(const std::string& text) {
-  auto kind = parse_laplacian(text);
-  if (!kind || *kind != LaplacianKind::kTufted) return kind;
-  return Error{ErrorCode::kNotAvailable,
-               "tufted is not available in this version; there are auto, cotan, "
-               "intrinsic-delaunay, and auto flips every edge that has two faces"};
-}
-
-}  // namespace
 
 void add_backend_option(CLI::App& command, HeatArguments& arguments) {
   command.add_option("--backend", arguments.backend, "linear solver: " + joined(backend_names()))
@@ -91,8 +48,9 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
 void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command
       .add_option("-s,--source", arguments.sources,
-                  "17 or 3,99,512 (vertex ids from 0), random:K[:SEED], boundary, "
-                  "face:ID:b0:b1:b2, xyz:x:y:z; may be repeated, all are one source set")
+                  "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
+                  "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z; may be "
+                  "repeated, all are one source set")
       ->type_name("SOURCES")
       ->expected(1)
       ->allow_extra_args(false)
@@ -113,32 +71,19 @@ Result<HeatOptions> heat_options(const HeatArguments& a) {
   HeatOptions options;
   std::string method;
   double factor = 1;
-  const auto constraint_in = [&a]() -> Result<Constraint> {
-    auto parsed = parse_constraint(a.constraint);
-    if (parsed) return parsed;
-    return with_cure(parsed.error(), a.constraint,
-                     "write penalty:VALUE with a positive number, such as penalty:1e6, or "
-                     "pin-vertex:V with a vertex id");
-  };
-  const auto time_step_in = [&a, &factor]() -> Result<TimeStep> {
-    auto parsed = parse_time_step(a.time_step, factor);
-    if (parsed) return parsed;
-    return with_cure(parsed.error(), a.time_step,
-                     "write absolute:T with a positive number, such as absolute:0.01");
-  };
-  if (auto taken = take(time_factor_in(a.time_factor), "--time-factor", factor); !taken) {
+  if (auto taken = take(parse_time_factor(a.time_factor), "--time-factor", factor); !taken) {
     return taken.error();
   }
   const Result<void> all = first_failure({
-      take(method_in(a.method), "--method", method),
-      take(backend_in(a.backend), "--backend", options.backend),
-      take(time_step_in(), "--time-step", options.time_step),
-      take(constraint_in(), "--constraint", options.constraint),
+      take(parse_method(a.method), "--method", method),
+      take(parse_backend(a.backend), "--backend", options.backend),
+      take(parse_time_step_option(a.time_step, factor), "--time-step", options.time_step),
+      take(parse_constraint_option(a.constraint), "--constraint", options.constraint),
       take(parse_heat_mode(a.heat), "--heat", options.heat),
       take(parse_boundary_rule(a.boundary), "--boundary", options.boundary),
-      take(laplacian_in(a.laplacian), "--laplacian", options.laplacian),
+      take(parse_laplacian_option(a.laplacian), "--laplacian", options.laplacian),
       take(parse_variant(a.variant), "--variant", options.variant),
-      take(threads_in(a.threads), "--threads", options.threads),
+      take(parse_threads(a.threads), "--threads", options.threads),
   });
   if (!all) return all.error();
   return options;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/picture/picture_caption.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/turntable.h"
 #include "app/text.h"
@@ -85,12 +86,7 @@ std::string device_in_words(const DrawingDevice& device) {
 }
 
 std::string caption_of(const PictureFigures& f) {
-  std::string text = one_line(f.model) + ", " + counted(f.faces, "face", "faces");
-  if (!f.solve) return text;
-  const double t = f.solve->method.t();
-  const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
-  return text + (is_double ? ", t = " + significant(t) : "") + ", " +
-         f.solve->method.options().backend;
+  return picture_caption(f.model, f.faces, f.solve ? &f.solve->method : nullptr);
 }
 
 std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {

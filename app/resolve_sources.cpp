@@ -107,7 +107,7 @@ class Resolver {
   Result<void> operator()(const VertexCurve& curve) {
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (auto added = add_vertex(curve.vertices[i]); !added) {
-        return bad("line " + std::to_string(curve.lines[i]) + ": " + added.error().message);
+        return bad(place(curve, i) + ": " + added.error().message);
       }
     }
     const EdgeGraph graph(mesh_.positions(), clean().edges);
@@ -122,13 +122,12 @@ class Resolver {
         continue;
       }
       const auto path = graph.shortest_path(a, b);
-      if (!path) {
-        return bad("line " + std::to_string(curve.lines[i]) + ": " + path.error().message);
-      }
+      if (!path) return bad(place(curve, i) + ": " + path.error().message);
       if (gaps++ == 0) first_gap = i;
       for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
     }
-    if (gaps > 0) note_gaps(curve, gaps, first_gap);
+    // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
+    if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
     return {};
   }
 
@@ -160,14 +159,19 @@ class Resolver {
 
   void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
 
+  /// Where the i-th vertex stands.
+  static std::string place(const VertexCurve& curve, std::size_t i) {
+    return curve.lines.empty() ? "number " + std::to_string(i + 1) + " of the curve"
+                               : "line " + std::to_string(curve.lines[i]);
+  }
+
   void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
     out_.warnings.push_back(
         where_ + ": " + grouped(gaps) + " of " +
         counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") + " of the curve " +
         (gaps == 1 ? "is" : "are") + " no mesh edge and became the shortest path along edges (" +
         (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
-        " to " + std::to_string(curve.vertices[first]) + ", line " +
-        std::to_string(curve.lines[first]) + ")");
+        " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")");
   }
 
   const CleanFaces& clean() {

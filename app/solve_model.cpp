@@ -3,43 +3,9 @@
 
 #include "app/machine.h"
 #include "app/resolve_sources.h"
-#include "app/text.h"
+#include "app/solve_steps.h"
 
 namespace geotherm::app {
-namespace {
-
-/// What the library finds wrong with a mesh is a failure of the work, not of the command line.
-Error about_model(const std::string& name, const Error& error) {
-  const ErrorCode code = error.code == ErrorCode::kBadInput ? ErrorCode::kBadFile : error.code;
-  return {code, one_line(name) + ": " + error.message};
-}
-
-Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
-  if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
-  const Source pin{VertexList{{constraint.pin_vertex}},
-                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
-                   ErrorCode::kBadInput};
-  const auto placed = resolve_sources({&pin, 1}, mesh);
-  if (!placed) return placed.error();
-  return {};
-}
-
-void note_unreached(SolveFigures& figures) {
-  const Index loose = figures.mesh.unreferenced_vertices;
-  if (loose > 0) {
-    figures.warnings.push_back(counted(loose, "vertex belongs", "vertices belong") +
-                               " to no face; their distance is infinite");
-  }
-  const Index lost = figures.distance.unreached - loose;
-  if (lost > 0) {
-    figures.warnings.push_back(counted(lost, "vertex lies", "vertices lie") +
-                               " in components without a source (there are " +
-                               counted(figures.mesh.components, "component", "components") +
-                               "); their distance is infinite");
-  }
-}
-
-}  // namespace
 
 Result<SolveFigures> solve_model(Model model, const HeatOptions& options,
                                  const std::vector<Source>& named, const QueryOptions& query,
@@ -72,7 +38,7 @@ Result<SolveFigures> solve_model(Model model, const HeatOptions& options,
   add_warnings(figures.method.warnings());
   add_warnings(sources->warnings);
   add_warnings(figures.result.warnings);
-  note_unreached(figures);
+  add_warnings(unreached_notes(figures.mesh, figures.distance.unreached));
   return figures;
 }
 

@@ -2,16 +2,20 @@
 #include "app/source_spec.h"
 
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "app/text.h"
+#include "solver/core/number_text.h"
 
 namespace geotherm::app {
 namespace {
 
 /// Weights are accepted when they sum to 1 within this (0.333:0.333:0.334 and the like), and are
-/// then divided by their sum.
+/// then divided by their sum: but for those that sum to 1 within the second, a few roundings, which
+/// stay as they are and so read back the same.
 constexpr double kWeightSum = 1e-3;
+constexpr double kWeightRounding = 4 * std::numeric_limits<double>::epsilon();
 
 Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
@@ -45,12 +49,24 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
       return bad(quoted(text) +
-                 " is no source; write vertex ids from 0 (17 or 3,99,512), random:K[:SEED], "
-                 "boundary, face:ID:b0:b1:b2 or xyz:x:y:z");
+                 " is no source; write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
+                 "random:K[:SEED], boundary, face:ID:b0:b1:b2 or xyz:x:y:z");
     }
     list.vertices.push_back(*vertex);
   }
   return SourceSpec(std::move(list));
+}
+
+Result<SourceSpec> parse_curve(std::string_view ids) {
+  VertexCurve curve;
+  for (const std::string_view part : split(ids, ',')) {
+    const auto vertex = number_in<Index>(trimmed(part));
+    if (!vertex || *vertex < 0) {
+      return bad(quoted(part) + " is no vertex of a curve; write curve:V1,V2,... with ids from 0");
+    }
+    curve.vertices.push_back(*vertex);
+  }
+  return SourceSpec(std::move(curve));
 }
 
 Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::string_view>& parts) {
@@ -87,11 +103,43 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
     return bad(quoted(text) + ": the weights sum to " + significant(sum) +
                "; barycentric weights are not negative and sum to 1");
   }
-  for (double& w : *weights) w /= sum;
+  if (std::abs(sum - 1) > kWeightRounding) {
+    for (double& w : *weights) w /= sum;
+  }
   return SourceSpec(FacePoint{*face, *weights});
 }
 
+std::string ids_text(const std::vector<Index>& vertices) {
+  std::string text;
+  for (const Index v : vertices) text += (text.empty() ? "" : ",") + std::to_string(v);
+  return text;
+}
+
+struct Writer {
+  std::string operator()(const VertexList& list) const { return ids_text(list.vertices); }
+  std::string operator()(const VertexCurve& curve) const {
+    return "curve:" + ids_text(curve.vertices);
+  }
+  std::string operator()(const RandomVertices& random) const {
+    const std::string text = "random:" + std::to_string(random.count);
+    return random.seed == RandomVertices{}.seed ? text : text + ':' + std::to_string(random.seed);
+  }
+  std::string operator()(const WholeBoundary&) const { return "boundary"; }
+  std::string operator()(const FacePoint& point) const {
+    std::string text = "face:" + std::to_string(point.face);
+    for (const double w : point.weights) text += ':' + number_text(w);
+    return text;
+  }
+  std::string operator()(const SpacePoint& point) const {
+    std::string text = "xyz";
+    for (const double x : point.position) text += ':' + number_text(x);
+    return text;
+  }
+};
+
 }  // namespace
+
+std::string to_text(const SourceSpec& spec) { return std::visit(Writer{}, spec); }
 
 Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numbers) {
   const auto values = three_numbers(numbers);
@@ -102,6 +150,7 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 Result<SourceSpec> parse_source(std::string_view text) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (text == "boundary") return SourceSpec(WholeBoundary{});
+  if (text.starts_with("curve:")) return parse_curve(text.substr(6));
   if (parts[0] == "random") return parse_random(text, parts);
   if (parts[0] == "face") return parse_face(text, parts);
   if (parts[0] == "xyz") {

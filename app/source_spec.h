@@ -14,32 +14,40 @@
 namespace geotherm::app {
 
 // What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
-// `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`.
+// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`.
 
 struct VertexList {
   std::vector<Index> vertices;
+  bool operator==(const VertexList&) const = default;
 };
 
-/// A polyline of vertices, with the line of the file that each came from.
+/// A polyline of vertices, all of which is a source; a step that is no mesh edge is the shortest
+/// path along edges. One vertex is a point.
 struct VertexCurve {
   std::vector<Index> vertices;
-  std::vector<int> lines;
+  std::vector<int> lines;  ///< of the file, one for each vertex; empty when no file gave them
+  bool operator==(const VertexCurve&) const = default;
 };
 
 struct RandomVertices {
   Index count = 1;
   std::uint64_t seed = 1;
+  bool operator==(const RandomVertices&) const = default;
 };
 
-struct WholeBoundary {};
+struct WholeBoundary {
+  bool operator==(const WholeBoundary&) const = default;
+};
 
 struct FacePoint {
   Index face = 0;
   std::array<double, 3> weights{};
+  bool operator==(const FacePoint&) const = default;
 };
 
 struct SpacePoint {
   Vec3 position = Vec3::Zero();
+  bool operator==(const SpacePoint&) const = default;
 };
 
 using SourceSpec =
@@ -55,6 +63,11 @@ struct Source {
 /// Errors: kBadInput, one sentence with the text and what is expected. A vertex id must fit the
 /// mesh, which is checked when the source is placed on one.
 Result<SourceSpec> parse_source(std::string_view text);
+
+/// The text that parse_source() reads back as the same value, to the last digit; a curve's `lines`
+/// are not part of it. Preconditions: one vertex at least; finite numbers; weights >= 0 whose sum
+/// differs from 1 by round-off alone.
+std::string to_text(const SourceSpec& spec);
 
 /// x, y, z as three numbers. Errors: kBadInput.
 Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numbers);

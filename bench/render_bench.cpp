@@ -60,7 +60,7 @@ std::vector<Task> make_tasks(const Stage& stage, Index triangles, int samples) {
   const auto scene_for = [&](View view) {
     settings.view = view;
     engine::Scene scene = scene_of(stage.data, settings, picture_scale(stage.data, settings));
-    scene.camera = camera_of(settings.camera, stage.positions, kSize, {});
+    scene.camera = camera_of({}, settings.camera, stage.positions, kSize, {});
     return scene;
   };
   std::vector<Task> tasks;

@@ -6,17 +6,26 @@
 
 #include "engine/vulkan/device_state.h"
 #include "engine/vulkan/vulkan_error.h"
+#include "engine/window/window_state.h"
 
 namespace geotherm::engine {
 namespace {
 
-vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family) {
+/// Null: nothing is to be shown in a window.
+const Presentation* presentation_of(const DeviceOptions& options) {
+  return options.window != nullptr ? &options.window->state() : nullptr;
+}
+
+vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical, std::uint32_t family,
+                             bool presents) {
   constexpr float kPriority = 1.0F;
   const vk::DeviceQueueCreateInfo queue({}, family, 1, &kPriority);
   vk::PhysicalDeviceVulkan13Features features;
   features.setDynamicRendering(VK_TRUE).setSynchronization2(VK_TRUE);
   vk::DeviceCreateInfo info({}, queue);
   info.setPNext(&features);
+  constexpr const char* kSwapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  if (presents) info.setPEnabledExtensionNames(kSwapchain);
   return {physical, info};
 }
 
@@ -31,7 +40,7 @@ Device::State::State(const DeviceOptions& options, Instance made, Candidate chos
       physical(std::move(chosen.device)),
       info(std::move(chosen.info)),
       queue_family(chosen.queue_family),
-      device(make_device(physical, queue_family)),
+      device(make_device(physical, queue_family, options.window != nullptr)),
       queue(device, queue_family, 0),
       pool(make_pool(device, queue_family)),
       pipelines(device, vk::PipelineCacheCreateInfo()),
@@ -103,8 +112,9 @@ Result<std::vector<DeviceInfo>> list_devices() {
 
 Result<Device> Device::open(const DeviceOptions& options) {
   return guarded("opening the device", [&]() -> Result<Device> {
-    Instance instance(options.validation);
-    std::vector<Candidate> candidates = examine_devices(instance.instance);
+    const Presentation* const presentation = presentation_of(options);
+    Instance instance(options.validation, presentation);
+    std::vector<Candidate> candidates = examine_devices(instance.instance, presentation);
     const std::size_t chosen = choose_device(candidates, options.name);
     return Device(
         std::make_shared<State>(options, std::move(instance), std::move(candidates[chosen])));

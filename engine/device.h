@@ -17,7 +17,7 @@ struct DeviceOptions {
   bool validation = false;  ///< Khronos validation with synchronization validation
   bool staging = false;     ///< write through copies, as where the host cannot see device memory
   std::uint64_t memory_limit = 0;  ///< bytes of device memory that may be used; 0: what there is
-  /// Chooses among the devices that can show pictures in this window; outlives what is drawn to it.
+  /// Chooses among the devices that can show pictures in this window; null: in none.
   const Window* window = nullptr;
 };
 

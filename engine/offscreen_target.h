@@ -16,7 +16,8 @@ class OffscreenTarget final : public Target {
   static Result<std::unique_ptr<OffscreenTarget>> build(const Device& device, glm::ivec2 extent);
   ~OffscreenTarget() override;
 
-  /// The next frame shows the part of the whole picture that begins at this pixel.
+  /// The next frame shows the part of the whole picture that begins at this pixel. A negative one
+  /// leaves room for panels before the picture.
   void set_origin(glm::ivec2 origin);
 
   glm::ivec2 extent() const override;

@@ -12,11 +12,10 @@
 namespace geotherm::engine {
 
 struct Renderer::State {
-  State(std::shared_ptr<Device::State> on, int per_pixel)
-      : device(std::move(on)), samples(per_pixel), recorder(device, per_pixel) {}
+  State(std::shared_ptr<Device::State> on, int samples)
+      : device(std::move(on)), recorder(device, samples) {}
 
   std::shared_ptr<Device::State> device;
-  int samples;
   FrameRecorder recorder;
 
   // Of the model, on this side.
@@ -34,7 +33,9 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-int Renderer::samples() const { return state_->samples; }
+int Renderer::samples() const { return state_->recorder.samples(); }
+
+void Renderer::set_samples(int samples) { state_->recorder.set_samples(samples); }
 
 Result<Renderer> Renderer::build(const Device& device, int samples) {
   if (samples != 1 && samples != 4) {
@@ -90,7 +91,9 @@ Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
   assert(secondary.empty() || secondary.size() == state_->faces.size());
   return guarded("loading arrows", [&]() -> Result<void> {
     State& s = *state_;
-    if (!s.places) s.places = ArrowPlaces({s.positions, s.faces, s.solid});
+    if (!s.places && !(primary.empty() && secondary.empty())) {
+      s.places = ArrowPlaces({s.positions, s.faces, s.solid});
+    }
     s.primary.assign(primary.begin(), primary.end());
     s.secondary.assign(secondary.begin(), secondary.end());
     return {};
@@ -104,16 +107,24 @@ Result<void> Renderer::set_markers(std::span<const Marker> markers) {
   });
 }
 
-Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay& overlay) {
+Result<void> Renderer::set_panel_font(const PanelFont& font) {
+  return guarded("loading letters", [&]() -> Result<void> {
+    state_->recorder.set_panel_font(font);
+    return {};
+  });
+}
+
+Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay& overlay,
+                              const PanelDraw* panels) {
   return guarded("drawing", [&]() -> Result<void> {
     State& s = *state_;
     ArrowSelection arrows;
-    if (s.places) {
+    if (s.places && !(s.primary.empty() && s.secondary.empty())) {
       arrows = select_arrows({{s.positions, s.faces, s.solid}, *s.places}, scene.camera,
                              scene.arrows, scene.pixel_scale, s.primary, s.secondary);
     }
     TargetFrame frame;
-    s.recorder.prepare(arrows, overlay);
+    s.recorder.prepare(arrows, overlay, panels);
     if (auto begun = target.begin(frame); !begun) return begun;
     s.recorder.record(frame, target.extent(), scene);
     return target.end(frame);

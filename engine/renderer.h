@@ -36,16 +36,17 @@ class Renderer {
   Result<void> set_arrows(std::span<const glm::vec3> primary, std::span<const glm::vec3> secondary);
   Result<void> set_markers(std::span<const Marker> markers);
 
-  /// The letters of all panels drawn from now on.
+  /// The letters of all panels drawn from now on; nothing happens when the version is the same.
   Result<void> set_panel_font(const PanelFont& font);
 
-  /// `panels` lie over scene and overlay, in pixels of the target whatever part of the picture it
-  /// shows. Precondition: set_panel_font() where there are panels.
+  /// What of the target lies beside the picture shows the scene's background. `panels` lie over
+  /// all, in pixels of the target whatever part of the picture it shows. Precondition:
+  /// set_panel_font() where there are panels.
   Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {},
                       const PanelDraw* panels = nullptr);
 
   int samples() const;
-  /// 1 or 4, from the next frame on; pipelines and attachments of both are kept once made.
+  /// 1 or 4, from the next frame on; what is made for either is kept, so that turning is free.
   void set_samples(int samples);
 
  private:

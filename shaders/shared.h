@@ -63,6 +63,11 @@ struct MarkerPush {
   float inside;   // 1: the inside of markers, 0: their rims
 };
 
+// Pushed once for all panels.
+struct PanelPush {
+  vec2 clip_of_pixel;  // 2 / the target's extent
+};
+
 #ifdef __cplusplus
 static_assert(sizeof(Frame) == 2 * 64 + 16 + 7 * 16);
 static_assert(offsetof(Frame, extent) == 128);
@@ -77,6 +82,7 @@ static_assert(offsetof(Frame, marker) == 224);
 static_assert(offsetof(Frame, marker_rim) == 240);
 static_assert(sizeof(ArrowPush) == 20);
 static_assert(sizeof(MarkerPush) == 8);
+static_assert(sizeof(PanelPush) == 8);
 }  // namespace geotherm::engine::shared
 #endif
 #undef SHARED_CONSTANT

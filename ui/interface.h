@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/explore/session.h"
@@ -39,8 +40,9 @@ class Canvas {
 /// What a frame of the panels asks for.
 struct FrameOutput {
   std::vector<app::Command> commands;
-  bool dragging = false;  ///< the mouse moves camera or sources: draw fast
+  bool dragging = false;   ///< the mouse moves camera or sources: draw fast
   bool animating = false;  ///< the next frame is to follow at once
+  bool cancel = false;     ///< the user asked to stop what runs: Session::cancel
 };
 
 class Interface {
@@ -65,6 +67,8 @@ class Interface {
   void ask_to_quit();
   /// How panels lie now, to be remembered.
   const Layout& layout() const;
+  /// Where an item, "Section/key", was in the last draw(); nothing where it was not drawn.
+  std::optional<Rect> place_of_item(std::string_view name) const;
 
  private:
   struct State;

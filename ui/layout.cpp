@@ -1,1 +1,129 @@
 // SPDX-License-Identifier: MIT
+#include "ui/layout.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+#include "app/text.h"
+#include "ui/number.h"
+
+namespace geotherm::ui {
+namespace {
+
+// What a file may ask for; anything else is not worth believing.
+constexpr float kLeastWidth = 160, kMostWidth = 1200;
+constexpr float kLeastHeight = 60, kMostHeight = 1200;
+constexpr float kLeastScale = 0.5F, kMostScale = 4;
+constexpr std::size_t kMostSections = 64;
+constexpr std::size_t kLongestFile = 65536;
+constexpr std::string_view kOpen = "open ";  ///< before the name of a section
+
+std::string flag_text(bool flag) { return flag ? "on" : "off"; }
+
+void take_flag(std::string_view text, bool& flag) {
+  if (text == "on") flag = true;
+  if (text == "off") flag = false;
+}
+
+void take_number(std::string_view text, float least, float most, float& number) {
+  const auto value = app::number_in<float>(text);
+  if (value && *value >= least && *value <= most) number = *value;
+}
+
+void take_line(std::string_view name, std::string_view value, Layout& layout) {
+  if (name == "left-width") take_number(value, kLeastWidth, kMostWidth, layout.left_width);
+  if (name == "right-width") take_number(value, kLeastWidth, kMostWidth, layout.right_width);
+  if (name == "log-height") take_number(value, kLeastHeight, kMostHeight, layout.log_height);
+  if (name == "scale") take_number(value, kLeastScale, kMostScale, layout.scale);
+  if (name == "left") take_flag(value, layout.left);
+  if (name == "right") take_flag(value, layout.right);
+  if (name == "log") take_flag(value, layout.log);
+  if (name == "theme" && value == "dark") layout.theme = Theme::kDark;
+  if (name == "theme" && value == "light") layout.theme = Theme::kLight;
+  if (!name.starts_with(kOpen) || (value != "on" && value != "off")) return;
+  const std::string section(app::trimmed(name.substr(kOpen.size())));
+  if (!section.empty() && layout.open.size() < kMostSections) layout.open[section] = value == "on";
+}
+
+}  // namespace
+
+std::string to_text(const Layout& layout) {
+  std::string text;
+  const auto line = [&text](std::string_view name, std::string_view value) {
+    (((text += name) += " = ") += value) += '\n';
+  };
+  line("left-width", exact(layout.left_width));
+  line("right-width", exact(layout.right_width));
+  line("log-height", exact(layout.log_height));
+  line("left", flag_text(layout.left));
+  line("right", flag_text(layout.right));
+  line("log", flag_text(layout.log));
+  line("theme", layout.theme == Theme::kDark ? "dark" : "light");
+  line("scale", exact(layout.scale));
+  for (const auto& [section, open] : layout.open) {
+    line(std::string(kOpen) + section, flag_text(open));
+  }
+  return text;
+}
+
+Layout parse_layout(std::string_view text) {
+  Layout layout;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const std::size_t sign = line.find('=');
+    if (sign == std::string_view::npos) continue;
+    take_line(app::trimmed(line.substr(0, sign)), app::trimmed(line.substr(sign + 1)), layout);
+  }
+  return layout;
+}
+
+std::string layout_path() {
+  const auto folder = [](const char* variable) -> std::filesystem::path {
+    const char* value = std::getenv(variable);
+    // The specification of base directories: what is not absolute is to be ignored.
+    return value && value[0] == '/' ? value : "";
+  };
+  std::filesystem::path path = folder("XDG_CONFIG_HOME");
+  if (path.empty()) {
+    path = folder("HOME");
+    if (path.empty()) return {};
+    path /= ".config";
+  }
+  return (path / "geotherm" / "viewer.conf").string();
+}
+
+Layout load_layout(const std::string& path) {
+  std::error_code error;
+  if (path.empty() || !std::filesystem::is_regular_file(path, error)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kLongestFile, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return parse_layout(text);
+}
+
+bool save_layout(const std::string& path, const Layout& layout) {
+  if (path.empty()) return false;
+  std::error_code error;
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+  // Written beside and renamed, so that no one ever reads half a file.
+  const std::string beside = path + ".part";
+  bool written = false;
+  {
+    std::ofstream file(beside, std::ios::binary);
+    file << to_text(layout);
+    file.close();
+    written = file.good();
+  }
+  if (written) std::filesystem::rename(beside, path, error);
+  if (written && !error) return true;
+  std::filesystem::remove(beside, error);
+  return false;
+}
+
+}  // namespace geotherm::ui

@@ -11,10 +11,10 @@ enum class Theme { kDark, kLight };
 
 /// How the panels lie; lengths in pixels at scale 1. What the configuration folder remembers.
 struct Layout {
-  float left_width = 310, right_width = 310, log_height = 130;
+  float left_width = 310, right_width = 310, log_height = 190;
   bool left = true, right = true, log = false;  ///< shown
   Theme theme = Theme::kDark;
-  float scale = 1;  ///< beside the monitor's own
+  float scale = 1;                   ///< beside the monitor's own
   std::map<std::string, bool> open;  ///< sections that are open or closed, by name
 
   bool operator==(const Layout&) const = default;

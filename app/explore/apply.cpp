@@ -1,1 +1,300 @@
 // SPDX-License-Identifier: MIT
+#include "app/explore/apply.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/explore/settings.h"
+#include "app/picture/picture_values.h"
+#include "app/source_spec.h"
+#include "app/text.h"
+#include "solver/linear/backend.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr const char* kFirstSource = "random:1:1";
+
+Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+
+/// Canonical texts of sources.
+Result<std::vector<std::string>> canonical(const std::vector<std::string>& sources) {
+  std::vector<std::string> out;
+  for (const std::string& text : sources) {
+    const auto spec = parse_source(text);
+    if (!spec) return spec.error();
+    out.push_back(to_text(*spec));
+  }
+  return out;
+}
+
+/// The random vertices of an entry of the list, where it is one.
+std::optional<RandomVertices> random_in(const std::string& text) {
+  const auto spec = parse_source(text);
+  if (!spec) return std::nullopt;
+  const auto* random = std::get_if<RandomVertices>(&*spec);
+  return random ? std::optional(*random) : std::nullopt;
+}
+
+std::string random_text(Index count, std::uint64_t seed) {
+  return to_text(SourceSpec(RandomVertices{count, seed}));
+}
+
+/// Whether a source means something on any model.
+bool fits_any_model(const std::string& text) { return text == "boundary" || random_in(text); }
+
+double within(double value, double most) { return std::clamp(value, -most, most); }
+
+class Applier {
+ public:
+  explicit Applier(ViewerState& state) : s_(state) {}
+
+  Result<void> operator()(const command::Open& c) {
+    if (c.model.empty()) return bad("no model was named; give a path or a bundled model's name");
+    s_.model = c.model;
+    std::erase_if(s_.sources, [](const std::string& text) { return !fits_any_model(text); });
+    if (s_.sources.empty()) s_.sources = {kFirstSource};
+    s_.picked.reset();
+    // Lengths of the old model say nothing on the new one.
+    s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
+    return (*this)(command::Frame{});
+  }
+
+  Result<void> operator()(const command::Set& c) {
+    const Setting* setting = find_setting(c.name);
+    if (setting == nullptr) return bad("there is no setting '" + one_line(c.name) + "'");
+    auto set = setting->set(s_, c.value);
+    if (!set) return Error{set.error().code, c.name + ": " + set.error().message};
+    return {};
+  }
+
+  Result<void> operator()(const command::SetSources& c) {
+    auto sources = canonical(c.sources);
+    if (!sources) return sources.error();
+    s_.sources = *std::move(sources);
+    return {};
+  }
+
+  Result<void> operator()(const command::AddSources& c) {
+    const auto sources = canonical(c.sources);
+    if (!sources) return sources.error();
+    s_.sources.insert(s_.sources.end(), sources->begin(), sources->end());
+    return {};
+  }
+
+  Result<void> operator()(const command::MoveSource& c) {
+    if (auto there = check_index(c.index); !there) return there;
+    const auto sources = canonical({c.source});
+    if (!sources) return sources.error();
+    s_.sources[static_cast<std::size_t>(c.index)] = sources->front();
+    return {};
+  }
+
+  Result<void> operator()(const command::RemoveSource& c) {
+    if (auto there = check_index(c.index); !there) return there;
+    s_.sources.erase(s_.sources.begin() + c.index);
+    return {};
+  }
+
+  Result<void> operator()(const command::ExtendCurve& c) {
+    auto spec = s_.sources.empty() ? Result<SourceSpec>(bad("")) : parse_source(s_.sources.back());
+    auto* const curve = spec ? std::get_if<VertexCurve>(&*spec) : nullptr;
+    if (curve == nullptr) {
+      return bad("the last source is no curve to extend; begin one with source add curve:V");
+    }
+    curve->vertices.insert(curve->vertices.end(), c.vertices.begin(), c.vertices.end());
+    s_.sources.back() = to_text(*spec);
+    return {};
+  }
+
+  Result<void> operator()(const command::ClearSources& /*c*/) {
+    s_.sources.clear();
+    return {};
+  }
+
+  Result<void> operator()(const command::MoreSources& /*c*/) {
+    if (const auto at = last_random(); at != s_.sources.rend()) {
+      const RandomVertices random = *random_in(*at);
+      *at = random_text(random.count + 1, random.seed);
+    } else {
+      s_.sources.push_back(kFirstSource);
+    }
+    return {};
+  }
+
+  Result<void> operator()(const command::FewerSources& /*c*/) {
+    if (s_.sources.empty()) return bad("there is no source to remove");
+    const auto at = last_random();
+    if (at == s_.sources.rend()) {
+      s_.sources.pop_back();
+      return {};
+    }
+    const RandomVertices random = *random_in(*at);
+    if (random.count > 1) {
+      *at = random_text(random.count - 1, random.seed);
+    } else {
+      s_.sources.erase(std::next(at).base());
+    }
+    return {};
+  }
+
+  Result<void> operator()(const command::ShuffleSources& /*c*/) {
+    Index count = 0;
+    std::uint64_t seed = 0;
+    for (const std::string& text : s_.sources) {
+      const auto random = random_in(text);
+      count += random ? random->count : 0;
+      if (random) seed = std::max(seed, random->seed);
+    }
+    if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
+    s_.sources = {random_text(count, seed + 1)};
+    return {};
+  }
+
+  Result<void> operator()(const command::Orbit& c) {
+    constexpr double kTurn = 360;
+    CameraSettings& camera = s_.picture.camera;
+    camera.azimuth = std::fmod(camera.azimuth + c.azimuth, kTurn);
+    if (camera.azimuth < 0) camera.azimuth += kTurn;
+    camera.elevation = within(camera.elevation + c.elevation, 90);
+    return {};
+  }
+
+  Result<void> operator()(const command::Zoom& c) {
+    CameraSettings& camera = s_.picture.camera;
+    const double zoom = std::clamp(camera.zoom * c.factor, kLeastZoom, kMostZoom);
+    const double factor = zoom / camera.zoom;
+    camera.zoom = zoom;
+    camera.pan_right = within(c.right + (camera.pan_right - c.right) * factor, kMostPan);
+    camera.pan_up = within(c.up + (camera.pan_up - c.up) * factor, kMostPan);
+    return {};
+  }
+
+  Result<void> operator()(const command::Pan& c) {
+    CameraSettings& camera = s_.picture.camera;
+    camera.pan_right = within(camera.pan_right + c.right, kMostPan);
+    camera.pan_up = within(camera.pan_up + c.up, kMostPan);
+    return {};
+  }
+
+  Result<void> operator()(const command::Centre& c) {
+    CameraSettings& camera = s_.picture.camera;
+    camera.centre = {c.x, c.y, c.z};
+    camera.fit = PictureFit::kSphere;
+    camera.pan_right = camera.pan_up = 0;
+    return {};
+  }
+
+  Result<void> operator()(const command::Place& c) {
+    CameraSettings& camera = s_.picture.camera;
+    camera.azimuth = c.azimuth;
+    camera.elevation = c.elevation;
+    camera.zoom = c.zoom;
+    camera.pan_right = c.right;
+    camera.pan_up = c.up;
+    return {};
+  }
+
+  Result<void> operator()(const command::Frame& /*c*/) {
+    CameraSettings& camera = s_.picture.camera;
+    camera.zoom = 1;
+    camera.pan_right = camera.pan_up = 0;
+    camera.centre.reset();
+    return {};
+  }
+
+  Result<void> operator()(const command::Rotate& c) {
+    s_.rotating = c.on;
+    return {};
+  }
+
+  Result<void> operator()(const command::Keep& /*c*/) {
+    s_.kept = s_.heat;
+    return {};
+  }
+
+  Result<void> operator()(const command::Forget& /*c*/) {
+    s_.kept.reset();
+    s_.shown = Shown::kA;
+    return {};
+  }
+
+  Result<void> operator()(const command::Swap& /*c*/) {
+    if (!s_.kept) return nothing_kept();
+    std::swap(*s_.kept, s_.heat);
+    return {};
+  }
+
+  Result<void> operator()(const command::Show& c) {
+    if (c.shown != Shown::kA && !s_.kept) return nothing_kept();
+    s_.shown = c.shown;
+    return {};
+  }
+
+  Result<void> operator()(const command::Flip& /*c*/) {
+    if (!s_.kept) return nothing_kept();
+    s_.shown = s_.shown == Shown::kA ? Shown::kB : Shown::kA;
+    return {};
+  }
+
+  Result<void> operator()(const command::Pick& c) {
+    if (!c.point) {
+      s_.picked.reset();
+      return {};
+    }
+    const auto spec = parse_source(*c.point);
+    if (!spec) return spec.error();
+    if (!std::holds_alternative<FacePoint>(*spec)) {
+      return bad("'" + one_line(*c.point) + "' is no point to pick; write face:ID:b0:b1:b2");
+    }
+    s_.picked = to_text(*spec);
+    return {};
+  }
+
+  // Those that work on the program, not on its state.
+  Result<void> operator()(const command::Run& /*c*/) { return {}; }
+  Result<void> operator()(const command::Compare& /*c*/) { return {}; }
+  Result<void> operator()(const command::SavePicture& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveDistances& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveSession& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveLog& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveFigures& /*c*/) { return {}; }
+  Result<void> operator()(const command::Undo& /*c*/) { return {}; }
+  Result<void> operator()(const command::Redo& /*c*/) { return {}; }
+  Result<void> operator()(const command::Quit& /*c*/) { return {}; }
+
+ private:
+  static Error nothing_kept() { return bad("no settings are kept as B; keep some first: keep"); }
+
+  std::vector<std::string>::reverse_iterator last_random() {
+    return std::find_if(s_.sources.rbegin(), s_.sources.rend(),
+                        [](const std::string& text) { return random_in(text).has_value(); });
+  }
+
+  Result<void> check_index(int index) const {
+    const auto count = static_cast<int>(s_.sources.size());
+    if (index >= 0 && index < count) return {};
+    if (count == 0) return bad("there is no source " + std::to_string(index) + "; there is none");
+    return bad("there is no source " + std::to_string(index) + "; sources are 0 to " +
+               std::to_string(count - 1));
+  }
+
+  ViewerState& s_;
+};
+
+}  // namespace
+
+ViewerState initial_state() {
+  ViewerState state;
+  state.heat.backend = backend_names().front();
+  state.picture.camera.fit = PictureFit::kSphere;
+  return state;
+}
+
+Result<ViewerState> apply(const ViewerState& state, const Command& command) {
+  ViewerState next = state;
+  if (auto done = std::visit(Applier(next), command); !done) return done.error();
+  return next;
+}
+
+}  // namespace geotherm::app

@@ -11,8 +11,8 @@
 #include "solver/core/result.h"
 #include "solver/core/types.h"
 
-// All that can be done to the program: mouse, keys, panels, scripts, the command line and tests make
-// the same values. The text form of each stands behind it; docs/commands.md explains them.
+// All that can be done to the program: mouse, keys, panels, scripts, the command line and tests
+// make the same values. The text form of each stands behind it; docs/commands.md explains them.
 namespace geotherm::app {
 
 namespace command {

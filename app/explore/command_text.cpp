@@ -1,1 +1,334 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/explore/command.h"
+#include "app/explore/command_words.h"
+#include "app/explore/settings.h"
+#include "app/picture/picture_values.h"
+#include "app/text.h"
+#include "solver/core/number_text.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr const char* kShownNames[] = {"a", "b", "difference"};
+
+std::string words(std::string text, const std::vector<std::string>& more) {
+  for (const std::string& word : more) text += " " + command_word(word);
+  return text;
+}
+
+std::string numbers(std::string text, std::initializer_list<double> more) {
+  for (const double number : more) text += " " + number_text(number);
+  return text;
+}
+
+struct Printer {
+  std::string operator()(const command::Open& c) const { return words("open", {c.model}); }
+  std::string operator()(const command::Run& c) const { return words("run", {c.path}); }
+  std::string operator()(const command::Set& c) const { return words(c.name, {c.value}); }
+  std::string operator()(const command::SetSources& c) const {
+    return words("source set", c.sources);
+  }
+  std::string operator()(const command::AddSources& c) const {
+    return words("source add", c.sources);
+  }
+  std::string operator()(const command::MoveSource& c) const {
+    return words("source move", {std::to_string(c.index), c.source});
+  }
+  std::string operator()(const command::RemoveSource& c) const {
+    return words("source remove", {std::to_string(c.index)});
+  }
+  std::string operator()(const command::ExtendCurve& c) const {
+    std::vector<std::string> ids;
+    for (const Index v : c.vertices) ids.push_back(std::to_string(v));
+    return words("source extend", {joined(ids, ",")});
+  }
+  std::string operator()(const command::ClearSources&) const { return "source clear"; }
+  std::string operator()(const command::MoreSources&) const { return "source more"; }
+  std::string operator()(const command::FewerSources&) const { return "source fewer"; }
+  std::string operator()(const command::ShuffleSources&) const { return "source shuffle"; }
+  std::string operator()(const command::Orbit& c) const {
+    return numbers("camera orbit", {c.azimuth, c.elevation});
+  }
+  std::string operator()(const command::Zoom& c) const {
+    if (c.right == 0 && c.up == 0) return numbers("camera zoom", {c.factor});
+    return numbers("camera zoom", {c.factor, c.right, c.up});
+  }
+  std::string operator()(const command::Pan& c) const {
+    return numbers("camera pan", {c.right, c.up});
+  }
+  std::string operator()(const command::Centre& c) const {
+    return numbers("camera centre", {c.x, c.y, c.z});
+  }
+  std::string operator()(const command::Place& c) const {
+    return numbers("camera place", {c.azimuth, c.elevation, c.zoom, c.right, c.up});
+  }
+  std::string operator()(const command::Frame&) const { return "camera frame"; }
+  std::string operator()(const command::Rotate& c) const {
+    return c.on ? "rotate on" : "rotate off";
+  }
+  std::string operator()(const command::Keep&) const { return "keep"; }
+  std::string operator()(const command::Forget&) const { return "forget"; }
+  std::string operator()(const command::Swap&) const { return "swap"; }
+  std::string operator()(const command::Show& c) const {
+    return std::string("show ") + kShownNames[static_cast<int>(c.shown)];
+  }
+  std::string operator()(const command::Flip&) const { return "flip"; }
+  std::string operator()(const command::Pick& c) const {
+    return words("pick", {c.point.value_or("none")});
+  }
+  std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
+  std::string operator()(const command::SavePicture& c) const {
+    std::string text = words("save picture", {c.path});
+    if (c.width > 0) text += " " + std::to_string(c.width) + "x" + std::to_string(c.height);
+    return text + (c.panels ? " panels" : "");
+  }
+  std::string operator()(const command::SaveDistances& c) const {
+    return words("save distances", {c.path});
+  }
+  std::string operator()(const command::SaveSession& c) const {
+    return words("save session", {c.path});
+  }
+  std::string operator()(const command::SaveLog& c) const { return words("save log", {c.path}); }
+  std::string operator()(const command::SaveFigures& c) const {
+    return words("save figures", {c.path});
+  }
+  std::string operator()(const command::Undo&) const { return "undo"; }
+  std::string operator()(const command::Redo&) const { return "redo"; }
+  std::string operator()(const command::Quit&) const { return "quit"; }
+};
+
+/// A first word, or a first and a second one, and what follows it.
+struct Form {
+  std::string_view name;       ///< "camera orbit"
+  std::string_view arguments;  ///< "AZIMUTH ELEVATION"
+  std::size_t least, most;     ///< number of arguments
+  Result<Command> (*read)(WordReader& reader);
+};
+
+template <class Kind>
+Result<Command> plain(WordReader&) {
+  return Command(Kind{});
+}
+
+template <class Kind>
+Result<Command> with_text(WordReader& reader) {
+  return Command(Kind{reader.next()});
+}
+
+template <class Kind>
+Result<Command> with_list(WordReader& reader) {
+  Kind kind;
+  while (!reader.at_end()) {
+    if (auto source = reader.source(); !source) return source.error();
+    kind.sources.push_back(reader.last());
+  }
+  return Command(kind);
+}
+
+/// As many numbers as there are words.
+Result<std::vector<double>> all_numbers(WordReader& reader) {
+  std::vector<double> numbers;
+  while (!reader.at_end()) {
+    const auto number = reader.number(-kLargestNumber, kLargestNumber);
+    if (!number) return number.error();
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Result<Command> read_move(WordReader& reader) {
+  const auto index = reader.whole();
+  if (!index) return index.error();
+  if (auto source = reader.source(); !source) return source.error();
+  return Command(command::MoveSource{*index, reader.last()});
+}
+
+Result<Command> read_remove(WordReader& reader) {
+  const auto index = reader.whole();
+  if (!index) return index.error();
+  return Command(command::RemoveSource{*index});
+}
+
+Result<Command> read_extend(WordReader& reader) {
+  const auto vertices = reader.vertices();
+  if (!vertices) return vertices.error();
+  return Command(command::ExtendCurve{*vertices});
+}
+
+Result<Command> read_orbit(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Orbit{(*n)[0], (*n)[1]});
+}
+
+Result<Command> read_zoom(WordReader& reader) {
+  const auto factor = reader.number(kLeastZoom / kMostZoom, kMostZoom / kLeastZoom);
+  if (!factor) return factor.error();
+  if (reader.left() == 1) return reader.fail("both RIGHT and UP, or neither");
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(n->empty() ? command::Zoom{*factor} : command::Zoom{*factor, (*n)[0], (*n)[1]});
+}
+
+Result<Command> read_pan(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Pan{(*n)[0], (*n)[1]});
+}
+
+Result<Command> read_centre(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Centre{(*n)[0], (*n)[1], (*n)[2]});
+}
+
+Result<Command> read_place(WordReader& reader) {
+  const auto azimuth = reader.number(-kMostAngle, kMostAngle);
+  if (!azimuth) return azimuth.error();
+  const auto elevation = reader.number(-90, 90);
+  if (!elevation) return elevation.error();
+  const auto zoom = reader.number(kLeastZoom, kMostZoom);
+  if (!zoom) return zoom.error();
+  const auto right = reader.number(-kMostPan, kMostPan);
+  if (!right) return right.error();
+  const auto up = reader.number(-kMostPan, kMostPan);
+  if (!up) return up.error();
+  return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
+}
+
+Result<Command> read_rotate(WordReader& reader) {
+  const auto on = reader.one_of({"on", "off"});
+  if (!on) return on.error();
+  return Command(command::Rotate{*on == 0});
+}
+
+Result<Command> read_show(WordReader& reader) {
+  const auto shown = reader.one_of({kShownNames[0], kShownNames[1], kShownNames[2]});
+  if (!shown) return shown.error();
+  return Command(command::Show{static_cast<Shown>(*shown)});
+}
+
+Result<Command> read_pick(WordReader& reader) {
+  if (reader.peek() == "none") return Command(command::Pick{});
+  if (auto point = reader.face_point(); !point) return point.error();
+  return Command(command::Pick{reader.last()});
+}
+
+Result<Command> read_compare(WordReader& reader) {
+  return Command(reader.at_end() ? command::Compare{} : command::Compare{reader.next()});
+}
+
+Result<Command> read_save_picture(WordReader& reader) {
+  command::SavePicture save{reader.next()};
+  if (!reader.at_end() && reader.peek() != "panels") {
+    const auto size = parse_size(reader.next());
+    if (!size) return reader.blame_last(size.error().message + ", or panels");
+    save.width = size->width;
+    save.height = size->height;
+  }
+  if (!reader.at_end()) {
+    if (auto panels = reader.one_of({"panels"}); !panels) return panels.error();
+    save.panels = true;
+  }
+  return Command(save);
+}
+
+constexpr std::size_t kAny = 1'000'000;
+
+const Form kForms[] = {
+    {"open", "MODEL", 1, 1, with_text<command::Open>},
+    {"run", "FILE", 1, 1, with_text<command::Run>},
+    {"source set", "SOURCE...", 1, kAny, with_list<command::SetSources>},
+    {"source add", "SOURCE...", 1, kAny, with_list<command::AddSources>},
+    {"source move", "INDEX SOURCE", 2, 2, read_move},
+    {"source remove", "INDEX", 1, 1, read_remove},
+    {"source extend", "V,V,...", 1, 1, read_extend},
+    {"source clear", "", 0, 0, plain<command::ClearSources>},
+    {"source more", "", 0, 0, plain<command::MoreSources>},
+    {"source fewer", "", 0, 0, plain<command::FewerSources>},
+    {"source shuffle", "", 0, 0, plain<command::ShuffleSources>},
+    {"camera orbit", "AZIMUTH ELEVATION", 2, 2, read_orbit},
+    {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
+    {"camera pan", "RIGHT UP", 2, 2, read_pan},
+    {"camera centre", "X Y Z", 3, 3, read_centre},
+    {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
+    {"camera frame", "", 0, 0, plain<command::Frame>},
+    {"rotate", "on|off", 1, 1, read_rotate},
+    {"keep", "", 0, 0, plain<command::Keep>},
+    {"forget", "", 0, 0, plain<command::Forget>},
+    {"swap", "", 0, 0, plain<command::Swap>},
+    {"show", "a|b|difference", 1, 1, read_show},
+    {"flip", "", 0, 0, plain<command::Flip>},
+    {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
+    {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
+    {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
+    {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},
+    {"save session", "FILE", 1, 1, with_text<command::SaveSession>},
+    {"save log", "FILE", 1, 1, with_text<command::SaveLog>},
+    {"save figures", "FILE", 1, 1, with_text<command::SaveFigures>},
+    {"undo", "", 0, 0, plain<command::Undo>},
+    {"redo", "", 0, 0, plain<command::Redo>},
+    {"quit", "", 0, 0, plain<command::Quit>},
+};
+
+/// The first words of all forms and settings, or the second words after `first`.
+std::string names(std::string_view first) {
+  std::vector<std::string> all;
+  for (const Form& form : kForms) {
+    const std::size_t blank = form.name.find(' ');
+    const std::string_view head = form.name.substr(0, blank);
+    if (!first.empty() && head != first) continue;
+    std::string name(first.empty() ? head : form.name.substr(blank + 1));
+    if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
+  }
+  if (first.empty()) {
+    for (const Setting& setting : settings()) all.emplace_back(setting.name);
+  }
+  return joined(all);
+}
+
+Result<Command> read_setting(const Setting& setting, WordReader& reader) {
+  const std::string name(setting.name);
+  if (reader.left() != 1) return reader.fail("one value: " + name + " VALUE");
+  const std::string value = reader.next();
+  ViewerState scratch = initial_state();
+  if (auto set = setting.set(scratch, value); !set) {
+    const Error blamed = reader.blame_last(set.error().message);
+    return Error{set.error().code, blamed.message};
+  }
+  return Command(command::Set{name, setting.get(scratch)});
+}
+
+}  // namespace
+
+std::string to_text(const Command& command) { return std::visit(Printer(), command); }
+
+Result<Command> parse_command(std::string_view line) {
+  auto made = WordReader::of(line);
+  if (!made) return made.error();
+  WordReader& reader = *made;
+  if (reader.at_end()) return reader.fail("a command: " + names(""));
+  const std::string first = reader.next();
+  if (const Setting* setting = find_setting(first)) return read_setting(*setting, reader);
+  const bool is_group = std::ranges::any_of(
+      kForms, [&first](const Form& form) { return form.name.starts_with(first + " "); });
+  if (is_group && reader.at_end()) return reader.fail("what to do: " + names(first));
+  const std::string name = is_group ? first + " " + reader.next() : first;
+  const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
+  if (form == std::end(kForms)) {
+    return reader.blame_last("there is no command '" + one_line(name) + "'; there are " +
+                             names(is_group ? first : ""));
+  }
+  if (reader.left() < form->least || reader.left() > form->most) {
+    if (reader.left() > form->most) reader.skip(form->most);
+    return reader.fail(form->arguments.empty() ? "nothing after " + name
+                                               : name + " " + std::string(form->arguments));
+  }
+  return form->read(reader);
+}
+
+}  // namespace geotherm::app

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/explore/viewer_state.h"
 #include "app/load_model.h"
 #include "app/picture/picture_data.h"
 #include "app/solve_figures.h"
@@ -18,9 +19,9 @@ namespace geotherm::app {
 struct ExploredModel {
   Model model;
   MeshReport mesh;
-  std::vector<std::string> warnings;  ///< about file and mesh, one sentence each
-  PictureData base;                   ///< without a solve
-  std::shared_ptr<const RayTree> rays;
+  std::vector<std::string> warnings;        ///< about file and mesh, one sentence each
+  std::shared_ptr<const PictureData> base;  ///< without a solve
+  std::shared_ptr<const RayTree> rays;      ///< null: not made yet
 };
 
 /// One answer with the settings it belongs to.
@@ -28,7 +29,8 @@ struct Answer {
   HeatMethod method;
   DistanceResult result;
   DistanceSummary distance;
-  double setup_ms = 0;  ///< of the last factorisation that these settings needed
+  SetupTiming setup;    ///< of the work that these settings needed, with what they took over
+  double setup_ms = 0;  ///< the time from a change of settings to the method being ready
   std::vector<std::string> warnings;
 };
 
@@ -54,7 +56,7 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  bool has_fields = false;  ///< the answers hold u
+  bool has_fields = false;    ///< the answers hold u
   std::uint64_t version = 0;  ///< another one with every change
 };
 

@@ -1,1 +1,258 @@
 // SPDX-License-Identifier: MIT
+#include "app/explore/session.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "app/explore/session_state.h"
+#include "app/text.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::size_t kMostLogLines = 4000;
+constexpr std::size_t kMostUndo = 200;
+/// Scripts that run scripts end here: most likely they run each other.
+constexpr int kMostScripts = 100;
+
+template <class... Kinds>
+bool is_any_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+/// Those that need answers that belong to the state.
+bool needs_answers(const Command& command) {
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
+                   command::Compare, command::Quit>(command);
+}
+
+/// Not mapped: a script may be rewritten while it runs.
+Result<std::string> read_text(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    return Error{ErrorCode::kBadFile, one_line(path) + ": is a directory, not a script"};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.bad() && file.is_open()) return text;
+  const std::string reason = std::error_code(errno, std::generic_category()).message();
+  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason + "; name a file of commands"};
+}
+
+bool writes(const Command& command) {
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
+                   command::SaveSession, command::SaveLog>(command);
+}
+
+}  // namespace
+
+Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(hooks))) {
+  if (!state_->hooks.wake) return;
+  state_->worker.emplace(state_->hooks.wake);
+  state_->compare_worker.emplace(state_->hooks.wake);
+}
+
+Session::~Session() = default;
+
+void Session::State::note(LogLine::Kind kind, std::string text) {
+  if (log.size() >= kMostLogLines) log.erase(log.begin(), log.begin() + kMostLogLines / 4);
+  log.push_back({kind, std::move(text)});
+}
+
+void Session::State::step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to) {
+  ViewerState back = std::move(from.back());
+  from.pop_back();
+  to.push_back(state);
+  back.picture.camera = state.picture.camera;
+  back.rotating = state.rotating;
+  back.picked = state.picked;
+  state = std::move(back);
+  last_undoable.reset();
+}
+
+Result<void> Session::State::perform(const Command& command, const Session& session) {
+  if (std::holds_alternative<command::Undo>(command)) {
+    if (undo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to undo"};
+    step_back(undo, redo);
+    return {};
+  }
+  if (std::holds_alternative<command::Redo>(command)) {
+    if (redo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to redo"};
+    step_back(redo, undo);
+    return {};
+  }
+  if (std::holds_alternative<command::Quit>(command)) {
+    quits = true;
+    return {};
+  }
+  if (const auto* run = std::get_if<command::Run>(&command)) return run_script(run->path);
+  if (const auto* wish = std::get_if<command::Compare>(&command)) {
+    if (!explored.a) {
+      return Error{ErrorCode::kBadInput,
+                   "there is nothing to compare yet; open a model and give it a source"};
+    }
+    start_compare(*wish);
+    return {};
+  }
+  if (writes(command)) return save(command, session);
+
+  if (const auto* set = std::get_if<command::Set>(&command); set && set->name == "colour-map") {
+    const auto& maps = hooks.colour_maps;
+    if (!maps.empty() && std::ranges::find(maps, set->value) == maps.end()) {
+      return Error{ErrorCode::kBadInput, "there is no colour map '" + one_line(set->value) +
+                                             "'; there are " + joined(maps)};
+    }
+  }
+  auto next = app::apply(state, command);
+  if (!next) return next.error();
+  if (std::holds_alternative<command::Open>(command)) {
+    if (!before_opening) before_opening = Before{state, opening};
+    opening = ++last_opening;
+    undo.clear();
+    redo.clear();
+    last_undoable.reset();
+  }
+  if (undo_rule(command).undoable && *next != state) {
+    if (!last_undoable || !continues(*last_undoable, command)) undo.push_back(state);
+    if (undo.size() > kMostUndo) undo.erase(undo.begin());
+    redo.clear();
+    last_undoable = command;
+  }
+  state = *std::move(next);
+  return {};
+}
+
+Result<void> Session::State::submit(const Command& command, const Session& session) {
+  if (writes(command) && !hooks.writes_files) {
+    note(LogLine::Kind::kNote, "not written: " + to_text(command));
+    return {};
+  }
+  auto done = perform(command, session);
+  if (!done) {
+    note(LogLine::Kind::kCommand, to_text(command));
+    note(LogLine::Kind::kError, done.error().message);
+    last_logged_merges = false;
+    return done;
+  }
+  if (const auto* run = std::get_if<command::Run>(&command)) {
+    commands.add_comment("run " + one_line(run->path));
+    note(LogLine::Kind::kCommand, to_text(command));
+    last_logged_merges = false;
+  } else {
+    const bool merged = commands.add(command, state);
+    if (merged && last_logged_merges) {
+      log.back().text = commands.last_line();
+    } else {
+      note(LogLine::Kind::kCommand, commands.last_line());
+    }
+    last_logged_merges = true;
+  }
+  return {};
+}
+
+Result<void> Session::State::run_script(const std::string& path) {
+  if (++scripts_run > kMostScripts) {
+    script.clear();
+    scripts_run = 0;
+    return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMostScripts) +
+                                           " scripts have run each other; end the circle"};
+  }
+  const auto text = read_text(path);
+  if (!text) return text.error();
+  auto lines = parse_script(*text, path);
+  if (!lines) return lines.error();
+  std::deque<std::pair<std::string, ScriptLine>> all;
+  for (ScriptLine& line : *lines) all.emplace_back(one_line(path), std::move(line));
+  script.insert(script.begin(), std::make_move_iterator(all.begin()),
+                std::make_move_iterator(all.end()));
+  return {};
+}
+
+/// Runs what scripts ask for, as far as it can be done now.
+void Session::State::pump(const Session& session) {
+  while (!script.empty() && !quits) {
+    if (first_error) {
+      note(LogLine::Kind::kError,
+           "the script ends here: " +
+               counted(static_cast<Index>(script.size()), "line was", "lines were") + " left out");
+      script.clear();
+      break;
+    }
+    if (needs_answers(script.front().second.command)) {
+      refresh();
+      if (works()) return;
+      if (first_error) continue;
+    }
+    const auto [name, line] = std::move(script.front());
+    script.pop_front();
+    const auto done = submit(line.command, session);
+    if (!done && !first_error) first_error = done.error();
+    if (first_error) {
+      first_error->message =
+          name + ": line " + std::to_string(line.number) + ": " + first_error->message;
+    }
+  }
+  if (script.empty()) scripts_run = 0;
+  refresh();
+}
+
+Result<void> Session::submit(const Command& command) { return submit_all({&command, 1}); }
+
+Result<void> Session::submit_all(std::span<const Command> commands) {
+  State& s = *state_;
+  if (s.script.empty()) s.first_error.reset();
+  Result<void> done;
+  for (const Command& command : commands) {
+    if (done = s.submit(command, *this); !done) break;
+  }
+  s.pump(*this);
+  if (!done || s.hooks.wake) return done;
+  return finish();
+}
+
+bool Session::update() {
+  const bool changed = state_->take();
+  state_->pump(*this);
+  return changed;
+}
+
+Result<void> Session::finish() {
+  State& s = *state_;
+  do {
+    if (s.worker) s.worker->wait();
+    if (s.compare_worker) s.compare_worker->wait();
+    s.take();
+    s.pump(*this);
+  } while (s.works() || (!s.script.empty() && !s.quits));
+  const std::optional<Error> error = std::exchange(s.first_error, std::nullopt);
+  return error ? Result<void>(*error) : Result<void>();
+}
+
+void Session::set_dragging(bool dragging) {
+  if (state_->dragging == dragging) return;
+  state_->dragging = dragging;
+  state_->refresh();
+}
+
+void Session::say(LogLine::Kind kind, std::string text) {
+  state_->note(kind, std::move(text));
+  state_->last_logged_merges = false;
+}
+
+const ViewerState& Session::state() const { return state_->state; }
+const Explored& Session::explored() const { return state_->explored; }
+const std::string& Session::failure() const { return state_->failure; }
+bool Session::can_undo() const { return !state_->undo.empty(); }
+bool Session::can_redo() const { return !state_->redo.empty(); }
+bool Session::quits() const { return state_->quits; }
+std::span<const LogLine> Session::log() const { return state_->log; }
+std::span<const QueryRecord> Session::queries() const { return state_->queries; }
+const SessionCompare& Session::compare() const { return state_->compare; }
+std::string Session::script() const { return state_->commands.script(); }
+
+}  // namespace geotherm::app

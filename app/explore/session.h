@@ -45,8 +45,12 @@ struct SessionHooks {
   /// Does the work on threads of its own and calls this, from any thread, when update() has
   /// something to take. Empty: submit() does the work itself and returns when it is done.
   std::function<void()> wake;
+  Progress progress;  ///< watches the work that submit() does itself
   /// Writes a picture of the state and what is explored. Empty: pictures cannot be saved.
   std::function<Result<void>(const command::SavePicture&, const class Session&)> save_picture;
+  std::vector<std::string> colour_maps;  ///< empty: any name will do
+  /// Commands that write files are skipped, and said to be: a log from elsewhere is replayed.
+  bool writes_files = true;
 };
 
 /// The program while it runs: takes commands, works out what they ask for and says how it went.
@@ -65,10 +69,13 @@ class Session {
 
   /// Errors: the command's, also written to the log; the state is then unchanged.
   Result<void> submit(const Command& command);
+  /// The same for several, with one answer for where they lead. Ends with the first error.
+  Result<void> submit_all(std::span<const Command> commands);
 
   /// Takes over finished work. True when something changed.
   bool update();
-  /// Waits for all work and takes it over. Errors: the first failure since the last call.
+  /// Waits for all work, of scripts as well, and takes it over. Errors: the first failure of work
+  /// or script since the last call.
   Result<void> finish();
 
   /// While a drag goes on, answers come without quality figures: the query and nothing else.
@@ -79,12 +86,15 @@ class Session {
   /// What is shown does not belong to the state: work goes on, or it failed.
   bool stale() const;
   SessionWork work() const;
-  void cancel();  ///< what runs now
+  void cancel();                       ///< what runs now
   const std::string& failure() const;  ///< of the last work; empty: it went well
   bool can_undo() const;
   bool can_redo() const;
   bool quits() const;
 
+  /// Adds a line to the log.
+  void say(LogLine::Kind kind, std::string text);
+  /// Everything that is to be known, oldest first; the last few thousand lines.
   std::span<const LogLine> log() const;
   std::span<const QueryRecord> queries() const;  ///< the last ones, oldest first
   const SessionCompare& compare() const;

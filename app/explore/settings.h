@@ -15,7 +15,7 @@ namespace geotherm::app {
 /// those of the command line; flags are `on` and `off`.
 struct Setting {
   std::string_view name;
-  std::string_view help;  ///< one line
+  std::string_view help;   ///< one line
   bool of_method = false;  ///< changes the answer, not only the picture
   std::string (*get)(const ViewerState& state);
   /// Errors: kBadInput or kNotAvailable, with the text and what is expected.

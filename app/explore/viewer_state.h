@@ -21,12 +21,12 @@ enum class Shown {
 /// All that decides what the program shows; a plain value. What commands change and session files
 /// hold. Answers, panels and windows are not part of it.
 struct ViewerState {
-  std::string model;                 ///< a path or a bundled name; empty: none is open
-  std::vector<std::string> sources;  ///< text forms (source_spec.h), canonical; one set
-  HeatOptions heat;                  ///< A
-  std::optional<HeatOptions> kept;   ///< B
-  Shown shown = Shown::kA;           ///< kA unless `kept`
-  PictureSettings picture;           ///< width and height: of saved pictures
+  std::string model;                  ///< a path or a bundled name; empty: none is open
+  std::vector<std::string> sources;   ///< text forms (source_spec.h), canonical; one set
+  HeatOptions heat;                   ///< A
+  std::optional<HeatOptions> kept;    ///< B
+  Shown shown = Shown::kA;            ///< kA unless `kept`
+  PictureSettings picture;            ///< width and height: of saved pictures
   std::optional<std::string> picked;  ///< the point whose figures are shown: face:ID:b0:b1:b2
   bool rotating = false;
 

@@ -2,6 +2,7 @@
 // Drawing by the engine: the one place where pictures and the renderer meet.
 #include <optional>
 
+#include "app/main_drawing/device_words.h"
 #include "app/main_drawing/make_drawing.h"
 #include "app/main_drawing/picture_scene.h"
 #include "app/main_drawing/upload_picture.h"
@@ -12,20 +13,6 @@
 
 namespace geotherm::app {
 namespace {
-
-DrawingDevice in_our_words(const engine::DeviceInfo& info) {
-  DrawingDevice device;
-  device.name = info.name;
-  device.kind = info.kind;
-  device.driver = info.driver;
-  device.api = "Vulkan " + std::to_string(info.api_major) + "." + std::to_string(info.api_minor) +
-               "." + std::to_string(info.api_patch);
-  device.memory_mb = static_cast<double>(info.memory) / (1024.0 * 1024.0);
-  device.software = info.software;
-  device.chosen = info.chosen;
-  device.lacks = info.lacks;
-  return device;
-}
 
 class EngineDrawing final : public Drawing {
  public:
@@ -39,7 +26,7 @@ class EngineDrawing final : public Drawing {
     const auto found = engine::list_devices();
     if (!found) return found.error();
     std::vector<DrawingDevice> out;
-    for (const engine::DeviceInfo& info : *found) out.push_back(in_our_words(info));
+    for (const engine::DeviceInfo& info : *found) out.push_back(device_in_our_words(info));
     return out;
   }
 
@@ -53,7 +40,7 @@ class EngineDrawing final : public Drawing {
     renderer_.reset();  // before the device that it draws on
     device_ = *std::move(device);
     renderer_ = *std::move(renderer);
-    return in_our_words(device_->info());
+    return device_in_our_words(device_->info());
   }
 
   Result<void> draw(const PictureData& data, const PictureSettings& settings,
@@ -66,7 +53,7 @@ class EngineDrawing final : public Drawing {
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
     engine::Scene scene = scene_of(data, settings, scale);
     for (int i = 0; i < frame_count(settings); ++i) {
-      scene.camera = camera_of(frame_camera(settings, i), positions, extent, layout.insets);
+      scene.camera = camera_of(data, frame_camera(settings, i), positions, extent, layout.insets);
       auto image = engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
       if (!image) return image.error();
       const DrawnPicture picture{image->width, image->height, std::move(image->pixels)};

@@ -75,6 +75,24 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   return style;
 }
 
+/// Room for what is wider than the model: markers, arrow heads, the smooth edge itself.
+engine::Insets with_margin(glm::vec2 extent, const engine::Insets& insets) {
+  const float margin = kMargin * std::min(extent.x, extent.y);
+  return {std::max(insets.left, margin), std::max(insets.top, margin),
+          std::max(insets.right, margin), std::max(insets.bottom, margin)};
+}
+
+/// A point far outside the model is of no use in its middle.
+glm::vec3 scene_centre(const PictureData& data, const std::array<double, 3>& centre) {
+  constexpr double kFarthest = 100;
+  glm::vec3 out(0);
+  for (int k = 0; k < 3; ++k) {
+    const double x = (centre[static_cast<std::size_t>(k)] - data.centre[k]) / data.model_per_scene;
+    out[k] = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+  }
+  return out;
+}
+
 /// Whether a view is about where distance is 0.
 bool shows_sources(View view) {
   return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
@@ -95,7 +113,7 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
         {style.primary_colour, "X = -\u2207u / |\u2207u|"},
         {style.secondary_colour, "\u2207\u03c6, as long as its angle to X (full: 90\u00b0)"}};
   }
-  const engine::ColourMap* map = engine::find_colour_map(settings.colour_map);
+  const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;
   legend.title = data.value_title;
@@ -117,8 +135,9 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   return legend;
 }
 
-engine::Camera camera_of(const CameraSettings& camera, std::span<const glm::vec3> points,
-                         glm::vec2 extent, const engine::Insets& insets) {
+engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
+                         std::span<const glm::vec3> points, glm::vec2 extent,
+                         const engine::Insets& insets) {
   engine::Orbit orbit;
   orbit.azimuth = static_cast<float>(camera.azimuth);
   orbit.elevation = static_cast<float>(camera.elevation);
@@ -126,11 +145,14 @@ engine::Camera camera_of(const CameraSettings& camera, std::span<const glm::vec3
   orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
   orbit.orthographic = camera.orthographic;
   orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
-  // Room for what is wider than the model: markers, arrow heads, the smooth edge itself.
-  const float margin = kMargin * std::min(extent.x, extent.y);
-  const engine::Insets padded{std::max(insets.left, margin), std::max(insets.top, margin),
-                              std::max(insets.right, margin), std::max(insets.bottom, margin)};
-  return engine::make_camera(orbit, points, extent, padded);
+  if (camera.centre) orbit.centre = scene_centre(data, *camera.centre);
+  return engine::make_camera(orbit, points, extent, with_margin(extent, insets));
+}
+
+glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets) {
+  const engine::Insets padded = with_margin(extent, insets);
+  return {(padded.left + extent.x - padded.right) / 2,
+          (padded.top + extent.y - padded.bottom) / 2};
 }
 
 engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,

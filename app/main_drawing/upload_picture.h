@@ -13,8 +13,16 @@ namespace geotherm::app {
 
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
-/// Hands a renderer all that a picture is drawn from. `positions`: those of the data. Errors: the
-/// renderer's.
+/// Hands a renderer the mesh. `positions`: those of the data. Errors: the renderer's.
+Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
+                            std::span<const glm::vec3> positions);
+
+/// Hands it all else that a picture is drawn from: values, arrows, markers, colours; what the data
+/// lack is taken away. Precondition: upload_surface(). Errors: the renderer's.
+Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
+                           const PictureSettings& settings);
+
+/// Both.
 Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,
                             const PictureSettings& settings, std::span<const glm::vec3> positions);
 

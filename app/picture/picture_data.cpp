@@ -53,15 +53,6 @@ class SceneSpace {
   double radius_ = 1;  ///< of the model in units of that
 };
 
-Vec3 place_of(const SurfacePoint& point, const TriangleMesh& mesh) {
-  if (point.is_vertex()) return mesh.positions()[point.vertex];
-  Vec3 place = Vec3::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    place += point.weights[i] * mesh.positions()[mesh.faces()[point.face][i]];
-  }
-  return place;
-}
-
 /// Where an arrow has its full length.
 constexpr double kFullAngle = 90;
 
@@ -72,6 +63,15 @@ double angle_between(const Vec3& a, const Vec3& b) {
 }
 
 }  // namespace
+
+Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+  if (point.is_vertex()) return mesh.positions()[point.vertex];
+  Vec3 place = Vec3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    place += point.weights[i] * mesh.positions()[mesh.faces()[point.face][i]];
+  }
+  return place;
+}
 
 PictureData picture_of(const TriangleMesh& mesh) {
   PictureData data;
@@ -106,6 +106,7 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
 }
 
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {
+  data.sources.clear();
   const SceneSpace scene(data.centre, data.model_per_scene);
   std::set<Index> on_curves;
   for (const auto& [from, to] : sources.edges) {
@@ -114,7 +115,7 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   }
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
-    const PictureData::Vector place = scene.of(place_of(point, mesh));
+    const PictureData::Vector place = scene.of(position_of(mesh, point));
     data.sources.push_back({place, place});
   }
 }
@@ -126,12 +127,24 @@ void add_distances(PictureData& data, std::span<const double> distances) {
   }
   data.value_unit = most > 0 ? most : 1;
   data.largest_value = most > 0 ? 1 : 0;
+  data.is_signed = false;
   data.value_title = "distance (model\u00a0units)";  // the unit stays on one line
   data.values.clear();
   data.values.reserve(distances.size());
   for (const double d : distances) {
     data.values.push_back(std::isfinite(d) ? static_cast<float>(d / data.value_unit)
                                            : kNoPictureValue);
+  }
+}
+
+void add_difference(PictureData& data, std::span<const double> difference) {
+  std::vector<double> sizes(difference.begin(), difference.end());
+  for (double& d : sizes) d = std::abs(d);
+  add_distances(data, sizes);
+  data.is_signed = true;
+  data.value_title = "d_A \u2212 d_B (model\u00a0units)";
+  for (std::size_t i = 0; i < difference.size(); ++i) {
+    if (difference[i] < 0 && std::isfinite(difference[i])) data.values[i] = -data.values[i];
   }
 }
 

@@ -34,6 +34,7 @@ struct PictureData {
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
+  bool is_signed = false;     ///< `values` run from -1 to 1: a difference
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error
@@ -46,6 +47,9 @@ struct PictureData {
   std::string value_title;  ///< over the colour bar
 };
 
+/// Where a point of the mesh lies, model units. Precondition: it lies on the mesh.
+Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
+
 /// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
 /// that belong to no face are put on one that does.
 PictureData picture_of(const TriangleMesh& mesh);
@@ -53,13 +57,16 @@ PictureData picture_of(const TriangleMesh& mesh);
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
-/// Adds where distance is 0. Precondition: the sources lie on the mesh.
+/// Sets where distance is 0. Precondition: the sources lie on the mesh.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
 
-/// Adds distances; those that are not finite have no value. distances: V.
+/// Sets the distances; those that are not finite have no value. distances: V.
 void add_distances(PictureData& data, std::span<const double> distances);
 
-/// Adds both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
+/// Shows a difference of distances instead. difference: V, not finite where there is none.
+void add_difference(PictureData& data, std::span<const double> difference);
+
+/// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
 /// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where
 /// a is the angle between both in degrees. 0 where either is missing. Cost: O(F).
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result);

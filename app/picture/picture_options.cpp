@@ -8,110 +8,13 @@
 
 #include "app/option_value.h"
 #include "app/picture/picture_text.h"
+#include "app/picture/picture_values.h"
 #include "app/text.h"
 
 namespace geotherm::app {
 namespace {
 
-constexpr int kLargestSide = 8192;
 constexpr int kMostFrames = 3600;
-constexpr double kLeastZoom = 1e-3;
-constexpr double kMostZoom = 1e6;
-constexpr double kMostPan = 1e3;  ///< picture heights
-
-Error wrong(const std::string& text, const std::string& why) {
-  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why};
-}
-
-/// A number between two bounds.
-Result<double> number_between(const std::string& text, double least, double most,
-                              const std::string& why) {
-  const auto value = number_in<double>(text);
-  if (value && *value >= least && *value <= most) return *value;
-  return wrong(text, why);
-}
-
-Result<int> whole_between(const std::string& text, int least, int most, const std::string& why) {
-  const auto value = number_in<int>(text);
-  if (value && *value >= least && *value <= most) return *value;
-  return wrong(text, why);
-}
-
-/// The parts before and after the first of `marks`.
-std::optional<std::pair<std::string, std::string>> halves(const std::string& text,
-                                                          const char* marks) {
-  const std::size_t at = text.find_first_of(marks);
-  if (at == std::string::npos) return std::nullopt;
-  return std::pair{text.substr(0, at), text.substr(at + 1)};
-}
-
-struct Size {
-  int width = 0, height = 0;
-};
-Result<Size> size_in(const std::string& text) {
-  if (const auto parts = halves(text, "xX")) {
-    const auto width = number_in<int>(parts->first);
-    const auto height = number_in<int>(parts->second);
-    const auto fits = [](const std::optional<int>& side) {
-      return side && *side >= 1 && *side <= kLargestSide;
-    };
-    if (fits(width) && fits(height)) return Size{*width, *height};
-  }
-  return wrong(text, "is no size; give WxH in pixels, each 1 to " + std::to_string(kLargestSide) +
-                         ", such as 1920x1080");
-}
-
-struct Range {
-  std::optional<double> min, max;
-};
-Result<Range> range_in(const std::string& text) {
-  if (text.empty() || text == "auto") return Range{};
-  const auto parts = halves(text, ":");
-  const auto end = [](const std::string& part, std::optional<double>& value) {
-    if (part.empty()) return true;
-    value = number_in<double>(part);
-    return value && std::isfinite(*value);
-  };
-  Range range;
-  if (parts && end(parts->first, range.min) && end(parts->second, range.max) &&
-      (range.min || range.max) && !(range.min && range.max && *range.min >= *range.max)) {
-    return range;
-  }
-  return wrong(text,
-               "is no range; give MIN:MAX with MIN below MAX, such as 0:2.5; one of them "
-               "may be left out");
-}
-
-Result<std::optional<double>> spacing_in(const std::string& text) {
-  if (text.empty() || text == "auto") return std::optional<double>();
-  const auto value = number_in<double>(text);
-  if (value && *value >= 0 && std::isfinite(*value)) return value;
-  return wrong(text,
-               "is no spacing of isolines; give a length in model units, such as 0.5, or 0 "
-               "for none");
-}
-
-struct Pan {
-  double right = 0, up = 0;
-};
-Result<Pan> pan_in(const std::string& text) {
-  if (const auto parts = halves(text, ":, ")) {
-    const auto right = number_in<double>(parts->first);
-    const auto up = number_in<double>(parts->second);
-    const auto fits = [](const std::optional<double>& part) {
-      return part && std::abs(*part) <= kMostPan;
-    };
-    if (fits(right) && fits(up)) return Pan{*right, *up};
-  }
-  return wrong(text, "is no shift; give RIGHT:UP in picture heights, such as 0.1:-0.25");
-}
-
-Result<bool> orthographic_in(const std::string& text) {
-  if (text == "perspective") return false;
-  if (text == "orthographic") return true;
-  return Error{ErrorCode::kBadInput, "there is no projection '" + one_line(text) +
-                                         "'; there are perspective, orthographic"};
-}
 
 Result<std::string> colour_map_in(const std::string& text,
                                   std::span<const std::string> colour_maps) {
@@ -122,26 +25,24 @@ Result<std::string> colour_map_in(const std::string& text,
 }
 
 Result<CameraSettings> camera_in(const PictureArguments& a, bool turns) {
-  constexpr double kAnyAngle = 1e6;
   CameraSettings camera;
   camera.fit = turns ? PictureFit::kSphere : PictureFit::kTight;
   Pan pan;
   const Result<void> all = first_failure({
-      take(number_between(a.azimuth, -kAnyAngle, kAnyAngle,
-                          "is no angle; give degrees about the vertical axis, such as 30"),
-           "--azimuth", camera.azimuth),
-      take(number_between(a.elevation, -90, 90,
-                          "is no elevation; give degrees from -90 (from below) to 90 (from above)"),
-           "--elevation", camera.elevation),
-      take(
-          number_between(a.zoom, kLeastZoom, kMostZoom,
-                         "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits"),
-          "--zoom", camera.zoom),
-      take(pan_in(a.pan), "--pan", pan),
-      take(orthographic_in(a.projection), "--projection", camera.orthographic),
+      take(parse_azimuth(a.azimuth), "--azimuth", camera.azimuth),
+      take(parse_elevation(a.elevation), "--elevation", camera.elevation),
+      take(parse_zoom(a.zoom), "--zoom", camera.zoom),
+      take(parse_pan(a.pan), "--pan", pan),
+      take(parse_projection(a.projection), "--projection", camera.orthographic),
       a.fit.empty() ? Result<void>() : take(parse_fit(a.fit), "--fit", camera.fit),
+      take(parse_centre(a.centre), "--centre", camera.centre),
   });
   if (!all) return all.error();
+  if (camera.centre && a.fit.empty()) camera.fit = PictureFit::kSphere;
+  if (camera.centre && camera.fit == PictureFit::kTight) {
+    return Error{ErrorCode::kBadInput,
+                 "--centre: a tight fit decides itself what is in the middle; give --fit sphere"};
+  }
   camera.pan_right = pan.right;
   camera.pan_up = pan.up;
   return camera;
@@ -177,6 +78,9 @@ void add_picture_options(CLI::App& command, PictureArguments& a) {
   add("--elevation", a.elevation, "DEGREES", "of the eye, default 20", "Camera");
   add("--zoom", a.zoom, "FACTOR", "default 1: as large as it fits", "Camera");
   add("--pan", a.pan, "RIGHT:UP", "shift in picture heights", "Camera");
+  add("--centre,--center", a.centre, "X:Y:Z",
+      "what is in the middle, in model units, and what turntables turn about; implies --fit sphere",
+      "Camera");
   add("--fit", a.fit, "HOW",
       "tight (default): as large as it can be from here; sphere: the same size from everywhere",
       "Camera");
@@ -197,17 +101,13 @@ Result<PictureSettings> picture_settings(const PictureArguments& a,
   PictureSettings s;
   Size size;
   Range range;
-  const auto samples = [](const std::string& text) -> Result<int> {
-    if (text == "1" || text == "4") return text == "1" ? 1 : 4;
-    return wrong(text, "samples a pixel cannot be had; give 1 or 4");
-  };
   const Result<void> all = first_failure({
       take(parse_view(a.view), "--view", s.view),
-      take(size_in(a.size), "--size", size),
-      take(samples(a.samples), "--samples", s.samples),
+      take(parse_size(a.size), "--size", size),
+      take(parse_samples(a.samples), "--samples", s.samples),
       take(colour_map_in(a.colour_map, colour_maps), "--colour-map", s.colour_map),
-      take(range_in(a.range), "--range", range),
-      take(spacing_in(a.spacing), "--spacing", s.line_spacing),
+      take(parse_range(a.range), "--range", range),
+      take(parse_spacing(a.spacing), "--spacing", s.line_spacing),
       take(parse_light(a.light), "--light", s.light),
       take(parse_background(a.background), "--background", s.background),
       a.turntable.empty() ? Result<void>()

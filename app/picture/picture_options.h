@@ -23,7 +23,8 @@ struct PictureArguments {
   std::string background = "light";
   bool no_bar = false, no_caption = false, no_markers = false;
   std::string azimuth = "30", elevation = "20", zoom = "1", pan = "0:0";
-  std::string fit;  ///< empty: tight, or sphere for a turntable
+  std::string centre;  ///< empty: the middle of the model
+  std::string fit;     ///< empty: tight, or sphere for a turntable
   std::string projection = "perspective";
   std::string turntable;  ///< empty: one picture
   std::string device;

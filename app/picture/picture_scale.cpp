@@ -2,6 +2,7 @@
 #include "app/picture/picture_scale.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace geotherm::app {
@@ -12,11 +13,18 @@ constexpr int kMostTicks = 7;
 
 }  // namespace
 
+std::string colour_map_of(const PictureData& data, const PictureSettings& settings) {
+  constexpr std::array kDiverging = {"cool-warm", "red-yellow-blue"};
+  const bool fits = std::ranges::find(kDiverging, settings.colour_map) != kDiverging.end();
+  return data.is_signed && !fits ? kDiverging[0] : settings.colour_map;
+}
+
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
   const double largest = data.largest_value * data.value_unit;
   const bool has_range = settings.range_min || settings.range_max;
   PictureScale scale;
-  scale.min = settings.range_min.value_or(0);
+  const double smallest = data.is_signed ? -(largest > 0 ? largest : 1) : 0;
+  scale.min = settings.range_min.value_or(smallest);
   scale.max = settings.range_max.value_or(largest > 0 ? largest : 1);
   if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
     const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
@@ -30,7 +38,8 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   // Where all distances are 0 an isoline would be all of the surface.
   if (coloured && largest > 0) {
     scale.coloured = true;
-    scale.spacing = settings.line_spacing.value_or(round_spacing(scale.max - scale.min));
+    const double usual = data.is_signed ? 0 : round_spacing(scale.max - scale.min);
+    scale.spacing = settings.line_spacing.value_or(usual);
     // More lines than pixels are no lines.
     const double pixels = std::max(settings.width, settings.height);
     if ((scale.max - scale.min) > pixels * scale.spacing) scale.spacing = 0;

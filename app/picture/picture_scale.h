@@ -17,6 +17,9 @@ struct PictureScale {
   Ticks ticks;              ///< of the bar
 };
 
+/// The settings' map, or a diverging one where values have both signs and it is none.
+std::string colour_map_of(const PictureData& data, const PictureSettings& settings);
+
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings);
 
 }  // namespace geotherm::app

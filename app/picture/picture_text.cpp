@@ -85,6 +85,12 @@ std::vector<std::string> light_names() { return names_of(kLights); }
 std::vector<std::string> background_names() { return names_of(kBackgrounds); }
 std::vector<std::string> fit_names() { return names_of(kFits); }
 
+std::string centre_text(const CameraSettings& camera) {
+  if (!camera.centre) return "auto";
+  const auto& [x, y, z] = *camera.centre;
+  return number_text(x) + ":" + number_text(y) + ":" + number_text(z);
+}
+
 std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& s) {
   const CameraSettings& camera = s.camera;
   return {{"view", to_text(s.view)},
@@ -103,6 +109,7 @@ std::vector<std::pair<std::string, std::string>> settings_in_words(const Picture
           {"elevation", number_text(camera.elevation)},
           {"zoom", number_text(camera.zoom)},
           {"pan", number_text(camera.pan_right) + ":" + number_text(camera.pan_up)},
+          {"centre", centre_text(camera)},
           {"fit", to_text(camera.fit)},
           {"projection", camera.orthographic ? "orthographic" : "perspective"}};
 }

@@ -29,6 +29,9 @@ std::vector<std::string> light_names();
 std::vector<std::string> background_names();
 std::vector<std::string> fit_names();
 
+/// "0:1.5:-2", or "auto" where the middle of the model is the centre.
+std::string centre_text(const CameraSettings& camera);
+
 /// Every setting as name and text, named as its option: ("view", "contours"), ("size", "1280x720").
 /// What is chosen by the data ("auto") and flags ("yes", "no") are said as well.
 std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& settings);

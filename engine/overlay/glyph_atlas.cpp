@@ -164,4 +164,6 @@ float GlyphAtlas::width_of(std::string_view text) const {
   return width;
 }
 
+std::span<const std::byte> font_file() { return std::as_bytes(std::span(embedded::legend_font())); }
+
 }  // namespace geotherm::engine

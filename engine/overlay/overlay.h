@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace geotherm::engine {
+
+/// The font that everything is written in (DejaVu Sans, embedded): a TrueType file.
+std::span<const std::byte> font_file();
 
 /// Letters as one 8-bit coverage image; made for the texts that will be drawn, of any script that
 /// the font (DejaVu Sans, embedded) covers.

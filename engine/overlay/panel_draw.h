@@ -19,7 +19,8 @@ struct PanelDraw {
   struct Vertex {
     glm::vec2 position;  ///< pixels from the top left corner of the target
     glm::vec2 uv;        ///< in the font's image
-    std::uint32_t colour = 0;  ///< sRGB, red in the lowest byte, alpha in the highest, not multiplied
+    /// sRGB and alpha, not multiplied in: red is the lowest byte, alpha the highest.
+    std::uint32_t colour = 0;
   };
   struct Command {
     glm::vec4 clip;  ///< left, top, right, bottom, pixels

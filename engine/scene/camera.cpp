@@ -40,6 +40,14 @@ Axes axes_of(const Orbit& orbit) {
   return {right, glm::cross(back, right), back};
 }
 
+/// Of the sphere that is fitted, along the axes.
+dvec3 centre_of(const Orbit& orbit, const Axes& axes) {
+  const glm::vec3& c = orbit.centre;
+  if (!std::isfinite(c.x + c.y + c.z)) return dvec3(0);
+  const dvec3 centre(c);
+  return {glm::dot(axes.right, centre), glm::dot(axes.up, centre), glm::dot(axes.back, centre)};
+}
+
 /// What the insets leave of the picture, pixels.
 struct Region {
   dvec2 centre, half;
@@ -103,16 +111,20 @@ struct Placement {
   double pixels_per_unit = 1;
 };
 
-/// Fits the sphere of radius 1 about `centre`.
-Placement place_sphere(const dvec3& centre, const Region& region, double pixels_per_tangent,
-                       bool orthographic) {
+/// Fits the sphere of radius 1 about `centre`; the eye stays before `nearest`, the point that is
+/// farthest along `back`, under a longer lens where the sphere alone would put it behind.
+Placement place_sphere(const dvec3& centre, double nearest, const Region& region,
+                       double pixels_per_tangent, bool orthographic) {
   const double half = std::min(region.half.x, region.half.y);
   if (orthographic) {
     return {{centre.x, centre.y, kOrthographicEye + std::max(0.0, centre.z)}, half / kModelRadius};
   }
   const double tangent = half / pixels_per_tangent;
   const double distance = kModelRadius * std::sqrt(1 + tangent * tangent) / tangent;
-  return {centre + dvec3(0, 0, distance), pixels_per_tangent};
+  const double least = nearest - centre.z + kClosestEye * kModelRadius;
+  if (distance >= least) return {centre + dvec3(0, 0, distance), pixels_per_tangent};
+  const double longer = half * std::sqrt(least * least - kModelRadius * kModelRadius);
+  return {centre + dvec3(0, 0, least), longer};
 }
 
 Placement place_orthographic(const Box& box, const Region& region) {
@@ -236,10 +248,13 @@ Camera make_camera(const Orbit& orbit, std::span<const glm::vec3> points, glm::v
   const std::optional<Box> found = box_of(points, axes);
   const Box box = found.value_or(Box{dvec3(-kModelRadius), dvec3(kModelRadius)});
   Placement place;
-  if (!found || orbit.fit == Fit::kSphere) {
-    place = place_sphere(dvec3(0), region, pixels_per_tangent, orbit.orthographic);
+  if (orbit.fit == Fit::kSphere) {
+    place = place_sphere(centre_of(orbit, axes), box.max.z, region, pixels_per_tangent,
+                         orbit.orthographic);
+  } else if (!found) {
+    place = place_sphere(dvec3(0), box.max.z, region, pixels_per_tangent, orbit.orthographic);
   } else if (box.radius() < kSmallestRadius) {
-    place = place_sphere(box.min, region, pixels_per_tangent, orbit.orthographic);
+    place = place_sphere(box.min, box.max.z, region, pixels_per_tangent, orbit.orthographic);
   } else if (orbit.orthographic) {
     place = place_orthographic(box, region);
   } else {

@@ -13,7 +13,7 @@ struct Insets {
 
 enum class Fit {
   kTight,   ///< as large as the insets allow, seen from this direction
-  kSphere,  ///< the sphere about the origin with radius 1: the same size from every direction
+  kSphere,  ///< the sphere of radius 1 about the orbit's centre: the same size from everywhere
 };
 
 /// Where the eye is, seen from the model. The model lies within radius 1 of the origin, Y is up.
@@ -25,7 +25,7 @@ struct Orbit {
   bool orthographic = false;
   float field_of_view = 30;  ///< degrees, vertical; perspective only
   Fit fit = Fit::kTight;
-  glm::vec3 centre{0};  ///< kSphere: what lies in the middle; the sphere of radius 1 is about it
+  glm::vec3 centre{0};  ///< kSphere alone: what the eye goes round, and what lies in the middle
 };
 
 /// Matrices of a view. Clip space is Vulkan's: x right, y down, depth 1 at the near plane and 0 at

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 
 #include "engine/vulkan/vulkan_error.h"
 
@@ -51,16 +52,33 @@ bool can(const vk::raii::PhysicalDevice& device, vk::Format format, vk::FormatFe
   return (device.getFormatProperties(format).optimalTilingFeatures & use) == use;
 }
 
+bool has_swapchains(const vk::raii::PhysicalDevice& device) {
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  return std::any_of(extensions.begin(), extensions.end(), [](const auto& extension) {
+    return std::string_view(extension.extensionName) == VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  });
+}
+
+/// Chooses the queue family.
+void find_queue(Candidate& candidate, vk::Instance instance, const Presentation* presentation) {
+  const auto families = candidate.device.getQueueFamilyProperties();
+  bool draws = false;
+  bool presents = false;
+  for (std::uint32_t i = 0; i < families.size() && !presents; ++i) {
+    if (!(families[i].queueFlags & vk::QueueFlagBits::eGraphics)) continue;
+    presents = presentation != nullptr && presentation->can_present(instance, *candidate.device, i);
+    if (!draws || presents) candidate.queue_family = i;
+    draws = true;
+  }
+  if (!draws) candidate.info.lacks.emplace_back("no queue that draws");
+  if (presentation != nullptr && !(presents && has_swapchains(candidate.device))) {
+    candidate.info.lacks.emplace_back("cannot show pictures in windows");
+  }
+}
+
 void find_lacks(Candidate& candidate) {
   const vk::raii::PhysicalDevice& device = candidate.device;
   std::vector<std::string>& lacks = candidate.info.lacks;
-  const auto families = device.getQueueFamilyProperties();
-  const auto draws = std::find_if(families.begin(), families.end(), [](const auto& family) {
-    return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eGraphics);
-  });
-  if (draws == families.end()) lacks.emplace_back("no queue that draws");
-  candidate.queue_family = static_cast<std::uint32_t>(draws - families.begin());
-
   const auto limits = device.getProperties().limits;
   const auto both = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
   if (!(both & vk::SampleCountFlagBits::e4)) lacks.emplace_back("no 4 samples a pixel");
@@ -83,7 +101,8 @@ void find_lacks(Candidate& candidate) {
   if (!v13.synchronization2) lacks.emplace_back("no synchronization2");
 }
 
-Candidate examine(vk::raii::PhysicalDevice device) {
+Candidate examine(vk::raii::PhysicalDevice device, vk::Instance instance,
+                  const Presentation* presentation) {
   const auto properties =
       device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
   const vk::PhysicalDeviceProperties& base =
@@ -102,6 +121,7 @@ Candidate examine(vk::raii::PhysicalDevice device) {
   info.api_minor = VK_API_VERSION_MINOR(base.apiVersion);
   info.api_patch = VK_API_VERSION_PATCH(base.apiVersion);
   info.memory = largest_heap(candidate.device);
+  find_queue(candidate, instance, presentation);
   find_lacks(candidate);
   return candidate;
 }
@@ -129,10 +149,11 @@ std::string in_words(const std::vector<Candidate>& candidates) {
 
 }  // namespace
 
-std::vector<Candidate> examine_devices(const vk::raii::Instance& instance) {
+std::vector<Candidate> examine_devices(const vk::raii::Instance& instance,
+                                       const Presentation* presentation) {
   std::vector<Candidate> candidates;
   for (vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
-    candidates.push_back(examine(std::move(device)));
+    candidates.push_back(examine(std::move(device), *instance, presentation));
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return rank_of(a.info) < rank_of(b.info); });

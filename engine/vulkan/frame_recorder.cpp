@@ -7,27 +7,17 @@
 #include <glm/gtc/packing.hpp>
 
 #include "engine/vulkan/frame_uniforms.h"
+#include "engine/vulkan/upload.h"
 #include "shaders/shared.h"
 
 namespace geotherm::engine {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
-constexpr auto kBothStages = vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 constexpr float kHiddenOpacity = 0.33F;  // of the rim; what lies on it adds as much
 /// Arrows towards the eye, in their full lengths; the second field lies on the first.
 constexpr float kLift = 0.35F;
 constexpr float kLiftOfSecond = 0.42F;
-
-/// Writes bytes that change with every frame, into a larger buffer where they do not fit.
-void write_host(const Device::State& device, Buffer& buffer, std::span<const std::byte> bytes,
-                vk::BufferUsageFlags usage) {
-  if (bytes.empty()) return;
-  if (buffer.bytes < bytes.size()) {
-    buffer = Buffer(device.memory, bytes.size() + bytes.size() / 2, usage, Home::kHost);
-  }
-  std::memcpy(buffer.memory.mapped(), bytes.data(), bytes.size());
-}
 
 std::vector<std::uint32_t> packed(const ColourTable& table) {
   std::vector<std::uint32_t> texels;
@@ -48,21 +38,38 @@ vk::raii::DescriptorSet make_set(const vk::raii::Device& device, const vk::Descr
   return std::move(sets.front());
 }
 
+vk::SampleCountFlagBits sample_count(int samples) {
+  assert(samples == 1 || samples == 4);
+  return samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1;
+}
+
+/// The target's pixels that belong to the picture: beside it there are panels.
+vk::Rect2D picture_in(glm::ivec2 extent, glm::ivec2 origin, const Camera& camera) {
+  const glm::ivec2 from = glm::clamp(-origin, glm::ivec2(0), extent);
+  const glm::ivec2 to = glm::clamp(glm::ivec2(glm::ceil(camera.extent)) - origin, from, extent);
+  const glm::uvec2 size(to - from);
+  return {{from.x, from.y}, {size.x, size.y}};
+}
+
 }  // namespace
 
 FrameRecorder::FrameRecorder(std::shared_ptr<Device::State> device, int samples)
     : device_(std::move(device)),
-      samples_(samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1),
-      pipelines_(device_, samples_),
+      samples_(sample_count(samples)),
+      pipelines_(device_),
       frame_(device_->memory, sizeof(shared::Frame), Usage::eUniformBuffer, Home::kHost),
       colours_(device_->upload(bytes_of(packed(colour_table(colour_maps().front()))),
                                Usage::eUniformTexelBuffer)),
       colours_view_(device_->device,
                     {{}, *colours_.buffer, vk::Format::eR8G8B8A8Unorm, 0, VK_WHOLE_SIZE}),
+      sampler_(make_sampler(device_->device, vk::Filter::eNearest)),
       pool_(make_pool(device_->device)),
-      set_(make_set(device_->device, *pool_, pipelines_.set_layout())) {
+      set_(make_set(device_->device, *pool_, pipelines_.set_layout())),
+      panels_(device_, pipelines_.set_layout()) {
   set_atlas({});
 }
+
+void FrameRecorder::set_samples(int samples) { samples_ = sample_count(samples); }
 
 void FrameRecorder::set_surface(const DrawMesh& mesh, std::span<const float> values) {
   Buffer vertices = device_->upload(bytes_of(mesh.vertices), Usage::eVertexBuffer);
@@ -90,27 +97,10 @@ void FrameRecorder::set_markers(std::span<const Marker> markers) {
 
 void FrameRecorder::set_atlas(const GlyphAtlas& atlas) {
   if (atlas.pixels() == atlas_pixels_) return;
-  const vk::Extent2D extent(static_cast<std::uint32_t>(atlas.width()),
-                            static_cast<std::uint32_t>(atlas.height()));
-  Texture texture(device_->memory, extent, vk::Format::eR8Unorm,
-                  vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
-  const Buffer staging = device_->upload(bytes_of(atlas.pixels()), Usage::eTransferSrc);
-  using Stage = vk::PipelineStageFlagBits2;
-  using Access = vk::AccessFlagBits2;
-  device_->run([&](const vk::raii::CommandBuffer& commands) {
-    record_transition(commands, {*texture.image, vk::ImageLayout::eUndefined,
-                                 vk::ImageLayout::eTransferDstOptimal, Stage::eNone, Access::eNone,
-                                 Stage::eCopy, Access::eTransferWrite});
-    const vk::BufferImageCopy region(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
-                                     {extent.width, extent.height, 1});
-    commands.copyBufferToImage(*staging.buffer, *texture.image,
-                               vk::ImageLayout::eTransferDstOptimal, region);
-    record_transition(
-        commands, {*texture.image, vk::ImageLayout::eTransferDstOptimal,
-                   vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eCopy, Access::eTransferWrite,
-                   Stage::eFragmentShader, Access::eShaderSampledRead});
-  });
-  atlas_ = std::move(texture);
+  atlas_ = upload_coverage(
+      *device_,
+      {static_cast<std::uint32_t>(atlas.width()), static_cast<std::uint32_t>(atlas.height())},
+      atlas.pixels());
   atlas_pixels_ = atlas.pixels();
   write_descriptors();
 }
@@ -118,7 +108,8 @@ void FrameRecorder::set_atlas(const GlyphAtlas& atlas) {
 void FrameRecorder::write_descriptors() {
   const vk::DescriptorBufferInfo frame(*frame_.buffer, 0, VK_WHOLE_SIZE);
   const vk::BufferView colours = *colours_view_;
-  const vk::DescriptorImageInfo atlas({}, *atlas_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+  const vk::DescriptorImageInfo atlas(*sampler_, *atlas_.view,
+                                      vk::ImageLayout::eShaderReadOnlyOptimal);
   using Kind = vk::DescriptorType;
   const std::array writes = {
       vk::WriteDescriptorSet(*set_, shared::kFrameBinding, 0, Kind::eUniformBuffer, {}, frame),
@@ -128,7 +119,8 @@ void FrameRecorder::write_descriptors() {
   device_->device.updateDescriptorSets(writes, {});
 }
 
-void FrameRecorder::prepare(const ArrowSelection& arrows, const Overlay& overlay) {
+void FrameRecorder::prepare(const ArrowSelection& arrows, const Overlay& overlay,
+                            const PanelDraw* panels) {
   std::vector<ArrowInstance> instances = arrows.primary;
   instances.insert(instances.end(), arrows.secondary.begin(), arrows.secondary.end());
   write_host(*device_, arrows_, bytes_of(instances), Usage::eVertexBuffer);
@@ -137,39 +129,47 @@ void FrameRecorder::prepare(const ArrowSelection& arrows, const Overlay& overlay
   write_host(*device_, overlay_, bytes_of(overlay.vertices), Usage::eVertexBuffer);
   overlay_count_ = static_cast<std::uint32_t>(overlay.vertices.size());
   if (overlay_count_ > 0) set_atlas(overlay.atlas);
+  panels_.prepare(panels);
 }
 
 template <class Push>
 void FrameRecorder::push(const vk::raii::CommandBuffer& commands, const Push& values) {
   static_assert(sizeof(Push) <= sizeof(shared::ArrowPush));
-  commands.pushConstants<Push>(pipelines_.layout(), kBothStages, 0, values);
+  commands.pushConstants<Push>(pipelines_.layout(), Pipelines::kPushStages, 0, values);
+}
+
+const Attachments& FrameRecorder::fitting_attachments(vk::Extent2D size, vk::Format format) {
+  for (Attachments& kept : attachments_) {
+    if (!kept.fit(size, format)) kept = {};  // first, so that both are never there at once
+  }
+  Attachments& own = attachments_[samples_ == vk::SampleCountFlagBits::e1 ? 0 : 1];
+  if (!own.fit(size, format)) own = Attachments(*device_, size, format, samples_);
+  return own;
 }
 
 void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene) {
   const vk::raii::CommandBuffer& commands = *frame.commands;
   const vk::Extent2D size(static_cast<std::uint32_t>(extent.x),
                           static_cast<std::uint32_t>(extent.y));
-  pipelines_.use_format(frame.format);
-  if (!attachments_.fit(size, frame.format)) {
-    attachments_ = {};  // first, so that both are never there at once
-    attachments_ = Attachments(*device_, size, frame.format, samples_);
-  }
+  pipelines_.use(frame.format, samples_);
+  const Attachments& attachments = fitting_attachments(size, frame.format);
   const shared::Frame uniforms = frame_uniforms(scene, frame.origin, extent);
   std::memcpy(frame_.memory.mapped(), &uniforms, sizeof(uniforms));
 
   commands.setViewport(
       0, vk::Viewport(0, 0, static_cast<float>(extent.x), static_cast<float>(extent.y), 0, 1));
-  commands.setScissor(0, vk::Rect2D({0, 0}, size));
+  commands.setScissor(0, picture_in(extent, frame.origin, scene.camera));
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0, *set_, {});
 
   const glm::vec4& b = scene.background;
   const std::array<float, 4> background = {b.r * b.a, b.g * b.a, b.b * b.a, b.a};
-  record_scene_begin(commands, attachments_, frame.view, vk::ClearColorValue(background));
+  record_scene_begin(commands, attachments, frame.view, vk::ClearColorValue(background));
   record_scene(commands, scene);
   commands.endRendering();
-  if (overlay_count_ == 0) return;
+  if (overlay_count_ == 0 && panels_.empty()) return;
   record_overlay_begin(commands, size, frame.image, frame.view);
-  record_overlay(commands);
+  if (overlay_count_ > 0) record_overlay(commands);
+  panels_.record(commands, pipelines_, extent);
   commands.endRendering();
 }
 
@@ -215,6 +215,7 @@ void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands) {
 }
 
 void FrameRecorder::record_overlay(const vk::raii::CommandBuffer& commands) {
+  if (overlay_count_ == 0) return;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.overlay());
   commands.bindVertexBuffers(0, *overlay_.buffer, {0});
   commands.draw(overlay_count_, 1, 0, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "engine/overlay/overlay.h"
@@ -9,6 +10,7 @@
 #include "engine/scene/draw_mesh.h"
 #include "engine/vulkan/attachments.h"
 #include "engine/vulkan/device_state.h"
+#include "engine/vulkan/panel_layer.h"
 #include "engine/vulkan/pipelines.h"
 #include "engine/vulkan/target_frame.h"
 
@@ -21,19 +23,24 @@ class FrameRecorder {
  public:
   FrameRecorder(std::shared_ptr<Device::State> device, int samples);
 
+  int samples() const { return static_cast<int>(samples_); }
+  void set_samples(int samples);  ///< 1 or 4
+
   void set_surface(const DrawMesh& mesh, std::span<const float> values);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
   void set_colours(const ColourTable& table);
   void set_markers(std::span<const Marker> markers);
   void clear_markers() { marker_count_ = 0; }
+  void set_panel_font(const PanelFont& font) { panels_.set_font(font); }
 
   /// Uploads what only this frame needs; before the target's begin().
-  void prepare(const ArrowSelection& arrows, const Overlay& overlay);
+  void prepare(const ArrowSelection& arrows, const Overlay& overlay, const PanelDraw* panels);
   void record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene);
 
  private:
   void set_atlas(const GlyphAtlas& atlas);
   void write_descriptors();
+  const Attachments& fitting_attachments(vk::Extent2D size, vk::Format format);
   void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_markers(const vk::raii::CommandBuffer& commands);
@@ -45,15 +52,17 @@ class FrameRecorder {
   std::shared_ptr<Device::State> device_;
   vk::SampleCountFlagBits samples_;
   Pipelines pipelines_;
-  Attachments attachments_;
+  std::array<Attachments, 2> attachments_;  ///< with one sample a pixel, with four
   Buffer frame_, colours_, vertices_, values_, indices_, markers_, arrows_, overlay_;
   vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_
+  vk::raii::Sampler sampler_;
   Texture atlas_;
   std::vector<std::uint8_t> atlas_pixels_;  ///< what is in atlas_
   std::uint32_t index_count_ = 0, marker_count_ = 0, overlay_count_ = 0;
   std::uint32_t primary_count_ = 0, secondary_count_ = 0;
   vk::raii::DescriptorPool pool_ = nullptr;
   vk::raii::DescriptorSet set_ = nullptr;
+  PanelLayer panels_;
 };
 
 }  // namespace geotherm::engine

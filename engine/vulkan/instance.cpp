@@ -27,14 +27,17 @@ vk::DebugUtilsMessengerCreateInfoEXT messenger_info(MessageLog& log) {
 }
 
 vk::raii::Instance make_instance(const vk::raii::Context& context, bool validation,
-                                 MessageLog& log) {
+                                 const Presentation* presentation, MessageLog& log) {
   const vk::ApplicationInfo application("geotherm", 1, "geotherm", 1, VK_API_VERSION_1_3);
   if (context.enumerateInstanceVersion() < VK_API_VERSION_1_1) {
     throw Failure({ErrorCode::kNoDevice,
                    "the Vulkan loader knows version 1.0 alone and 1.3 is needed; install a newer "
                    "one"});
   }
+  std::vector<const char*> extensions;
+  if (presentation != nullptr) extensions = presentation->instance_extensions();
   vk::InstanceCreateInfo info({}, &application);
+  info.setPEnabledExtensionNames(extensions);
   if (!validation) return {context, info};
 
   const auto layers = context.enumerateInstanceLayerProperties();
@@ -45,11 +48,11 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
                    "validation was asked for and its layer is not installed (Debian: "
                    "vulkan-validationlayers)"});
   }
-  constexpr std::array kExtensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
+  extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   const std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
   const auto messenger = messenger_info(log);
   const vk::ValidationFeaturesEXT features(enabled, {}, &messenger);
-  info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(kExtensions);
+  info.setPEnabledLayerNames(kValidationLayer).setPEnabledExtensionNames(extensions);
   info.setPNext(&features);
   return {context, info};
 }
@@ -66,10 +69,10 @@ std::vector<std::string> MessageLog::messages() const {
   return messages_;
 }
 
-Instance::Instance(bool validation)
+Instance::Instance(bool validation, const Presentation* presentation)
     : log(std::make_unique<MessageLog>()),
       context(loader.entry()),
-      instance(make_instance(context, validation, *log)),
+      instance(make_instance(context, validation, presentation, *log)),
       messenger(nullptr) {
   if (validation) messenger = vk::raii::DebugUtilsMessengerEXT(instance, messenger_info(*log));
 }

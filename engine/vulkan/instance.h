@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/vulkan/loader.h"
+#include "engine/vulkan/presentation.h"
 #include "engine/vulkan/vulkan.h"
 
 namespace geotherm::engine {
@@ -24,8 +25,9 @@ class MessageLog {
 
 /// The loader, an instance, and its messages. Members are destroyed from the last to the first.
 struct Instance {
+  /// `presentation`: of the window that will be drawn to; null: of none.
   /// Throws Failure: no loader, no driver, validation asked for and not installed.
-  explicit Instance(bool validation);
+  explicit Instance(bool validation, const Presentation* presentation = nullptr);
 
   std::unique_ptr<MessageLog> log;
   Loader loader;

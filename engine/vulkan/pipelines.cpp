@@ -9,9 +9,11 @@
 #include "embedded/marker_vert.h"
 #include "embedded/overlay_frag.h"
 #include "embedded/overlay_vert.h"
+#include "embedded/panel_vert.h"
 #include "embedded/surface_frag.h"
 #include "embedded/surface_vert.h"
 #include "engine/overlay/overlay.h"
+#include "engine/overlay/panel_draw.h"
 #include "engine/scene/arrow_selection.h"
 #include "engine/scene/draw_mesh.h"
 #include "shaders/shared.h"
@@ -21,32 +23,22 @@ namespace {
 
 using Code = std::span<const unsigned char>;
 
-vk::raii::Sampler make_sampler(const vk::raii::Device& device) {
-  vk::SamplerCreateInfo info({}, vk::Filter::eNearest, vk::Filter::eNearest);
-  info.setAddressModeU(vk::SamplerAddressMode::eClampToEdge)
-      .setAddressModeV(vk::SamplerAddressMode::eClampToEdge);
-  return {device, info};
-}
-
-vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device,
-                                              const vk::Sampler& sampler) {
+vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
   using Stage = vk::ShaderStageFlagBits;
   const std::array bindings = {
       vk::DescriptorSetLayoutBinding(shared::kFrameBinding, vk::DescriptorType::eUniformBuffer, 1,
                                      Stage::eVertex | Stage::eFragment),
       vk::DescriptorSetLayoutBinding(shared::kColoursBinding,
                                      vk::DescriptorType::eUniformTexelBuffer, 1, Stage::eFragment),
-      vk::DescriptorSetLayoutBinding(shared::kAtlasBinding,
-                                     vk::DescriptorType::eCombinedImageSampler, 1, Stage::eFragment,
-                                     &sampler),
+      vk::DescriptorSetLayoutBinding(
+          shared::kAtlasBinding, vk::DescriptorType::eCombinedImageSampler, 1, Stage::eFragment),
   };
   return {device, {{}, bindings}};
 }
 
 vk::raii::PipelineLayout make_layout(const vk::raii::Device& device,
                                      const vk::DescriptorSetLayout& set) {
-  using Stage = vk::ShaderStageFlagBits;
-  const vk::PushConstantRange push(Stage::eVertex | Stage::eFragment, 0, sizeof(shared::ArrowPush));
+  const vk::PushConstantRange push(Pipelines::kPushStages, 0, sizeof(shared::ArrowPush));
   return {device, {{}, set, push}};
 }
 
@@ -86,19 +78,20 @@ struct Pipelines::Plan {
   vk::CompareOp depth_test = vk::CompareOp::eGreaterOrEqual;  // depth is reversed
 };
 
-Pipelines::Pipelines(std::shared_ptr<Device::State> device, vk::SampleCountFlagBits samples)
+Pipelines::Pipelines(std::shared_ptr<Device::State> device)
     : device_(std::move(device)),
-      samples_(samples),
-      sampler_(make_sampler(device_->device)),
-      set_layout_(make_set_layout(device_->device, *sampler_)),
+      set_layout_(make_set_layout(device_->device)),
       layout_(make_layout(device_->device, *set_layout_)) {}
 
-void Pipelines::use_format(vk::Format format) {
+void Pipelines::use(vk::Format format, vk::SampleCountFlagBits samples) {
   if (format != format_) pipelines_.clear();
   format_ = format;
+  samples_ = samples;
 }
 
-vk::Pipeline Pipelines::made(std::uint32_t key, const Plan& plan) {
+vk::Pipeline Pipelines::made(std::uint32_t kind, const Plan& plan) {
+  const auto samples = plan.scene ? samples_ : vk::SampleCountFlagBits::e1;
+  const std::uint32_t key = kind | static_cast<std::uint32_t>(samples) << 24U;
   const auto known = pipelines_.find(key);
   if (known != pipelines_.end()) return *known->second;
 
@@ -116,8 +109,7 @@ vk::Pipeline Pipelines::made(std::uint32_t key, const Plan& plan) {
   vk::PipelineRasterizationStateCreateInfo raster;
   // Seen from outside, what runs counter-clockwise is in front; y points down on screen.
   raster.setFrontFace(vk::FrontFace::eCounterClockwise).setLineWidth(1);
-  const vk::PipelineMultisampleStateCreateInfo multisample(
-      {}, plan.scene ? samples_ : vk::SampleCountFlagBits::e1);
+  const vk::PipelineMultisampleStateCreateInfo multisample({}, samples);
   const vk::PipelineDepthStencilStateCreateInfo depth({}, plan.scene, plan.write_depth,
                                                       plan.depth_test);
   const auto attachment = blending(plan.blend);
@@ -190,6 +182,19 @@ vk::Pipeline Pipelines::overlay() {
                .attributes = {{0, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, position)},
                               {1, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
                               {2, 0, vk::Format::eR32G32B32A32Sfloat, offsetof(Vertex, colour)}},
+               .blend = true,
+               .scene = false});
+}
+
+vk::Pipeline Pipelines::panels() {
+  using Vertex = PanelDraw::Vertex;
+  return made(5U << 16,
+              {.vertex = embedded::panel_vert(),
+               .fragment = embedded::overlay_frag(),
+               .bindings = {{0, sizeof(Vertex), kPerVertex}},
+               .attributes = {{0, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, position)},
+                              {1, 0, vk::Format::eR32G32Sfloat, offsetof(Vertex, uv)},
+                              {2, 0, vk::Format::eR8G8B8A8Unorm, offsetof(Vertex, colour)}},
                .blend = true,
                .scene = false});
 }

@@ -7,14 +7,15 @@
 
 namespace geotherm::engine {
 
-/// All pipelines of the renderer and their layout; those of the surface are made when they are
-/// first needed, one for each set of features. Methods throw.
+/// All pipelines of the renderer and their layout; each is made when it is first needed, those of
+/// the surface one for each set of features. Methods throw.
 class Pipelines {
  public:
-  Pipelines(std::shared_ptr<Device::State> device, vk::SampleCountFlagBits samples);
+  explicit Pipelines(std::shared_ptr<Device::State> device);
 
-  /// Of the targets that will be drawn into; another one than before forgets all pipelines.
-  void use_format(vk::Format format);
+  /// Of the targets that will be drawn into; another format than before forgets all pipelines,
+  /// those of both sample counts are kept.
+  void use(vk::Format format, vk::SampleCountFlagBits samples);
 
   vk::DescriptorSetLayout set_layout() const { return *set_layout_; }
   vk::PipelineLayout layout() const { return *layout_; }
@@ -24,17 +25,19 @@ class Pipelines {
   vk::Pipeline visible_markers();
   vk::Pipeline hidden_markers();
   vk::Pipeline overlay();
+  vk::Pipeline panels();
 
   static constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
+  static constexpr auto kPushStages =
+      vk::ShaderStageFlagBits::eVertex | vk::ShaderStageFlagBits::eFragment;
 
  private:
   struct Plan;
-  vk::Pipeline made(std::uint32_t key, const Plan& plan);
+  vk::Pipeline made(std::uint32_t kind, const Plan& plan);
 
   std::shared_ptr<Device::State> device_;
-  vk::SampleCountFlagBits samples_;
+  vk::SampleCountFlagBits samples_ = vk::SampleCountFlagBits::e1;
   vk::Format format_ = vk::Format::eUndefined;
-  vk::raii::Sampler sampler_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
   std::map<std::uint32_t, vk::raii::Pipeline> pipelines_;

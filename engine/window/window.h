@@ -24,9 +24,11 @@ class Window {
   static Result<std::unique_ptr<Window>> open(const WindowOptions& options = {});
   ~Window();
 
-  /// Connects the window to the current ImGui context (its GLFW back end), until it closes.
+  /// Connects the window to the current ImGui context (its GLFW back end), until it closes; the
+  /// context is to live as long.
   void connect_panels();
-  /// Sizes, time and mouse for the next ImGui frame.
+  /// Sizes, time and mouse for the next ImGui frame. ImGui counts in the desktop's units; its
+  /// DisplayFramebufferScale turns them into pixels (X11: 1).
   void begin_panels();
 
   /// Takes in what has happened; waits for it first, for `seconds` at most (negative: without end;
@@ -35,7 +37,7 @@ class Window {
   /// Ends a wait(), from any thread.
   static void wake();
 
-  glm::ivec2 pixels() const;      ///< to draw into; 0 when minimised
+  glm::ivec2 pixels() const;        ///< to draw into; 0 when minimised
   glm::vec2 content_scale() const;  ///< of the monitor: 2 on a HiDPI one
   bool wants_close() const;
   std::vector<std::string> take_dropped_files();

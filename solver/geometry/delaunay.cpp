@@ -12,6 +12,9 @@ namespace {
 /// stands a million sizes away) would have it.
 constexpr double kTolerance = 1e-6;
 
+/// Flips between two calls of progress: a few milliseconds.
+constexpr std::size_t kFlipsBetweenCalls = 1 << 14;
+
 double weight(const IntrinsicMesh& mesh, Side side) {
   const Side other = mesh.twin[side];
   return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
@@ -108,7 +111,7 @@ Index count_non_delaunay(const IntrinsicMesh& mesh) {
   return count;
 }
 
-std::vector<Flip> flip_to_delaunay(IntrinsicMesh& mesh) {
+Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress) {
   std::vector<Flip> flips;
   std::vector<Side> queue;
   for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
@@ -122,6 +125,9 @@ std::vector<Flip> flip_to_delaunay(IntrinsicMesh& mesh) {
     const Side other = mesh.twin[side];
     if (other == kNoSide || face_of(other) == face_of(side)) continue;
     if (!(weight(mesh, side) < -kTolerance)) continue;
+    if (flips.size() % kFlipsBetweenCalls == 0 && !report(progress, "operators", 0.0)) {
+      return cancelled_error();
+    }
     const Flip made = flip(mesh, side);
     flips.push_back(made);
     for (const Index face : {made.f, made.g}) {

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
 #include "solver/core/types.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/mesh/surface_point.h"
@@ -25,8 +27,9 @@ Index count_non_delaunay(const IntrinsicMesh& mesh);
 /// Flips edges until every edge with twins is Delaunay; lengths change, the surface does not.
 /// Faces may afterwards share two sides or visit a vertex twice; the operators allow it.
 /// Cost: O(F + flips). Source: Bobenko, Springborn 2007; Fisher, Springborn, Schroeder, Bobenko
-/// 2006. Precondition: triangle inequalities are strict.
-std::vector<Flip> flip_to_delaunay(IntrinsicMesh& mesh);
+/// 2006. Precondition: triangle inequalities are strict. Error: kCancelled, with the mesh valid and
+/// some of the flips made.
+Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress = {});
 
 /// Carries a point of the unflipped mesh (face numbers before the flips) to the face and weights
 /// it has after them. Cost: O(flips), a few nanoseconds each.

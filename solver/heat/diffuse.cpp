@@ -13,13 +13,15 @@ constexpr int kMostLevels = 255;
 class FarField {
  public:
   FarField(const LinearSystem& system, const Components& components,
-           const std::vector<char>& reached, Eigen::Index column, HeatField& field)
+           const std::vector<char>& reached, Eigen::Index column, HeatField& field,
+           const Progress& progress)
       : system_(system),
         components_(components),
         reached_(reached),
         column_(column),
         columns_(field.u.cols()),
-        field_(field) {}
+        field_(field),
+        progress_(progress) {}
 
   /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
   Result<void> extend(double floor) {
@@ -39,7 +41,11 @@ class FarField {
         interface.push_back(static_cast<Index>(i));
       }
       if (interface.empty()) break;
-      const auto solved = system_.factor().solve(right, interface);
+      // How many levels there will be is not known: each has half of the rest.
+      const double rest = std::pow(0.5, level);
+      if (!report(progress_, "solve", 1 - rest)) return cancelled_error();
+      const auto solved =
+          system_.factor().solve(right, interface, part_of(progress_, 1 - rest, 1 - rest / 2));
       if (!solved) return solved.error();
       field_.iterations += solved->iterations;
       double most = 0;
@@ -96,6 +102,7 @@ class FarField {
   const std::vector<char>& reached_;
   Eigen::Index column_, columns_;
   HeatField& field_;
+  const Progress& progress_;
 };
 
 /// Columns with an entry below `floor` times their largest: one pass along memory.
@@ -121,15 +128,17 @@ std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor
 
 Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
                           std::span<const Index> support,
-                          const std::vector<std::vector<char>>& reached, double floor) {
+                          const std::vector<std::vector<char>>& reached, double floor,
+                          const Progress& progress) {
   HeatField field;
   field.step = floor;
   field.u = std::move(b);
-  const auto solved = system.solve(field.u, support);
+  if (!report(progress, "solve", 0.0)) return cancelled_error();
+  const auto solved = system.solve(field.u, support, part_of(progress, 0.0, 0.5));
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
   for (const Eigen::Index c : columns_with_small_values(field.u, floor)) {
-    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field);
+    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, progress);
     if (const auto extended = far.extend(floor); !extended) return extended.error();
   }
   return field;

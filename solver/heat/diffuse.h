@@ -30,10 +30,12 @@ inline constexpr double kIterativeFloor = 1e-7;
 /// and one layer before it satisfies M w = r with r on the interface alone; r is scaled up by
 /// 1 / floor and solved with the same factor, and so on outwards.
 ///
-/// reached: per column, a flag per component. Errors: the factorisation's.
+/// reached: per column, a flag per component. `progress` is asked before every solve, and by an
+/// iterative backend within. Errors: the factorisation's, kCancelled.
 Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
                           std::span<const Index> support,
-                          const std::vector<std::vector<char>>& reached, double floor);
+                          const std::vector<std::vector<char>>& reached, double floor,
+                          const Progress& progress = {});
 
 /// The mean of two fields.
 HeatField average(HeatField a, const HeatField& b);

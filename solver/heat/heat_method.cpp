@@ -32,8 +32,6 @@ struct HeatMethod::State {
 
 namespace {
 
-Error cancelled() { return {ErrorCode::kCancelled, "the work was cancelled"}; }
-
 Result<void> check(const HeatOptions& options) {
   const TimeStep& step = options.time_step;
   const bool absolute = step.rule == TimeRule::kAbsolute;
@@ -74,6 +72,9 @@ Error out_of_memory(const char* stage, Index faces, const std::string& backend) 
                                                           "or a mesh with fewer faces")};
 }
 
+/// The share of set-up that has no numbers to factorise.
+constexpr double kSurfaceShare = 0.5;
+
 std::string backend_name(const HeatOptions& options) {
   return options.backend.empty() ? backend_names().front() : options.backend;
 }
@@ -91,15 +92,17 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   const auto backend = find_backend(backend_name(options));
   if (!backend) return backend.error();
   if (const auto valid = check(options); !valid) return valid.error();
-  if (!report(progress, "operators", 0.0)) return cancelled();
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
   Stopwatch watch;
-  auto surface = build_surface(mesh, **backend, options.laplacian, thread_count(options.threads));
+  auto surface = build_surface(mesh, **backend, options.laplacian, thread_count(options.threads),
+                               part_of(watched, 0.0, kSurfaceShare));
   if (!surface) return surface.error();
   auto state = std::make_shared<State>();
   state->backend = *backend;
   state->surface = std::move(*surface);
   const HeatMethod prepared(state);
-  auto method = prepared.with(options, progress);
+  auto method = prepared.with(options, part_of(watched, kSurfaceShare, 1.0));
   if (!method) return method.error();
   auto timed = std::make_shared<State>(*method->state_);
   timed->timing.operators = timed->surface->operators_ms;
@@ -119,7 +122,9 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
       (name != state_->backend->name() || options.laplacian != state_->options.laplacian)) {
     return build(state_->surface->mesh, options, progress);
   }
-  if (!report(progress, "factorize", 0.5)) return cancelled();
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
+  if (!report(watched, "factorize", 0.0)) return cancelled_error();
   Stopwatch watch;
   auto next = std::make_shared<State>(*state_);
   next->options = options;
@@ -145,7 +150,8 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
       [&] {
         auto built = HeatStep::build(next->surface, unit_t, options.boundary,
                                      consistent_share(options.variant, unit_t), iterative,
-                                     state_->heat.get(), std::max(1, threads / 2));
+                                     state_->heat.get(), std::max(1, threads / 2),
+                                     part_of(watched, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {
           next->heat = std::move(*built);
         } else {
@@ -155,7 +161,8 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
       [&] {
         if (next->poisson) return;
         auto built = PoissonSolver::build(next->surface, options.constraint, iterative,
-                                          std::max(1, threads - threads / 2));
+                                          std::max(1, threads - threads / 2),
+                                          part_of(watched, threads > 1 ? 0.0 : 0.5, 1.0));
         if (built) {
           next->poisson = std::move(*built);
         } else {
@@ -169,15 +176,15 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
     next->warnings.push_back(next->surface->scale_warning);
   }
   next->timing.factorize = next->timing.setup = watch.milliseconds();
-  if (!report(progress, "factorize", 1.0)) return cancelled();
+  if (!report(watched, "factorize", 1.0)) return cancelled_error();
   return HeatMethod(std::move(next));
 } catch (const std::bad_alloc&) {
   return out_of_memory("factorisation", state_->surface->mesh->face_count(), backend_name(options));
 }
 
-Result<DistanceResult> HeatMethod::solve(const SourceSet& sources,
-                                         const QueryOptions& query) const {
-  auto results = solve_each({&sources, 1}, query);
+Result<DistanceResult> HeatMethod::solve(const SourceSet& sources, const QueryOptions& query,
+                                         const Progress& progress) const {
+  auto results = solve_each({&sources, 1}, query, progress);
   if (!results) return results.error();
   return std::move(results->front());
 }

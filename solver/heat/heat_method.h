@@ -29,10 +29,16 @@ struct QueryOptions {
 /// threads at once. with() gives a method with other options that shares whatever stays the same:
 /// the symbolic analysis always (unless backend or Laplacian change), a factor where its matrix is
 /// the same.
+///
+/// Progress: set-up asks between operators, flips, analysis and factorisations, but a numeric
+/// factorisation (the backend's library) cannot be interrupted: up to some seconds at a million
+/// faces. A query asks between its steps, and within an iterative backend every few milliseconds.
+/// Calls come from any thread of the work, one at a time, and none after the first that returned
+/// false. What was cancelled leaves no trace: the method answers as before.
 class HeatMethod {
  public:
   /// Errors: kNotAvailable (backend), kBadInput (options, a mesh without area), kNumericalFailure
-  /// (with the column or residual), kOutOfMemory.
+  /// (with the column or residual), kOutOfMemory, kCancelled.
   static Result<HeatMethod> build(std::shared_ptr<const TriangleMesh> mesh,
                                   const HeatOptions& options = {}, const Progress& progress = {});
 
@@ -40,8 +46,9 @@ class HeatMethod {
   Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
 
   /// Distance to the nearest source. Errors: kBadInput (no source, a vertex or face out of range,
-  /// weights that are negative or do not sum to 1), kBudgetEnded, kNumericalFailure.
-  Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query = {}) const;
+  /// weights that are negative or do not sum to 1), kBudgetEnded, kNumericalFailure, kCancelled.
+  Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query = {},
+                               const Progress& progress = {}) const;
 
   /// One result per source set, as one blocked solve.
   Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,

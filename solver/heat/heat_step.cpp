@@ -14,7 +14,8 @@ namespace geotherm {
 Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
                                                         double t, BoundaryRule boundary,
                                                         double consistent_share, bool iterative,
-                                                        const HeatStep* previous, int threads) {
+                                                        const HeatStep* previous, int threads,
+                                                        const Progress& progress) {
   std::shared_ptr<HeatStep> out(new HeatStep);
   out->surface_ = std::move(surface);
   out->t_ = t;
@@ -27,6 +28,8 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Su
     out->dirichlet_ = previous->dirichlet_;
   }
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
+    const double share = out->neumann_ ? 0.5 : 0.0;
+    if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
     auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, t,
                                      std::move(held), threads, consistent_share);
     if (!built) return Result<void>(built.error());
@@ -104,7 +107,8 @@ Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
 
 Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                                               std::span<const SourceAnchors> anchors, HeatMode mode,
-                                              bool residuals, BlockPool& pool) const {
+                                              bool residuals, BlockPool& pool,
+                                              const Progress& progress) const {
   const OperatorMesh& mesh = *surface_->operators;
   const auto columns = static_cast<Eigen::Index>(anchors.size());
   Block b = pool.take_zero(mesh.size(), columns);
@@ -124,6 +128,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   const bool own = (dirichlet && on_border(anchors.front())) ||
                    (mode == HeatMode::kHold && needs_own_system(anchors.front(), mode));
   if (own) {
+    if (!report(progress, "solve", 0.0)) return cancelled_error();
     auto built = own_system(dirichlet, anchors.front(), mode, b);
     if (!built) return built.error();
     system = std::move(*built);
@@ -133,7 +138,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   Block right;  // kept only where it is looked at again
   if (residuals) right = b;
   auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
-                                 iterative_ ? kIterativeFloor : kDirectFloor);
+                                 iterative_ ? kIterativeFloor : kDirectFloor, progress);
   if (!field) return field.error();
   Answer answer{std::move(*field), {}, 0.0, {}};
   const Stopwatch watch;
@@ -150,13 +155,15 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
 }
 
 Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
-                                           bool residuals, BlockPool& pool) const {
+                                           bool residuals, BlockPool& pool,
+                                           const Progress& progress) const {
   if (boundary_ != BoundaryRule::kAverage) {
-    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, pool);
+    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, pool,
+                      progress);
   }
-  auto neumann = solve_rule(false, anchors, mode, residuals, pool);
+  auto neumann = solve_rule(false, anchors, mode, residuals, pool, part_of(progress, 0.0, 0.5));
   if (!neumann) return neumann;
-  auto dirichlet = solve_rule(true, anchors, mode, residuals, pool);
+  auto dirichlet = solve_rule(true, anchors, mode, residuals, pool, part_of(progress, 0.5, 1.0));
   if (!dirichlet) return dirichlet;
   neumann->field = average(std::move(neumann->field), dirichlet->field);
   pool.give(std::move(dirichlet->field.u));

@@ -26,20 +26,23 @@ class HeatStep {
   };
 
   /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it
-  /// has them with this t and share. Errors: the backend's.
+  /// has them with this t and share. `progress` is asked before each factorisation. Errors: the
+  /// backend's, kCancelled.
   static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
                                                        double t, BoundaryRule boundary,
                                                        double consistent_share, bool iterative,
-                                                       const HeatStep* previous, int threads);
+                                                       const HeatStep* previous, int threads,
+                                                       const Progress& progress = {});
 
   /// True when these sources change the matrix, so that they cannot share a block with others:
   /// sources on a Dirichlet border, and u held on many vertices.
   bool needs_own_system(const SourceAnchors& anchors, HeatMode mode) const;
 
   /// u for every source set. Precondition: one set only, where it needs its own system.
-  /// Errors: the backend's.
+  /// `progress` is asked before each factorisation and solve, and by an iterative backend within.
+  /// Errors: the backend's, kCancelled.
   Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode, bool residuals,
-                         BlockPool& pool) const;
+                         BlockPool& pool, const Progress& progress = {}) const;
 
   FactorStats stats() const;
 
@@ -48,7 +51,7 @@ class HeatStep {
   std::vector<Index> border_without(const SourceAnchors* anchors) const;
   bool on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
-                            bool residuals, BlockPool& pool) const;
+                            bool residuals, BlockPool& pool, const Progress& progress) const;
   /// The system of this rule for one source set, and its right side with held values in place.
   Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
                                                          const SourceAnchors& anchors,

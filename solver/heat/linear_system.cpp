@@ -21,11 +21,12 @@ Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
   return std::shared_ptr<const LinearSystem>(std::move(out));
 }
 
-Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support) const {
+Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support,
+                                        const Progress& progress) const {
   const std::span<const Index> held = matrix_->held();
   bool zero = true;
   for (const Index i : held) zero = zero && (x.row(i).array() == 0).all();
-  if (zero) return factor_->solve(x, support);
+  if (zero) return factor_->solve(x, support, progress);
 
   const auto n = static_cast<std::size_t>(matrix_->size());
   std::vector<double> known(n), moved(n);
@@ -37,7 +38,7 @@ Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support
       if (!matrix_->is_held(static_cast<Index>(i))) x(static_cast<Eigen::Index>(i), c) -= moved[i];
     }
   }
-  return factor_->solve(x);
+  return factor_->solve(x, {}, progress);
 }
 
 }  // namespace geotherm

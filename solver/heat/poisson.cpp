@@ -59,12 +59,13 @@ void remove(const Components& components, std::span<const double> direction,
 
 Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
     std::shared_ptr<const Surface> surface, const Constraint& constraint, bool iterative,
-    int threads) {
+    int threads, const Progress& progress) {
   std::shared_ptr<PoissonSolver> out(new PoissonSolver);
   std::vector<Index> pins;
   auto chosen = choose_pins(*surface, constraint);
   if (!chosen) return chosen.error();
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
+  if (!report(progress, "factorize", 0.0)) return cancelled_error();
   auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
                                     std::move(pins), threads);
   if (!system) return system.error();
@@ -89,30 +90,32 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   return out;
 }
 
-Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b) const {
+Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Progress& progress) const {
+  if (!report(progress, "solve", 0.0)) return cancelled_error();
   for (const Index pin : system_->matrix().held()) b.row(pin).setZero();
-  const auto solved = system_->factor().solve(b);
+  const auto solved = system_->factor().solve(b, {}, progress);
   if (!solved) return solved.error();
   return PoissonAnswer{std::move(b), solved->iterations};
 }
 
-Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors) const {
+Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
+                                           const Progress& progress) const {
   const Components& components = surface_->operators->components;
   const std::span<const double> mass = surface_->operators->mass;
   switch (constraint_.mode) {
     case ConstraintMode::kPinSources: {
       std::size_t most = 0;
       for (const SourceAnchors& a : anchors) most = std::max(most, a.anchors.size());
-      return iterative_ || most > kMostSchurRows ? solve_held(b, anchors)
-                                                 : solve_schur(std::move(b), anchors);
+      return iterative_ || most > kMostSchurRows ? solve_held(b, anchors, progress)
+                                                 : solve_schur(std::move(b), anchors, progress);
     }
     case ConstraintMode::kPinVertex:
-      return solve_pinned(std::move(b));
+      return solve_pinned(std::move(b), progress);
     case ConstraintMode::kPenalty: {
       std::vector<Index> rows(system_->matrix().held().begin(), system_->matrix().held().end());
       Block ends(static_cast<Eigen::Index>(rows.size()), b.cols());
       for (std::size_t i = 0; i < rows.size(); ++i) ends.row(i) = b.row(rows[i]);
-      auto answer = solve_pinned(std::move(b));
+      auto answer = solve_pinned(std::move(b), progress);
       if (!answer) return answer.error();
       for (std::size_t i = 0; i < rows.size(); ++i) {
         answer->phi.row(rows[i]) = ends.row(i) / constraint_.penalty;
@@ -123,13 +126,13 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
       // [L a; a' 0] [phi; lambda] = [b; 0]: lambda = 1'b / 1'a takes the inconsistency along the
       // masses, and phi is the pinned solution shifted to the mass-weighted mean 0.
       remove(components, mass, {}, b);
-      auto answer = solve_pinned(std::move(b));
+      auto answer = solve_pinned(std::move(b), progress);
       if (answer) remove(components, {}, mass, answer->phi);
       return answer;
     }
     case ConstraintMode::kPseudoInverse: {
       remove(components, {}, {}, b);
-      auto answer = solve_pinned(std::move(b));
+      auto answer = solve_pinned(std::move(b), progress);
       if (answer) remove(components, {}, {}, answer->phi);
       return answer;
     }
@@ -138,7 +141,8 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
 }
 
 Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
-                                                std::span<const SourceAnchors> anchors) const {
+                                                std::span<const SourceAnchors> anchors,
+                                                const Progress& progress) const {
   const Components& components = surface_->operators->components;
   PoissonAnswer answer{b, 0};
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
@@ -149,13 +153,18 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
         held.push_back(pin);
       }
     }
+    const auto columns = static_cast<double>(b.cols());
+    const Progress part =
+        part_of(progress, static_cast<double>(c) / columns, static_cast<double>(c + 1) / columns);
+    if (!report(part, "solve", 0.0)) return cancelled_error();
     const auto system = LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0,
                                             std::move(held), threads_);
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
     for (const auto& anchor : a.anchors) x(anchor.row, 0) = anchor.offset;
-    const auto solved = (*system)->solve(x);
+    if (!report(part, "solve", 0.0)) return cancelled_error();
+    const auto solved = (*system)->solve(x, {}, part);
     if (!solved) return solved.error();
     answer.phi.col(c) = x;
     answer.iterations = std::max(answer.iterations, solved->iterations);
@@ -166,10 +175,10 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
 /// phi = z + G_S lambda + c 1 on each component, z the pinned solution and G the pinned inverse:
 /// phi = g on the anchors and 1' lambda = 0 (so that the right side stays consistent) make a small
 /// dense system for lambda and c.
-Result<PoissonAnswer> PoissonSolver::solve_schur(Block b,
-                                                 std::span<const SourceAnchors> anchors) const {
+Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const SourceAnchors> anchors,
+                                                 const Progress& progress) const {
   const Components& components = surface_->operators->components;
-  auto answer = solve_pinned(std::move(b));
+  auto answer = solve_pinned(std::move(b), progress);
   if (!answer) return answer.error();
   Block& phi = answer->phi;
   std::vector<Index> support;
@@ -215,6 +224,7 @@ Result<PoissonAnswer> PoissonSolver::solve_schur(Block b,
     }
   }
   if (!support.empty()) {
+    if (!report(progress, "solve", 1.0)) return cancelled_error();
     const auto solved = system_->factor().solve(correction, support);
     if (!solved) return solved.error();
     phi += correction;

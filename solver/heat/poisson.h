@@ -24,26 +24,32 @@ struct PoissonAnswer {
 class PoissonSolver {
  public:
   /// One pinned factor serves all modes; iterative backends get the singular operator where the
-  /// mode allows it, since pinning hurts their convergence. Errors: the backend's; kBadInput when
-  /// the pin vertex does not exist.
+  /// mode allows it, since pinning hurts their convergence. `progress` is asked before the
+  /// factorisation. Errors: the backend's; kBadInput when the pin vertex does not exist;
+  /// kCancelled.
   static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Surface> surface,
                                                             const Constraint& constraint,
-                                                            bool iterative, int threads);
+                                                            bool iterative, int threads,
+                                                            const Progress& progress = {});
 
   /// The same system under another mode; null when the mode needs another factor.
   std::shared_ptr<const PoissonSolver> with(const Constraint& constraint) const;
 
-  /// b: n x K, one anchor list a column.
-  Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors) const;
+  /// b: n x K, one anchor list a column. `progress` is asked before each factorisation and solve,
+  /// and by an iterative backend within. Errors: the backend's, kCancelled.
+  Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors,
+                              const Progress& progress = {}) const;
 
   FactorStats stats() const { return system_->factor().stats(); }
   const Constraint& constraint() const { return constraint_; }
 
  private:
   PoissonSolver() = default;
-  Result<PoissonAnswer> solve_pinned(Block b) const;
-  Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors) const;
-  Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors) const;
+  Result<PoissonAnswer> solve_pinned(Block b, const Progress& progress) const;
+  Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors,
+                                   const Progress& progress) const;
+  Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors,
+                                    const Progress& progress) const;
 
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> system_;

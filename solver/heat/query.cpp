@@ -20,6 +20,10 @@ namespace {
 /// Source sets solved together. Eight fill the widest registers; more would leave threads idle.
 constexpr std::size_t kSetsAtOnce = 8;
 
+/// What an iterative query has behind it after the heat step and after the Poisson step.
+constexpr double kHeatShare = 0.3;
+constexpr double kSolvedShare = 0.95;
+
 struct Group {
   std::size_t first = 0;
   std::vector<SourceAnchors> anchors;
@@ -58,11 +62,14 @@ std::span<const char> held_at_zero(const QueryPipeline& p) {
 }
 
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
-                         const QueryOptions& query, std::span<DistanceResult> results) {
+                         const QueryOptions& query, std::span<DistanceResult> results,
+                         const Progress& progress) {
   Stopwatch watch;
-  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool);
+  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool,
+                             part_of(progress, 0.0, kHeatShare));
   if (!heat) return with_time_cure(heat.error(), p.unit_t);
   const double diffuse_ms = watch.lap() - heat->residual_ms;
+  if (!report(progress, "solve", kHeatShare)) return cancelled_error();
   const UnitField field(*p.surface.operators, heat->field,
                         p.options.variant == Variant::kClassic ? 0.0 : p.unit_t, p.pool);
   Block b = field.divergence(anchors);
@@ -70,7 +77,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   Block right;
   if (query.quality) right = b;
   watch.lap();
-  auto answer = p.poisson.solve(std::move(b), anchors);
+  auto answer = p.poisson.solve(std::move(b), anchors, part_of(progress, kHeatShare, kSolvedShare));
   if (!answer) return answer.error();
   std::vector<std::vector<double>> phi = split_columns(answer->phi);
   for (std::size_t c = 0; c < anchors.size(); ++c) {
@@ -79,6 +86,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     if (!normalized) return with_time_cure(normalized.error(), p.unit_t);
   }
   const double poisson_ms = watch.lap();
+  if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
   const auto share = static_cast<double>(anchors.size());
   for (std::size_t c = 0; c < anchors.size(); ++c) {
@@ -119,7 +127,8 @@ class GroupRunner {
         groups_(groups),
         query_(query),
         results_(results),
-        progress_(progress) {}
+        progress_(progress),
+        watch_(progress_.function()) {}
 
   std::optional<Error> run(int threads) {
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
@@ -134,37 +143,33 @@ class GroupRunner {
  private:
   void work() {
     for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
-      if (!announce(g)) return;
+      const auto count = static_cast<double>(groups_.size());
+      const Progress part =
+          part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
       const Group& group = groups_[g];
       Result<void> done = Error{ErrorCode::kOutOfMemory, "a query ran out of memory"};
       try {
         done = solve_group(pipeline_, group.anchors, query_,
-                           results_.subspan(group.first, group.anchors.size()));
+                           results_.subspan(group.first, group.anchors.size()), part);
       } catch (const std::bad_alloc&) {  // `done` says so
       }
-      if (!done) fail(done.error());
+      if (!done) return fail(done.error());
     }
   }
 
-  bool announce(std::size_t group) {
-    const std::lock_guard lock(mutex_);
-    if (failure_) return false;
-    const double share = static_cast<double>(group) / static_cast<double>(groups_.size());
-    if (report(progress_, "solve", share)) return true;
-    failure_ = Error{ErrorCode::kCancelled, "the work was cancelled"};
-    return false;
-  }
-
+  /// The first failure counts; the other threads stop because of it.
   void fail(Error error) {
     const std::lock_guard lock(mutex_);
     if (!failure_) failure_ = std::move(error);
+    progress_.stop();
   }
 
   const QueryPipeline& pipeline_;
   const std::vector<Group>& groups_;
   const QueryOptions& query_;
   std::span<DistanceResult> results_;
-  const Progress& progress_;
+  SharedProgress progress_;
+  const Progress watch_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::optional<Error> failure_;

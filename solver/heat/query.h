@@ -22,6 +22,7 @@ struct QueryPipeline {
 
 /// Solves every source set, in blocks of up to eight that threads share out: a block streams each
 /// factor once. The cut into blocks does not depend on the number of threads, nor do the results.
+/// `progress` is called by one thread at a time, with shares that do not fall.
 Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
                                                 std::span<const SourceSet> sets,
                                                 const QueryOptions& query,

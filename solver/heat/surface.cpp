@@ -79,8 +79,10 @@ std::string compare_scales(const Surface& surface, const EdgeTable& edges) {
 
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                      const Backend& backend,
-                                                     LaplacianKind laplacian, int threads) {
+                                                     LaplacianKind laplacian, int threads,
+                                                     const Progress& progress) {
   Stopwatch watch;
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
   auto out = std::make_shared<Surface>();
   out->mesh = std::move(mesh);
   CleanFaces clean = clean_faces(*out->mesh);
@@ -100,6 +102,7 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                      " repeat a corner, mean edge length " + rounded_text(out->mean_edge) +
                      "); check how it was exported"};
   }
+  if (!report(progress, "operators", 0.2)) return cancelled_error();
   out->intrinsic = build_intrinsic_mesh(positions, clean, out->mean_edge);
   note_cleaning(clean, out->intrinsic, out->warnings);
 
@@ -111,7 +114,12 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   const bool flip = laplacian == LaplacianKind::kIntrinsicDelaunay ||
                     (laplacian == LaplacianKind::kAuto && count_non_delaunay(out->intrinsic) > 0);
   out->laplacian = flip ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
-  if (flip) out->flips = flip_to_delaunay(out->intrinsic);
+  if (!report(progress, "operators", 0.3)) return cancelled_error();
+  if (flip) {
+    auto flips = flip_to_delaunay(out->intrinsic, part_of(progress, 0.3, 0.4));
+    if (!flips) return flips.error();
+    out->flips = std::move(*flips);
+  }
 
   std::vector<Index> used;
   const std::vector<Index> local = number_used(out->mesh->vertex_count(), clean.faces, used);
@@ -126,11 +134,13 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   for (std::size_t i = 0; i < used.size(); ++i) used_positions[i] = positions[used[i]];
   out->operators_ms = watch.lap();
 
+  if (!report(progress, "analyze", 0.4)) return cancelled_error();
   auto analysis = backend.analyze(pattern, used_positions, threads);
   if (!analysis) return analysis.error();
   out->analysis = std::move(*analysis);
   out->analyze_ms = watch.lap();
 
+  if (!report(progress, "operators", 0.8)) return cancelled_error();
   const std::span<const Index> order = out->analysis->order();
   out->operators = build_operator_mesh(out->intrinsic, pattern, local, order);
   out->vertex_of_row.resize(used.size());

@@ -37,9 +37,11 @@ struct Surface {
   std::string scale_warning;  ///< for times that follow the mean edge; empty where that fits all
 };
 
-/// Errors: kBadInput (no face with area), and the backend's.
+/// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".
+/// Errors: kBadInput (no face with area), kCancelled, and the backend's.
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                      const Backend& backend,
-                                                     LaplacianKind laplacian, int threads);
+                                                     LaplacianKind laplacian, int threads,
+                                                     const Progress& progress = {});
 
 }  // namespace geotherm

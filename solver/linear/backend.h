@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "solver/core/progress.h"
 #include "solver/core/result.h"
 #include "solver/linear/symmetric_operator.h"
 #include "solver/linear/symmetric_pattern.h"
@@ -44,9 +45,12 @@ class Factorization {
   virtual ~Factorization() = default;
 
   /// Solves M X = B in place (B, X: n x K). `support`, where not empty, lists the only rows in
-  /// which B may be nonzero, in any order: a backend may use it to skip work.
-  /// Errors: kBudgetEnded (iterations, residual), kNumericalFailure.
-  virtual Result<SolveReport> solve(Block& x, std::span<const Index> support = {}) const = 0;
+  /// which B may be nonzero, in any order: a backend may use it to skip work. An iterative backend
+  /// calls `progress` before it starts and then every few milliseconds, as far as single iterations
+  /// allow, and ends with kCancelled when told to; X is of no use then. A direct one need not.
+  /// Errors: kBudgetEnded (iterations, residual), kNumericalFailure, kCancelled.
+  virtual Result<SolveReport> solve(Block& x, std::span<const Index> support = {},
+                                    const Progress& progress = {}) const = 0;
 
   /// The entries of M^-1 at the given rows and columns: k x k. Cost for direct backends: the
   /// elimination-tree paths of the rows; otherwise k solves.

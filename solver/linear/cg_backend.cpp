@@ -16,6 +16,8 @@ constexpr double kTolerance = 1e-13;
 /// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
 constexpr double kBudgetPerRoot = 20;
 constexpr int kBudgetAtLeast = 2000;
+/// Rows worked on between two calls of progress: about 10 ms at 20 ns a row.
+constexpr std::size_t kRowsBetweenCalls = 500'000;
 
 /// Removes from x its mean on every component of the kernel.
 void project(const Kernel& kernel, std::span<double> x) {
@@ -30,17 +32,27 @@ void project(const Kernel& kernel, std::span<double> x) {
   for (std::size_t i = 0; i < x.size(); ++i) x[i] -= sum[kernel.component[i]];
 }
 
+/// The decades that the residual has fallen by, out of those that it has to; squares of norms.
+double share_done(double fallen_to) {
+  const double share = std::log(fallen_to) / std::log(kTolerance * kTolerance);
+  return share > 0 ? std::min(share, 1.0) : 0.0;  // 0 for what is no number
+}
+
 class ConjugateGradient final : public Factorization {
  public:
   explicit ConjugateGradient(std::shared_ptr<const SymmetricOperator> matrix)
       : matrix_(std::move(matrix)) {}
 
-  Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/) const override {
+  Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/,
+                            const Progress& progress) const override {
     SolveReport report;
     std::vector<double> column(static_cast<std::size_t>(size()));
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
       for (Index i = 0; i < size(); ++i) column[i] = x(i, c);
-      const auto solved = solve_one(column);
+      const auto columns = static_cast<double>(x.cols());
+      const auto done = static_cast<double>(c);
+      const auto solved =
+          solve_one(column, part_of(progress, done / columns, (done + 1) / columns));
       if (!solved) return solved.error();
       for (Index i = 0; i < size(); ++i) x(i, c) = column[i];
       report.iterations = std::max(report.iterations, solved->iterations);
@@ -55,7 +67,7 @@ class ConjugateGradient final : public Factorization {
  private:
   /// Solves for one right side, in place. The preconditioner is the diagonal; the norm that is
   /// watched is that of the preconditioned residual, which is scaled like the unknowns.
-  Result<SolveReport> solve_one(std::vector<double>& b) const {
+  Result<SolveReport> solve_one(std::vector<double>& b, const Progress& progress) const {
     const auto n = static_cast<std::size_t>(size());
     const std::span<const double> diagonal = matrix_->diagonal();
     const Kernel kernel = matrix_->kernel();
@@ -71,8 +83,13 @@ class ConjugateGradient final : public Factorization {
     const double start = rho;
     const int budget =
         kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
+    const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / n);
     SolveReport report;
     while (!(rho <= kTolerance * kTolerance * start)) {  // goes on, to an error, where rho is NaN
+      if (report.iterations % between_calls == 0 &&
+          !geotherm::report(progress, "solve", share_done(rho / start))) {
+        return cancelled_error();
+      }
       if (report.iterations == budget) {
         return Error{ErrorCode::kBudgetEnded, "cg: the budget of " + std::to_string(budget) +
                                                   " iterations ended at a relative residual of " +

@@ -18,15 +18,19 @@ struct RayHit {
 };
 
 /// Answers which face a ray meets first: a tree of boxes over the faces (surface area heuristic
-/// over binned centres: Wald 2007). Immutable; keeps the mesh alive.
+/// over binned centres: Wald 2007). Immutable; keeps the mesh alive; may be asked from several
+/// threads at once.
 class RayTree {
  public:
-  /// Cost: O(F log F); 56 bytes a face at most. Errors: kCancelled, kOutOfMemory.
+  /// Cost: O(F log F); about 42 bytes a face, 68 at most, and as much again meanwhile.
+  /// Errors: kCancelled, kOutOfMemory.
   static Result<RayTree> build(std::shared_ptr<const TriangleMesh> mesh,
                                const Progress& progress = {});
 
   /// The nearest face in front of `origin` along `direction` (any length above 0, finite; model
-  /// units), seen from either side; of faces without area none. Nothing where the ray misses.
+  /// units), seen from either side; the lowest number among equals. Faces that repeat a corner or
+  /// have no area are never met. The weights sum to 1 exactly. Nothing where the ray misses, or is
+  /// none (a number that is not finite, a direction of 0).
   /// Watertight: a ray between two faces that share an edge meets one of them. Cost: O(log F) on
   /// ordinary meshes. Source: Woop, Benthin, Wald 2013.
   std::optional<RayHit> first_hit(const Vec3& origin, const Vec3& direction) const;

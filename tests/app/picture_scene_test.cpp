@@ -130,7 +130,7 @@ TEST(PictureLegend, SaysWhatTheColoursOfArrowsAre) {
 TEST(PictureCamera, LeavesAMarginAboutTheModel) {
   const std::vector<glm::vec3> points = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
   const glm::vec2 extent(400, 200);
-  const engine::Camera camera = app::camera_of({}, points, extent, {});
+  const engine::Camera camera = app::camera_of({}, {}, points, extent, {});
   for (const glm::vec3& point : points) {
     const glm::vec3 at = camera.project(point);
     EXPECT_GE(at.y, 5);

@@ -102,6 +102,30 @@ TEST(Sources, AlongACurveWithGapsAreJoinedAndThatIsSaid) {
   EXPECT_NE(line.warnings[0].find("vertex 1 to 4, line 3"), std::string::npos);
 }
 
+TEST(Sources, AlongACurveOfTextAreJoinedWithoutAWord) {
+  const auto line = resolve(grid(), {"curve:0,1,4"});
+  ASSERT_TRUE(line);
+  EXPECT_EQ(line->set.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
+  EXPECT_TRUE(line->warnings.empty());
+  const auto point = resolve(grid(), {"curve:4"});
+  ASSERT_TRUE(point);
+  EXPECT_EQ(vertices_of(point->set), std::vector<Index>{4});
+  EXPECT_TRUE(point->set.edges.empty());
+}
+
+TEST(Sources, AlongACurveOfTextThatDoNotFitAreRefusedWithTheirNumber) {
+  const auto range = resolve(grid(), {"curve:0,1,26"});
+  ASSERT_FALSE(range);
+  EXPECT_EQ(range.error().message,
+            "-s curve:0,1,26: number 3 of the curve: there is no vertex 26; vertices are 0 to 25");
+  Draft two = plane_grid(1, 1, 1, 1);
+  append(two, plane_grid(1, 1, 1, 1));
+  const auto apart = resolve(*finish(std::move(two)), {"curve:0,3,4"});
+  ASSERT_FALSE(apart);
+  EXPECT_TRUE(apart.error().message.starts_with("-s curve:0,3,4: number 3 of the curve: "))
+      << apart.error().message;
+}
+
 TEST(Sources, ThatDoNotFitAreRefusedWithTheirName) {
   struct Case {
     const char *text, *says;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {
@@ -22,6 +24,11 @@ Spec parsed(std::string_view text) {
 TEST(SourceText, NamesVertices) {
   EXPECT_EQ(parsed<VertexList>("17").vertices, std::vector<Index>{17});
   EXPECT_EQ(parsed<VertexList>("3,99,512").vertices, (std::vector<Index>{3, 99, 512}));
+}
+
+TEST(SourceText, NamesCurves) {
+  EXPECT_EQ(parsed<VertexCurve>("curve:3,99,3"), (VertexCurve{{3, 99, 3}, {}}));
+  EXPECT_EQ(parsed<VertexCurve>("curve:7"), (VertexCurve{{7}, {}}));
 }
 
 TEST(SourceText, NamesRandomVertices) {
@@ -44,6 +51,56 @@ TEST(SourceText, ScalesWeightsThatNearlySumToOne) {
   EXPECT_DOUBLE_EQ(weights[0] + weights[1] + weights[2], 1.0);
 }
 
+TEST(SourceText, KeepsWeightsThatSumToOneButForRoundOff) {
+  const std::array<double, 3> thirds = {1.0 / 3, 1.0 / 3, 1.0 / 3 + 1e-16};
+  EXPECT_EQ(parsed<FacePoint>(to_text(FacePoint{7, thirds})).weights, thirds);
+  const auto scaled = parsed<FacePoint>("face:7:0.333:0.333:0.333");
+  EXPECT_EQ(parsed<FacePoint>(to_text(scaled)), scaled);
+}
+
+TEST(SourceText, IsReadBackAsTheSameValue) {
+  const SourceSpec specs[] = {
+      VertexList{{17}},
+      VertexList{{3, 99, 2147483647}},
+      VertexCurve{{4, 0, 4}, {}},
+      VertexCurve{{5}, {}},
+      RandomVertices{12, RandomVertices{}.seed},
+      RandomVertices{1, 18446744073709551615U},
+      WholeBoundary{},
+      FacePoint{0, {0, 1, 0}},
+      FacePoint{2147483647, {0.1, 0.2, 0.7}},
+      FacePoint{3, {5e-324, 1 - 0x1p-53, 0x1p-53}},
+      SpacePoint{Vec3(-0.1, 1.0 / 3, 6.02214076e23)},
+      SpacePoint{Vec3(-5e-324, 1.7976931348623157e308, 0)},
+  };
+  for (const SourceSpec& spec : specs) {
+    const auto again = parse_source(to_text(spec));
+    ASSERT_TRUE(again) << to_text(spec) << ": " << again.error().message;
+    EXPECT_EQ(*again, spec) << to_text(spec);
+  }
+}
+
+TEST(SourceText, IsReadBackAsTheSameRandomPoint) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int i = 0; i < 1000; ++i) {
+    std::array<double, 3> weights = {uniform(random), uniform(random), uniform(random)};
+    const double sum = weights[0] + weights[1] + weights[2];
+    for (double& w : weights) w /= sum;
+    const FacePoint point{i, weights};
+    EXPECT_EQ(parsed<FacePoint>(to_text(point)), point);
+    const SpacePoint place{Vec3(weights[0], -1e9 * weights[1], 1e-9 * weights[2])};
+    EXPECT_EQ(parsed<SpacePoint>(to_text(place)), place);
+  }
+}
+
+TEST(SourceText, IsCanonical) {
+  EXPECT_EQ(to_text(parsed<VertexList>("03, 99")), "3,99");
+  EXPECT_EQ(to_text(parsed<RandomVertices>("random:+5:1")), "random:5");
+  EXPECT_EQ(to_text(parsed<FacePoint>("face:7:.5:0.250:25e-2")), "face:7:0.5:0.25:0.25");
+  EXPECT_EQ(to_text(VertexCurve{{1, 2}, {8, 9}}), "curve:1,2") << "lines are not part of the text";
+}
+
 class WrongSourceText : public testing::TestWithParam<const char*> {};
 
 TEST_P(WrongSourceText, IsRefusedWithAHint) {
@@ -59,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
                     "random:", "random:0", "random:-1", "random:x", "random:1:", "random:1:2:3",
                     "random:1:-2", "boundary:1", "face", "face:1", "face:1:1:0", "face:-1:1:0:0",
                     "face:1:1:1:0", "face:1:2:-1:0", "face:1:nan:0:0", "face:1:1:0:0:0", "xyz",
-                    "xyz:1:2", "xyz:1:2:3:4", "xyz:1:2:inf", "xyz:1,5:2:3", "xyz: 1:2:3"));
+                    "xyz:1:2", "xyz:1:2:3:4", "xyz:1:2:inf", "xyz:1,5:2:3", "xyz: 1:2:3", "curve",
+                    "curve:", "curve:1,", "curve:1,,2", "curve:1,-2", "curve:1:2", "curve:x"));
 
 class SourceFile : public testing::Test {
  protected:

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "engine/vulkan/device_state.h"
+#include "engine/vulkan/vulkan_error.h"
 #include "tests/engine/gpu_fixture.h"
 
 namespace geotherm::test {
@@ -98,6 +99,31 @@ TEST_F(Devices, AreAnErrorWithTheCureWithoutADriver) {
     EXPECT_EQ(error.code, ErrorCode::kNoDevice);
     EXPECT_NE(error.message.find("mesa-vulkan-drivers"), std::string::npos) << error.message;
   }
+}
+
+/// A window system that no device can show anything in.
+class BlindWindows final : public Presentation {
+ public:
+  std::vector<const char*> instance_extensions() const override { return {}; }
+  bool can_present(vk::Instance, vk::PhysicalDevice, std::uint32_t) const override { return false; }
+  vk::SurfaceKHR make_surface(vk::Instance) const override { return {}; }
+};
+
+TEST_F(Devices, ThatCannotShowPicturesInWindowsAreRefusedForThem) {
+  const Instance instance(false);
+  const BlindWindows windows;
+  const auto candidates = examine_devices(instance.instance, &windows);
+  ASSERT_FALSE(candidates.empty());
+  for (const Candidate& candidate : candidates) EXPECT_FALSE(candidate.info.lacks.empty());
+  try {
+    (void)choose_device(candidates, "");
+    FAIL() << "one was chosen";
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.error().code, ErrorCode::kNoDevice);
+    EXPECT_NE(failure.error().message.find("cannot show pictures in windows"), std::string::npos)
+        << failure.error().message;
+  }
+  EXPECT_TRUE(examine_devices(instance.instance).front().info.lacks.empty());
 }
 
 TEST_F(Devices, SayNothingWhenNothingIsWrong) {

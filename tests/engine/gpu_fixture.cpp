@@ -37,6 +37,8 @@ engine::DeviceOptions validated(std::uint64_t memory_limit) {
   return options;
 }
 
+bool vulkan_is_required() { return GpuEnvironment::current()->required(); }
+
 std::unique_ptr<testing::Environment> make_gpu_environment(bool required) {
   return std::make_unique<GpuEnvironment>(required);
 }

@@ -17,6 +17,9 @@ namespace geotherm::test {
 /// skipped, or fail when `required`.
 std::unique_ptr<testing::Environment> make_gpu_environment(bool required);
 
+/// Whether tests that need a device must not be skipped.
+bool vulkan_is_required();
+
 /// With validation, and with a limit in bytes (0: none).
 engine::DeviceOptions validated(std::uint64_t memory_limit = 0);
 

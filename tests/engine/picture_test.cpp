@@ -10,40 +10,12 @@ namespace {
 
 using namespace geotherm::engine;
 
-class Picture : public GpuTest {
- protected:
-  /// Something of everything.
-  static Stage full_stage(int samples = 4) {
-    Stage stage(device(), model_of(sphere(3)), samples);
-    stage.look({.azimuth = 30, .elevation = 20});
-    stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.5F * p.y; }));
-    stage.scene.light = Light::kThreePoint;
-    stage.scene.surface.line_spacing = 0.1F;
-    stage.scene.surface.wire = true;
-    stage.scene.arrows.primary = true;
-    std::vector<glm::vec3> field;
-    for (const auto& face : stage.model.faces) {
-      const glm::vec3& p = stage.model.positions[face[0]];
-      field.push_back(glm::vec3(-p.z, 0, p.x));
-    }
-    must(stage.renderer.set_arrows(field, {}));
-    const Marker marker{{0.5F, 0.5F, 0.7071F}, {0.6F, 0.4F, 0.69F}};
-    must(stage.renderer.set_markers({&marker, 1}));
-    return stage;
-  }
-  static Overlay some_text() {
-    Overlay overlay;
-    overlay.atlas = GlyphAtlas::build(20, {"tiles"});
-    overlay.add_rectangle({10, 10}, {90, 40}, {0.5F, 0.5F, 0.5F, 0.5F});
-    overlay.add_text({15, 30}, "tiles", {0, 0, 0, 1});
-    return overlay;
-  }
-};
+class Picture : public GpuTest {};
 
 class Tiles : public Picture, public testing::WithParamInterface<int> {};
 
 TEST_P(Tiles, MakeTheSamePictureAsTheWhole) {
-  Stage stage = full_stage();
+  Stage stage = full_stage(device());
   const Overlay overlay = some_text();
   const Image whole = stage.draw(overlay);
   const Image tiled =
@@ -57,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(All, Tiles, testing::Values(64, 100, 250),
 class PictureSize : public Picture, public testing::WithParamInterface<std::pair<int, int>> {};
 
 TEST_P(PictureSize, MayBeAnyThatFits) {
-  Stage stage = full_stage();
+  Stage stage = full_stage(device());
   const glm::vec2 size(GetParam().first, GetParam().second);
   stage.look({}, size);
   stage.scene.markers.visible = false;
@@ -77,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(All, PictureSize,
                          });
 
 TEST_F(Picture, ThatIsTooLargeIsRefusedWithTheNumbers) {
-  Stage stage = full_stage();
+  Stage stage = full_stage(device());
   stage.look({}, {20000, 10});
   const auto image = draw_picture(device(), stage.renderer, stage.scene);
   ASSERT_FALSE(image);
@@ -99,17 +71,17 @@ TEST_F(Picture, HasOneOrFourSamples) {
 }
 
 TEST_F(Picture, RepeatsBitForBit) {
-  Stage first = full_stage();
+  Stage first = full_stage(device());
   const Image image = first.draw(some_text());
   EXPECT_EQ(first.draw(some_text()).pixels, image.pixels);
-  Stage second = full_stage();
+  Stage second = full_stage(device());
   EXPECT_EQ(second.draw(some_text()).pixels, image.pixels);
 }
 
 TEST_F(Picture, DoesNotDependOnWhatWasDrawnBefore) {
-  Stage stage = full_stage();
+  Stage stage = full_stage(device());
   const Image image = stage.draw();
-  Stage other = full_stage();
+  Stage other = full_stage(device());
   other.scene.surface.wire = false;
   other.scene.arrows.primary = false;
   other.look({.azimuth = 200}, {100, 300});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/engine/stage.h"
 
+#include "engine/offscreen_target.h"
+
 namespace geotherm::test {
 
 using namespace geotherm::engine;
@@ -32,6 +34,46 @@ void Stage::draw_lines(std::span<const float> values, float spacing) {
 
 Image Stage::draw(const Overlay& overlay) {
   return must(draw_picture(device, renderer, scene, overlay));
+}
+
+Image Stage::draw_into(glm::ivec2 extent, glm::ivec2 corner, const Overlay& overlay,
+                       const PanelDraw* panels) {
+  const auto target = must(OffscreenTarget::build(device, extent));
+  target->set_origin(-corner);
+  must(renderer.render(*target, scene, overlay, panels));
+  Image image;
+  image.width = extent.x;
+  image.height = extent.y;
+  image.pixels.resize(4 * static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y));
+  target->read(image, {0, 0}, extent);
+  return image;
+}
+
+Stage full_stage(const Device& device, int samples) {
+  Stage stage(device, model_of(sphere(3)), samples);
+  stage.look({.azimuth = 30, .elevation = 20});
+  stage.paint(stage.model.values([](const glm::vec3& p) { return 0.5F + 0.5F * p.y; }));
+  stage.scene.light = Light::kThreePoint;
+  stage.scene.surface.line_spacing = 0.1F;
+  stage.scene.surface.wire = true;
+  stage.scene.arrows.primary = true;
+  std::vector<glm::vec3> field;
+  for (const auto& face : stage.model.faces) {
+    const glm::vec3& p = stage.model.positions[face[0]];
+    field.push_back(glm::vec3(-p.z, 0, p.x));
+  }
+  must(stage.renderer.set_arrows(field, {}));
+  const Marker marker{{0.5F, 0.5F, 0.7071F}, {0.6F, 0.4F, 0.69F}};
+  must(stage.renderer.set_markers({&marker, 1}));
+  return stage;
+}
+
+Overlay some_text() {
+  Overlay overlay;
+  overlay.atlas = GlyphAtlas::build(20, {"tiles"});
+  overlay.add_rectangle({10, 10}, {90, 40}, {0.5F, 0.5F, 0.5F, 0.5F});
+  overlay.add_text({15, 30}, "tiles", {0, 0, 0, 1});
+  return overlay;
 }
 
 }  // namespace geotherm::test

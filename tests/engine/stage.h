@@ -26,11 +26,18 @@ class Stage {
   void draw_lines(std::span<const float> values, float spacing);
 
   engine::Image draw(const engine::Overlay& overlay = {});
+  /// The picture with its first pixel at `corner` of a target that may be larger than it.
+  engine::Image draw_into(glm::ivec2 extent, glm::ivec2 corner, const engine::Overlay& overlay = {},
+                          const engine::PanelDraw* panels = nullptr);
 
   const engine::Device& device;
   Model model;
   engine::Renderer renderer;
   engine::Scene scene;
 };
+
+/// Something of everything: values, isolines, edges, arrows, a source, on a sphere.
+Stage full_stage(const engine::Device& device, int samples = 4);
+engine::Overlay some_text();
 
 }  // namespace geotherm::test

@@ -1,1 +1,237 @@
 // SPDX-License-Identifier: MIT
+#include "app/explore/command.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "app/explore/settings.h"
+
+namespace geotherm::app {
+namespace {
+
+using namespace command;  // NOLINT: the tests are about nothing else
+
+struct TextCase {
+  const char* name;
+  Command command;
+  std::string text;
+};
+
+void PrintTo(const TextCase& c, std::ostream* out) { *out << c.name; }
+
+class CommandText : public testing::TestWithParam<TextCase> {};
+
+TEST_P(CommandText, IsWrittenAsDocumented) {
+  EXPECT_EQ(to_text(GetParam().command), GetParam().text);
+}
+
+TEST_P(CommandText, ReadsBackAsTheSameCommand) {
+  const auto parsed = parse_command(GetParam().text);
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(*parsed, GetParam().command);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EveryCommand, CommandText,
+    testing::Values(
+        TextCase{"Open", Open{"a/b.obj"}, "open a/b.obj"},
+        TextCase{"OpenWithBlanks", Open{"my \"best\" model #1.ply"},
+                 R"(open "my \"best\" model #1.ply")"},
+        TextCase{"OpenWithBackslashes", Open{"C:\\a b\\c"}, R"(open "C:\\a b\\c")"},
+        TextCase{"OpenWithLineEnd", Open{"a\nb"}, R"(open "a\nb")"},
+        TextCase{"OpenUnicode", Open{"Größe/ü.obj"}, "open Größe/ü.obj"},
+        TextCase{"Run", Run{"x.geotherm"}, "run x.geotherm"},
+        TextCase{"Set", Set{"time-factor", "2.5"}, "time-factor 2.5"},
+        TextCase{"SetSources", SetSources{{"17", "face:3:0.25:0.25:0.5"}},
+                 "source set 17 face:3:0.25:0.25:0.5"},
+        TextCase{"AddSources", AddSources{{"curve:1,2,3"}}, "source add curve:1,2,3"},
+        TextCase{"AddBoundary", AddSources{{"boundary"}}, "source add boundary"},
+        TextCase{"AddSpacePoint", AddSources{{"xyz:0.1:-2:1e-30"}}, "source add xyz:0.1:-2:1e-30"},
+        TextCase{"MoveSource", MoveSource{2, "random:5:7"}, "source move 2 random:5:7"},
+        TextCase{"RemoveSource", RemoveSource{0}, "source remove 0"},
+        TextCase{"ExtendCurve", ExtendCurve{{4, 5, 6}}, "source extend 4,5,6"},
+        TextCase{"ClearSources", ClearSources{}, "source clear"},
+        TextCase{"MoreSources", MoreSources{}, "source more"},
+        TextCase{"FewerSources", FewerSources{}, "source fewer"},
+        TextCase{"ShuffleSources", ShuffleSources{}, "source shuffle"},
+        TextCase{"Orbit", Orbit{10, -5.5}, "camera orbit 10 -5.5"},
+        TextCase{"Zoom", Zoom{1.25}, "camera zoom 1.25"},
+        TextCase{"ZoomAt", Zoom{0.5, 0.1, -0.2}, "camera zoom 0.5 0.1 -0.2"},
+        TextCase{"Pan", Pan{0.3, 0}, "camera pan 0.3 0"},
+        TextCase{"Centre", Centre{1, 2, -3e5}, "camera centre 1 2 -3e+05"},
+        TextCase{"Place", Place{30, 20, 2, 0.1, 0}, "camera place 30 20 2 0.1 0"},
+        TextCase{"Frame", Frame{}, "camera frame"}, TextCase{"RotateOn", Rotate{true}, "rotate on"},
+        TextCase{"RotateOff", Rotate{false}, "rotate off"}, TextCase{"Keep", Keep{}, "keep"},
+        TextCase{"Forget", Forget{}, "forget"}, TextCase{"Swap", Swap{}, "swap"},
+        TextCase{"ShowA", Show{Shown::kA}, "show a"}, TextCase{"ShowB", Show{Shown::kB}, "show b"},
+        TextCase{"ShowDifference", Show{Shown::kDifference}, "show difference"},
+        TextCase{"Flip", Flip{}, "flip"},
+        TextCase{"Pick", Pick{"face:7:1:0:0"}, "pick face:7:1:0:0"},
+        TextCase{"PickNone", Pick{}, "pick none"}, TextCase{"Compare", Compare{}, "compare all"},
+        TextCase{"CompareSome", Compare{"cholmod,cg"}, "compare cholmod,cg"},
+        TextCase{"SavePicture", SavePicture{"a.png"}, "save picture a.png"},
+        TextCase{"SavePictureSize", SavePicture{"a.png", 640, 480}, "save picture a.png 640x480"},
+        TextCase{"SavePicturePanels", SavePicture{"a b.png", 640, 480, true},
+                 "save picture \"a b.png\" 640x480 panels"},
+        TextCase{"SavePictureOnlyPanels", SavePicture{"a.png", 0, 0, true},
+                 "save picture a.png panels"},
+        TextCase{"SaveDistances", SaveDistances{"d.npy"}, "save distances d.npy"},
+        TextCase{"SaveSession", SaveSession{"s.geotherm"}, "save session s.geotherm"},
+        TextCase{"SaveLog", SaveLog{"l.geotherm"}, "save log l.geotherm"},
+        TextCase{"SaveFigures", SaveFigures{"f.json"}, "save figures f.json"},
+        TextCase{"Undo", Undo{}, "undo"}, TextCase{"Redo", Redo{}, "redo"},
+        TextCase{"Quit", Quit{}, "quit"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Command, EveryKindHasATextCase) {
+  // The list above must grow with the variant: 34 kinds.
+  EXPECT_EQ(std::variant_size_v<Command>, 34U);
+}
+
+class SettingText : public testing::TestWithParam<std::string> {};
+
+TEST_P(SettingText, EveryValueItNamesIsACommandThatReadsBack) {
+  const Setting& setting = *find_setting(GetParam());
+  const ViewerState start = initial_state();
+  std::vector<std::string> values = setting.values();
+  values.push_back(setting.get(start));
+  for (const std::string& value : values) {
+    const Command command = Set{GetParam(), value};
+    const auto parsed = parse_command(to_text(command));
+    ASSERT_TRUE(parsed) << parsed.error().message;
+    EXPECT_EQ(*parsed, command);
+  }
+}
+
+TEST_P(SettingText, AWordThatIsNoValueIsRefusedWithItsColumn) {
+  const auto parsed = parse_command(GetParam() + " ?!");
+  ASSERT_FALSE(parsed);
+  const std::string column = "column " + std::to_string(GetParam().size() + 2) + ": ";
+  EXPECT_EQ(parsed.error().message.find(column), 0U) << parsed.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(AllSettings, SettingText, testing::ValuesIn([] {
+                           std::vector<std::string> names;
+                           for (const Setting& s : settings()) names.emplace_back(s.name);
+                           return names;
+                         }()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Command, NumbersReadBackExactly) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> angle(-360, 360);
+  for (int i = 0; i < 200; ++i) {
+    const Command command = Orbit{angle(random), angle(random) * 1e-9};
+    const auto parsed = parse_command(to_text(command));
+    ASSERT_TRUE(parsed);
+    EXPECT_EQ(*parsed, command);
+  }
+}
+
+TEST(Command, WeightsOfFacePointsReadBackExactly) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> weight(0, 1);
+  for (int i = 0; i < 500; ++i) {
+    double a = weight(random), b = weight(random) * (1 - a);
+    const auto first =
+        parse_command("source set face:" + std::to_string(i) + ":" + std::to_string(a) + ":" +
+                      std::to_string(b) + ":" + std::to_string(1 - a - b));
+    ASSERT_TRUE(first) << first.error().message;
+    const auto again = parse_command(to_text(*first));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(*again, *first);
+  }
+}
+
+struct BadCase {
+  const char* name;
+  const char* line;
+  const char* begins;  ///< of the message
+  const char* expects;
+};
+void PrintTo(const BadCase& c, std::ostream* out) { *out << c.name; }
+
+class BadCommand : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadCommand, SaysColumnAndWhatWasExpected) {
+  const auto parsed = parse_command(GetParam().line);
+  ASSERT_FALSE(parsed);
+  const std::string& message = parsed.error().message;
+  EXPECT_EQ(message.find(GetParam().begins), 0U) << message;
+  EXPECT_NE(message.find(GetParam().expects), std::string::npos) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, BadCommand,
+    testing::Values(BadCase{"Empty", "", "column 1: ", "a command"},
+                    BadCase{"Unknown", "  fly away", "column 3: ", "there is no command 'fly'"},
+                    BadCase{"UnknownSecond", "camera fly", "column 8: ", "orbit, zoom, pan"},
+                    BadCase{"NothingSecond", "camera", "column 7: ", "orbit, zoom, pan"},
+                    BadCase{"NoNumber", "camera orbit 10 x", "column 17: ", "a number"},
+                    BadCase{"NotFinite", "camera orbit inf 0", "column 14: ", "a number"},
+                    BadCase{"NotANumber", "camera orbit nan 0", "column 14: ", "a number"},
+                    BadCase{"TooFew", "camera orbit 10", "column 16: ", "AZIMUTH ELEVATION"},
+                    BadCase{"TooMany", "camera frame now",
+                            "column 14: ", "nothing after camera frame"},
+                    BadCase{"ZoomOfZero", "camera zoom 0", "column 13: ", "a number from"},
+                    BadCase{"HalfAPlace", "camera zoom 2 0.5", "column 15: ", "both RIGHT and UP"},
+                    BadCase{"SteepPlace", "camera place 0 91 1 0 0", "column 16: ", "-90 to 90"},
+                    BadCase{"OpenNothing", "open", "column 5: ", "open MODEL"},
+                    BadCase{"OpenTwo", "open a b", "column 8: ", "open MODEL"},
+                    BadCase{"QuoteNotClosed", "open \"a b", "column 6: ", "not closed"},
+                    BadCase{"QuoteWithin", "open a\"b", "column 7: ", "double quotes"},
+                    BadCase{"TextAfterQuote", "open \"a\"b", "column 9: ", "blank"},
+                    BadCase{"StrangeEscape", "open \"a\\q\"", "column 8: ", "\\\\"},
+                    BadCase{"BadSource", "source set 17 -3", "column 15: ", "is no source"},
+                    BadCase{"BadIndex", "source remove -1", "column 15: ", "number of a source"},
+                    BadCase{"BadCurve", "source extend 1,x", "column 15: ", "vertex ids"},
+                    BadCase{"PickAVertex", "pick 17", "column 6: ", "face:ID:b0:b1:b2"},
+                    BadCase{"ShowWhat", "show c", "column 6: ", "a or b or difference"},
+                    BadCase{"RotateWhat", "rotate maybe", "column 8: ", "on or off"},
+                    BadCase{"PictureSize", "save picture a.png 0x3", "column 20: ", "is no size"},
+                    BadCase{"PictureWord", "save picture a.png 3x3 all", "column 24: ", "panels"},
+                    BadCase{"SettingWithout", "view", "column 5: ", "one value"},
+                    BadCase{"SettingTwo", "view flat smooth", "column 6: ", "one value"},
+                    BadCase{"SettingValue", "constraint glue", "column 12: ", "pin-sources"},
+                    BadCase{"BackendName", "backend gpu", "column 9: ", "eigen-ldlt"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Script, SkipsBlankLinesAndComments) {
+  const auto lines = parse_script("# head\n\n  open bunny # here\r\n\t\nview flat", "s");
+  ASSERT_TRUE(lines) << lines.error().message;
+  ASSERT_EQ(lines->size(), 2U);
+  EXPECT_EQ((*lines)[0].number, 3);
+  EXPECT_EQ((*lines)[0].command, Command(Open{"bunny"}));
+  EXPECT_EQ((*lines)[1].number, 5);
+}
+
+TEST(Script, ABadLineNamesFileLineAndColumn) {
+  const auto lines = parse_script("open bunny\ncamera orbit 1 b\n", "dir/s.txt");
+  ASSERT_FALSE(lines);
+  EXPECT_EQ(lines.error().message.find("dir/s.txt: line 2, column 16: "), 0U)
+      << lines.error().message;
+  EXPECT_EQ(lines.error().code, ErrorCode::kBadFile);
+}
+
+TEST(Script, AnyBytesGiveCommandsOrOneLineOfError) {
+  std::mt19937 random(11);
+  const std::string alphabet = "open \"\\#\n\t0 1.5:,xface:camera-\xff\x01";
+  std::uniform_int_distribution<std::size_t> letter(0, alphabet.size() - 1);
+  for (int i = 0; i < 3000; ++i) {
+    std::string text;
+    for (int k = 0; k < 40; ++k) text += alphabet[letter(random)];
+    const auto lines = parse_script(text, "fuzz");
+    if (!lines) {
+      EXPECT_EQ(lines.error().message.find('\n'), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::app

@@ -118,6 +118,24 @@ TEST_P(Conformance, ReportsItsCost) {
   EXPECT_EQ(report->iterations > 0, backend.iterative());
 }
 
+TEST_P(Conformance, StopsWhenToldToIfItIterates) {
+  const auto factor = factored(*surface.analysis, heat());
+  Block b = random_block(n, 2, 6);
+  int calls = 0;
+  const auto stopped = factor->solve(b, {}, [&calls](std::string_view, double share) {
+    EXPECT_GE(share, 0);
+    EXPECT_LE(share, 1);
+    return ++calls < 2;  // in the second column at the latest
+  });
+  if (backend.iterative()) {
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().code, ErrorCode::kCancelled);
+    EXPECT_EQ(calls, 2);
+  }
+  const Block again = random_block(n, 2, 6);
+  EXPECT_LE(relative_residual(*heat(), solved(*factor, again), again), kResidual);
+}
+
 TEST_P(Conformance, AnotherPatternIsBadInput) {
   const Analysed other = analysed(*finish(sphere(1)), backend);
   const auto matrix = std::make_shared<FemOperator>(other.operators, 1, 1);

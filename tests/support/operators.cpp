@@ -11,7 +11,7 @@ Intrinsic intrinsic_of(const TriangleMesh& mesh, bool flip) {
   Intrinsic out{clean_faces(mesh), {}, {}};
   const double unit = mean_edge_length(mesh.positions(), out.clean.edges);
   out.mesh = build_intrinsic_mesh(mesh.positions(), out.clean, unit);
-  if (flip) out.flips = flip_to_delaunay(out.mesh);
+  if (flip) out.flips = *flip_to_delaunay(out.mesh);
   return out;
 }
 

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "app/explore/command_words.h"
+
+#include <algorithm>
+
+#include "app/source_spec.h"
+#include "app/text.h"
+#include "solver/core/number_text.h"
+
+namespace geotherm::app {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+
+std::string column_text(std::size_t column) { return "column " + std::to_string(column) + ": "; }
+
+/// The word in quotes that begins at line[at], which becomes the place behind it.
+Result<std::string> quoted_word(std::string_view line, std::size_t& at) {
+  const std::size_t begin = at++;
+  std::string text;
+  for (; at < line.size() && line[at] != '"'; ++at) {
+    const bool escapes = line[at] == '\\' && at + 1 < line.size();
+    if (!escapes) {
+      text += line[at];
+      continue;
+    }
+    switch (line[++at]) {
+      case '"':
+      case '\\':
+        text += line[at];
+        break;
+      case 'n':
+        text += '\n';
+        break;
+      default:
+        return Error{ErrorCode::kBadInput,
+                     column_text(at) + "expected \\\", \\\\ or \\n within quotes"};
+    }
+  }
+  if (at == line.size()) {
+    return Error{ErrorCode::kBadInput, column_text(begin + 1) + "this quote is not closed"};
+  }
+  ++at;
+  if (at < line.size() && !is_blank(line[at])) {
+    return Error{ErrorCode::kBadInput, column_text(at + 1) + "expected a blank after the quote"};
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string command_word(const std::string& word) {
+  const bool plain = !word.empty() && std::ranges::none_of(word, [](char c) {
+    return is_blank(c) || is_control(c) || c == '"' || c == '#';
+  });
+  if (plain) return word;
+  std::string out = "\"";
+  for (const char c : word) {
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+Result<WordReader> WordReader::of(std::string_view line) {
+  WordReader reader;
+  std::size_t at = 0;
+  while (at < line.size()) {
+    if (is_blank(line[at])) {
+      ++at;
+      continue;
+    }
+    if (line[at] == '#') break;
+    reader.end_column_ = at + 1;
+    Word word{{}, at + 1};
+    if (line[at] == '"') {
+      auto text = quoted_word(line, at);
+      if (!text) return text.error();
+      word.text = *std::move(text);
+    } else {
+      const std::size_t begin = at;
+      while (at < line.size() && !is_blank(line[at]) && line[at] != '#') {
+        if (line[at] == '"' || is_control(line[at])) {
+          return Error{ErrorCode::kBadInput, column_text(at + 1) +
+                                                 "expected a word; one with quotes or control " +
+                                                 "characters stands in double quotes"};
+        }
+        ++at;
+      }
+      word.text = line.substr(begin, at - begin);
+    }
+    reader.end_column_ = at + 1;
+    reader.words_.push_back(std::move(word));
+  }
+  return reader;
+}
+
+Error WordReader::fail(const std::string& what) const {
+  const std::size_t column = at_end() ? end_column_ : words_[next_].column;
+  std::string text = column_text(column) + "expected " + what;
+  if (!at_end()) text += ", not '" + one_line(words_[next_].text) + "'";
+  return {ErrorCode::kBadInput, std::move(text)};
+}
+
+Error WordReader::blame_last(const std::string& why) const {
+  return {ErrorCode::kBadInput, column_text(words_[next_ - 1].column) + why};
+}
+
+Result<double> WordReader::number(double least, double most) {
+  const auto value = number_in<double>(peek());
+  if (!value || !(*value >= least && *value <= most)) {
+    const bool any = most == kLargestNumber;
+    return fail(any ? "a number"
+                    : "a number from " + number_text(least) + " to " + number_text(most));
+  }
+  ++next_;
+  return *value;
+}
+
+Result<int> WordReader::whole() {
+  const auto value = number_in<int>(peek());
+  if (!value || *value < 0) return fail("the number of a source, from 0");
+  ++next_;
+  return *value;
+}
+
+Result<std::vector<Index>> WordReader::vertices() {
+  const auto spec = parse_source(peek());
+  const auto* const list = spec ? std::get_if<VertexList>(&*spec) : nullptr;
+  if (list == nullptr) return fail("vertex ids, such as 3,99,512");
+  ++next_;
+  return list->vertices;
+}
+
+Result<void> WordReader::source() {
+  const auto spec = parse_source(next());
+  if (!spec) return blame_last(spec.error().message);
+  last_ = to_text(*spec);
+  return {};
+}
+
+Result<void> WordReader::face_point() {
+  const auto spec = parse_source(peek());
+  if (!spec || !std::holds_alternative<FacePoint>(*spec)) {
+    return fail("a point in a face, face:ID:b0:b1:b2, or none");
+  }
+  ++next_;
+  last_ = to_text(*spec);
+  return {};
+}
+
+Result<int> WordReader::one_of(std::initializer_list<const char*> names) {
+  int i = 0;
+  for (const char* name : names) {
+    if (peek() == name) {
+      ++next_;
+      return i;
+    }
+    ++i;
+  }
+  return fail(joined(std::vector<std::string>(names.begin(), names.end()), " or "));
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/core/types.h"
+
+namespace geotherm::app {
+
+/// Larger numbers mean nothing in a command.
+inline constexpr double kLargestNumber = 1e300;
+
+/// A word as it stands in a command: in quotes where it has to.
+std::string command_word(const std::string& word);
+
+/// The words of one line, handed out one by one. Errors: kBadInput, "column N: ..." (from 1).
+class WordReader {
+ public:
+  /// Errors: a quote that is not closed, a character that does not belong there.
+  static Result<WordReader> of(std::string_view line);
+
+  bool at_end() const { return next_ == words_.size(); }
+  std::size_t left() const { return words_.size() - next_; }
+  void skip(std::size_t count) { next_ += count; }
+  const std::string& peek() const { return words_[next_].text; }  ///< precondition: !at_end()
+  const std::string& next() { return words_[next_++].text; }      ///< precondition: !at_end()
+  const std::string& last() const { return last_; }  ///< canonical text of the last source
+
+  // Of the next word; each precondition: !at_end().
+  Result<double> number(double least, double most);
+  Result<int> whole();  ///< from 0
+  Result<std::vector<Index>> vertices();
+  Result<void> source();      ///< its canonical text is last()
+  Result<void> face_point();  ///< the same
+  Result<int> one_of(std::initializer_list<const char*> names);
+
+  /// "column N: expected WHAT", of the next word or the end of the line.
+  Error fail(const std::string& what) const;
+  /// "column N: WHY", of the word before.
+  Error blame_last(const std::string& why) const;
+
+ private:
+  struct Word {
+    std::string text;
+    std::size_t column;
+  };
+  std::vector<Word> words_;
+  std::size_t next_ = 0;
+  std::size_t end_column_ = 1;
+  std::string last_;
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "app/explore/explored_picture.h"
+
+#include "app/picture/picture_caption.h"
+#include "app/text.h"
+
+namespace geotherm::app {
+namespace {
+
+std::string caption_of(const Explored& explored, Shown shown) {
+  const Model& model = explored.model->model;
+  const Index faces = model.mesh->face_count();
+  if (!explored.b) {
+    return picture_caption(model.name, faces, explored.a ? &explored.a->method : nullptr);
+  }
+  if (shown != Shown::kDifference) {
+    return picture_caption(model.name, faces, &shown_answer(explored, shown)->method) +
+           (shown == Shown::kB ? " (B)" : " (A)");
+  }
+  return picture_caption(model.name, faces, nullptr) +
+         ", A: " + method_caption(explored.a->method) +
+         ", B: " + method_caption(explored.b->method);
+}
+
+}  // namespace
+
+bool needs_fields(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
+
+void set_explored(PictureData& data, const Explored& explored, Shown shown, View view) {
+  data.sources.clear();
+  data.values.clear();
+  data.heat_directions.clear();
+  data.distance_gradients.clear();
+  data.value_unit = 1;
+  data.largest_value = 0;
+  data.is_signed = false;
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  if (shown != Shown::kA && !explored.b) shown = Shown::kA;
+  data.caption = caption_of(explored, shown);
+  const Answer* answer = shown_answer(explored, shown);
+  if (answer == nullptr) return;
+  add_sources(data, mesh, explored.set);
+  if (shown == Shown::kDifference && explored.difference) {
+    add_difference(data, explored.difference->values);
+  } else {
+    add_distances(data, answer->result.distances);
+  }
+  if (needs_fields(view) && !answer->result.log_heat.empty()) {
+    add_fields(data, mesh, answer->result);
+  }
+}
+
+PictureData picture_of(const Explored& explored, Shown shown, View view) {
+  PictureData data = *explored.model->base;
+  set_explored(data, explored, shown, view);
+  return data;
+}
+
+}  // namespace geotherm::app

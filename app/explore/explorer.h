@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/explore/explored.h"
+#include "solver/core/progress.h"
+
+namespace geotherm::app {
+
+/// What a session asks for.
+struct ExploreRequest {
+  std::string model;
+  std::uint64_t opening = 0;  ///< another number: the model is read anew
+  std::vector<std::string> sources;
+  HeatOptions heat;                 ///< A
+  std::optional<HeatOptions> kept;  ///< B
+  bool fields = false, quality = true;
+
+  /// Whether both need the same model and factors.
+  bool same_setup(const ExploreRequest& other) const {
+    return model == other.model && opening == other.opening && heat == other.heat &&
+           kept == other.kept;
+  }
+  /// Whether what answers this also answers `other`.
+  bool covers(const ExploreRequest& other) const {
+    return same_setup(other) && sources == other.sources && fields >= other.fields &&
+           quality >= other.quality;
+  }
+};
+
+/// Works requests out, one after the other, and keeps what the next one can use: the model, and
+/// both methods with their factors. For one thread at a time.
+class Explorer {
+ public:
+  /// What is there before the whole is: the model alone.
+  using Early = std::function<void(Explored)>;
+
+  /// Errors: those of load_model, resolve_sources and HeatMethod; kCancelled.
+  Result<Explored> explore(const ExploreRequest& request, const Progress& progress,
+                           const Early& early);
+
+ private:
+  Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
+  Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
+                                               const HeatOptions& options, bool is_b,
+                                               const Explored& explored,
+                                               const std::vector<std::string>& source_warnings,
+                                               const Progress& progress);
+
+  struct Method {
+    HeatMethod method;
+    SetupTiming setup;
+    double setup_ms;
+  };
+  Result<void> prepare(const HeatOptions& options, std::optional<Method>& kept,
+                       const std::optional<Method>& other, const Progress& progress);
+
+  std::shared_ptr<const ExploredModel> model_;
+  std::string model_text_;
+  std::uint64_t opening_ = 0;
+  std::optional<Method> a_, b_;
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// What a session has worked out, on its worker's thread or at once.
+#include <algorithm>
+#include <utility>
+
+#include "app/explore/explored_picture.h"
+#include "app/explore/session_state.h"
+#include "app/resolve_sources.h"
+#include "app/text.h"
+#include "solver/linear/backend.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::size_t kMostQueries = 240;
+constexpr int kCompareQueries = 10;
+constexpr int kCompareBatch = 16;
+
+std::string summary(const Explored& explored, const Explored& before) {
+  const Answer& a = *explored.a;
+  std::string text = "solved with " + a.method.options().backend + ": query " +
+                     milliseconds(a.result.timing.query) + " ms";
+  const bool same_method = before.a && before.model == explored.model &&
+                           before.a->method.options() == a.method.options();
+  if (!same_method) text += ", set-up " + milliseconds(a.setup_ms) + " ms";
+  text += ", largest distance " + significant(a.distance.max);
+  if (explored.difference) {
+    text += "; A - B: at most " + significant(explored.difference->most) + ", mean " +
+            significant(explored.difference->mean);
+  }
+  return text;
+}
+
+}  // namespace
+
+ExploreRequest Session::State::wanted() const {
+  ExploreRequest request;
+  request.model = state.model;
+  request.opening = opening;
+  request.sources = state.sources;
+  request.heat = state.heat;
+  request.kept = state.kept;
+  request.fields = needs_fields(state.picture.view) || state.picked.has_value();
+  request.quality = !dragging;
+  return request;
+}
+
+bool Session::State::works() {
+  const std::lock_guard lock(inbox_mutex);
+  return !inbox.empty() || compare.running || (worker && worker->status().busy);
+}
+
+/// Starts what the state asks for and nobody works on.
+void Session::State::refresh() {
+  if (state.model.empty()) return;
+  const ExploreRequest request = wanted();
+  if (requested && requested->covers(request)) return;
+  start(request);
+  last_logged_merges = false;  // answers stand between this command and the next
+}
+
+void Session::State::start(const ExploreRequest& request) {
+  const bool other_setup = requested && !requested->same_setup(request);
+  requested = request;
+  failure.clear();
+  const auto job = [this, request](const Progress& progress) {
+    Result<Explored> answer = explorer.explore(
+        request, progress, [this](Explored early) { post(Early{std::move(early)}); });
+    post(Answered{request, std::move(answer)});
+  };
+  if (worker) {
+    worker->start(job, other_setup);
+    return;
+  }
+  job(hooks.progress);
+  take();
+}
+
+void Session::State::post(std::variant<Early, Answered, Compared> message) {
+  {
+    const std::lock_guard lock(inbox_mutex);
+    inbox.push_back(std::move(message));
+  }
+  if (hooks.wake) hooks.wake();
+}
+
+bool Session::State::take() {
+  std::vector<std::variant<Early, Answered, Compared>> messages;
+  {
+    const std::lock_guard lock(inbox_mutex);
+    messages.swap(inbox);
+  }
+  for (auto& message : messages) {
+    if (auto* early = std::get_if<Early>(&message)) {
+      const std::uint64_t version = explored.version;
+      explored = std::move(early->explored);
+      explored.version = version + 1;
+      before_opening.reset();
+      note(LogLine::Kind::kNote, "opened " + one_line(explored.model->model.name) + ": " +
+                                     grouped(explored.model->mesh.vertices) + " vertices, " +
+                                     grouped(explored.model->mesh.faces) + " faces");
+      for (const std::string& warning : explored.model->warnings) {
+        note(LogLine::Kind::kWarning, warning);
+      }
+    } else if (auto* answered_now = std::get_if<Answered>(&message)) {
+      take_answer(answered_now->request, std::move(answered_now->answer));
+    } else if (auto* compared = std::get_if<Compared>(&message)) {
+      compare.running = false;
+      if (compared->rows) {
+        compare.rows = *std::move(compared->rows);
+        note(LogLine::Kind::kNote,
+             "compared " + counted(static_cast<Index>(compare.rows.size()), "backend", "backends"));
+      } else {
+        note(LogLine::Kind::kError, compared->rows.error().message);
+      }
+    }
+  }
+  return !messages.empty();
+}
+
+void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer) {
+  const bool is_last = requested && requested->covers(request) && request.covers(*requested);
+  if (!answer) {
+    if (!is_last) return;  // replaced, or the failure of what nobody wants any more
+    failure = answer.error().message;
+    if (!first_error) first_error = answer.error();
+    note(LogLine::Kind::kError, failure);
+    if (!before_opening) return;
+    // The model did not open: the one before it is still there.
+    state = std::move(before_opening->state);
+    opening = before_opening->opening;
+    before_opening.reset();
+    requested = answered;
+    if (explored.model) refresh();
+    return;
+  }
+  if (request.opening != opening) return;  // of a model that is no longer wanted
+  const std::uint64_t version = explored.version;
+  const Explored before = std::exchange(explored, *std::move(answer));
+  explored.version = version + 1;
+  answered = request;
+  if (is_last) failure.clear();
+  if (!explored.a) return;
+  if (queries.size() >= kMostQueries) queries.erase(queries.begin());
+  queries.push_back({explored.a->method.options().backend, explored.a->result.timing});
+  if (!request.quality) return;  // a drag goes on
+  note(LogLine::Kind::kNote, summary(explored, before));
+  for (const std::string& warning : explored.a->warnings) {
+    const bool known = before.a && before.model == explored.model &&
+                       std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
+    if (!known) note(LogLine::Kind::kWarning, warning);
+  }
+}
+
+void Session::State::start_compare(const command::Compare& command) {
+  CompareTask task;
+  task.options = state.heat;
+  if (command.backends == "all") {
+    task.backends = backend_names();
+  } else {
+    std::string rest = command.backends + ",";
+    for (std::size_t at = rest.find(','); at != std::string::npos; at = rest.find(',')) {
+      task.backends.push_back(rest.substr(0, at));
+      rest.erase(0, at + 1);
+    }
+  }
+  task.reference = task.backends.front();
+  task.queries.push_back(explored.set);
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  for (int i = 1; i < kCompareBatch; ++i) {
+    const auto random = random_vertices(mesh, 1, static_cast<std::uint64_t>(i));
+    if (!random) break;
+    const SourceSet set = SourceSet::of_vertices(*random);
+    if (i < kCompareQueries) task.queries.push_back(set);
+    task.batch.push_back(set);
+  }
+  task.batch.push_back(explored.set);
+  compare.running = true;
+  compare.rows.clear();
+  compare.reference = task.reference;
+  const auto job = [this, task, model = explored.model](const Progress& progress) {
+    post(Compared{compare_backends(model->model, task, progress)});
+  };
+  if (compare_worker) {
+    compare_worker->start(job, true);
+    return;
+  }
+  job(hooks.progress);
+  take();
+}
+
+bool Session::stale() const {
+  const State& s = *state_;
+  if (s.state.model.empty()) return false;
+  ExploreRequest wanted = s.wanted();
+  wanted.fields = wanted.quality = false;
+  return !s.answered || !s.answered->covers(wanted);
+}
+
+SessionWork Session::work() const {
+  for (const std::optional<Worker>* worker : {&state_->worker, &state_->compare_worker}) {
+    if (!*worker) continue;
+    const Worker::Status status = (*worker)->status();
+    if (status.busy) return {true, status.stage, status.share};
+  }
+  return {};
+}
+
+void Session::cancel() {
+  if (state_->worker) state_->worker->cancel();
+  if (state_->compare_worker) state_->compare_worker->cancel();
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <imgui.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/main_window/frame_clock.h"
+#include "app/main_window/scene_screen.h"
+#include "app/view_picture.h"
+#include "app/viewer_window.h"
+#include "engine/window/window.h"
+#include "ui/interface.h"
+
+namespace geotherm::app {
+
+/// Dear ImGui's context, current while it lives.
+struct PanelContext {
+  PanelContext() : context(ImGui::CreateContext()) {}
+  ~PanelContext() { ImGui::DestroyContext(context); }
+  PanelContext(const PanelContext&) = delete;
+  PanelContext& operator=(const PanelContext&) = delete;
+  ImGuiContext* context;
+};
+
+/// A window from opening to closing. Draws when something has happened and sleeps otherwise.
+class WindowLoop {
+ public:
+  /// Errors: kNoDevice.
+  static Result<std::unique_ptr<WindowLoop>> open(const ViewerStart& start);
+  ~WindowLoop();
+
+  /// Until the user quits. Errors: kNoDevice (lost, and it did not come back), kOutOfMemory, and
+  /// those of the commands it starts with.
+  Result<void> run();
+
+ private:
+  explicit WindowLoop(const ViewerStart& start) : start_(start) {}
+
+  Result<void> begin_session();
+  Result<void> open_screen();
+  Result<void> frame();
+  Result<void> draw_frame(bool fast);
+  Result<void> after_failure(const Error& error);
+  void sleep();
+  Result<void> follow_scale();
+  void remember_layout();
+  ui::FrameOutput lay_out_panels();
+  PictureArea area() const;
+  float pixels_per_point() const;
+
+  Result<void> save_picture(const command::SavePicture& save, const Session& session);
+  Result<DrawnPicture> picture_with_panels(const PictureSettings& settings);
+
+  ViewerStart start_;
+  // In the order of creation; the last go first: the session's workers before all that they wake.
+  PanelContext panels_;
+  std::unique_ptr<engine::Window> window_;
+  std::unique_ptr<SceneScreen> screen_;
+  std::unique_ptr<ui::Interface> interface_;
+  std::unique_ptr<Session> session_;
+  std::string layout_path_;
+  ui::Layout saved_layout_;
+  std::uint64_t font_version_ = 0;
+  bool font_is_uploaded_ = false;
+  float base_scale_ = 1;  ///< of the monitor or the command line
+  FrameClock clock_;
+  std::optional<std::chrono::steady_clock::time_point> last_loss_;
+  bool fast_ = false;
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "solver/core/result.h"
+
+// Values of a picture's options from their texts, the same on the command line and in scripts.
+// Errors: kBadInput, with the text and what is expected.
+namespace geotherm::app {
+
+struct Size {
+  int width = 0, height = 0;
+};
+struct Range {
+  std::optional<double> min, max;
+};
+struct Pan {
+  double right = 0, up = 0;
+};
+
+Result<Size> parse_size(const std::string& text);                      // 1280x720
+Result<int> parse_samples(const std::string& text);                    // 1 | 4
+Result<Range> parse_range(const std::string& text);                    // MIN:MAX | MIN: | auto
+Result<std::optional<double>> parse_spacing(const std::string& text);  // D | auto
+Result<double> parse_azimuth(const std::string& text);                 // degrees
+Result<double> parse_elevation(const std::string& text);               // degrees
+Result<double> parse_zoom(const std::string& text);                    // factor
+Result<Pan> parse_pan(const std::string& text);                        // RIGHT:UP
+Result<bool> parse_projection(const std::string& text);                // true: orthographic
+Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text);  // X:Y:Z | auto
+Result<bool> parse_switch(const std::string& text);                                  // on | off
+Result<int> whole_between(const std::string& text, int least, int most, const std::string& why);
+
+/// Bounds of the camera.
+inline constexpr double kLeastZoom = 1e-3, kMostZoom = 1e6;
+inline constexpr double kMostPan = 1e3;    ///< picture heights
+inline constexpr double kMostAngle = 1e6;  ///< degrees
+inline constexpr int kLargestPictureSide = 8192;
+
+}  // namespace geotherm::app

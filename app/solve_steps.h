@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/core/result.h"
+#include "solver/geometry/mesh_report.h"
+#include "solver/heat/heat_options.h"
+#include "solver/mesh/triangle_mesh.h"
+
+// What every solve of a model has to see to, in one command or in a session.
+namespace geotherm::app {
+
+/// What the library finds wrong with a mesh is a failure of the work, not of the command line.
+Error about_model(const std::string& name, const Error& error);
+
+/// Whether the pinned vertex, where one is named, is on the mesh.
+Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh);
+
+/// One sentence for each reason why `unreached` vertices have no distance.
+std::vector<std::string> unreached_notes(const MeshReport& mesh, Index unreached);
+
+}  // namespace geotherm::app

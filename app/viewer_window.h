@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/explore/command.h"
+#include "solver/core/result.h"
+
+namespace geotherm::app {
+
+/// What a window begins with.
+struct ViewerStart {
+  std::vector<Command> commands;  ///< at once: those that the command line stands for
+  std::string script;             ///< a file of commands that follow; empty: none
+  std::string device;             ///< part of its name; empty: the best
+  int width = 0, height = 0;      ///< of the window; 0: the usual
+  double scale = 0;               ///< of letters and panels; 0: the monitor's
+  bool validation = false;        ///< reports what Vulkan's validation says as errors
+  std::string command;            ///< the command line, for the files of pictures
+};
+
+/// The program's link to the window, which this folder does not know. main() hands in the real one.
+class ViewerWindow {
+ public:
+  virtual ~ViewerWindow() = default;
+
+  /// Opens the window and returns when it is closed. Errors: kNoDevice (no display, no device, a
+  /// device that was lost and did not come back), kBadFile (a model or script that cannot be read
+  /// at the start), kNumericalFailure (validation spoke).
+  virtual Result<void> run(const ViewerStart& start) = 0;
+};
+
+}  // namespace geotherm::app

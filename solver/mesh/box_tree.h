@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/core/types.h"
+
+namespace geotherm {
+
+/// A box in single precision; empty as made.
+struct FloatBox {
+  std::array<float, 3> low = {kFar, kFar, kFar};
+  std::array<float, 3> high = {-kFar, -kFar, -kFar};
+
+  void add(const FloatBox& other) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = low[k] < other.low[k] ? low[k] : other.low[k];
+      high[k] = high[k] > other.high[k] ? high[k] : other.high[k];
+    }
+  }
+
+ private:
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+};
+
+/// Something with an extent; `id` means something to the caller alone.
+struct BoxItem {
+  FloatBox box;
+  Index id = kNoIndex;
+};
+
+struct BoxNode {
+  FloatBox box;
+  std::uint32_t first = 0;  ///< of a leaf: its first id in BoxTree::ids; else its first child
+  std::uint32_t count = 0;  ///< of a leaf: how many ids; 0: two children, `first` and `first` + 1
+};
+
+/// A hierarchy of boxes over items: node 0 is the root, and there is none without items.
+struct BoxTree {
+  static constexpr int kMostDepth = 72;
+
+  std::vector<BoxNode> nodes;
+  std::vector<Index> ids;
+};
+
+/// Splits where the surface area heuristic is lowest over 16 bins of box centres on the longest
+/// axis (Wald 2007); in halves where the centres tell nothing, and below depth 40, so that no input
+/// makes the tree deeper than kMostDepth. Cost: O(n log n). Errors: kCancelled.
+Result<BoxTree> build_box_tree(std::vector<BoxItem> items, const Progress& progress);
+
+}  // namespace geotherm

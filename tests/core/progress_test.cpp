@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "solver/core/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace geotherm::test {
+namespace {
+
+TEST(Progress, OfAPartIsAShareOfTheWhole) {
+  std::vector<double> shares;
+  const Progress whole = [&shares](std::string_view, double share) {
+    shares.push_back(share);
+    return share < 0.7;
+  };
+  const Progress half = part_of(part_of(whole, 0.5, 1), 0, 0.5);
+  EXPECT_TRUE(report(half, "a", 0));
+  EXPECT_TRUE(report(half, "a", 0.5));
+  EXPECT_TRUE(report(half, "a", -1));
+  EXPECT_FALSE(report(half, "a", 1));
+  EXPECT_EQ(shares, (std::vector<double>{0.5, 0.625, -1, 0.75}));
+  EXPECT_TRUE(report(part_of({}, 0, 1), "a", 1));
+}
+
+TEST(Progress, OfThreadsIsCalledByOneAtATimeInOrderAndNotAgainAfterStop) {
+  constexpr int kMost = 500;
+  std::atomic<int> inside = 0;
+  int calls = 0;
+  double last = 0;
+  const Progress progress = [&](std::string_view, double share) {
+    EXPECT_EQ(++inside, 1);
+    EXPECT_GE(share, last);
+    last = share;
+    --inside;
+    return ++calls < kMost;
+  };
+  SharedProgress shared(progress);
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 3; ++t) {
+      threads.emplace_back([&shared] {
+        const Progress mine = shared.function();
+        for (int i = 0; i < 1000; ++i) report(mine, "a", i / 1000.0);
+      });
+    }
+  }
+  EXPECT_EQ(calls, kMost);
+  EXPECT_FALSE(report(shared.function(), "a", 1));
+}
+
+TEST(Progress, OfThreadsCanBeStoppedFromWithin) {
+  const Progress nobody;
+  SharedProgress shared(nobody);
+  EXPECT_TRUE(report(shared.function(), "a", 0));
+  shared.stop();
+  EXPECT_FALSE(report(shared.function(), "a", 0));
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+
+#include "tests/engine/window/window_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+using namespace geotherm::engine;
+
+class PanelInputs : public WindowTest {
+ protected:
+  void SetUp() override {
+    WindowTest::SetUp();
+    if (!window_) return;
+    context_ = ImGui::CreateContext();
+    io().IniFilename = nullptr;
+    io().Fonts->Build();
+    window_->connect_panels();
+    frame();
+  }
+  void TearDown() override {
+    WindowTest::TearDown();
+    window_.reset();  // before the context
+    if (context_ != nullptr) ImGui::DestroyContext(context_);
+  }
+
+  static ImGuiIO& io() { return ImGui::GetIO(); }
+  void frame() {
+    window_->begin_panels();
+    ImGui::NewFrame();
+    ImGui::EndFrame();
+  }
+  bool eventually_in_a_frame(const std::function<bool()>& so) {
+    return eventually([&] {
+      frame();
+      return so();
+    });
+  }
+
+  ImGuiContext* context_ = nullptr;
+};
+
+TEST_F(PanelInputs, KnowTheWindowsSize) {
+  EXPECT_EQ(io().DisplaySize.x, kSize.x);
+  EXPECT_EQ(io().DisplaySize.y, kSize.y);
+  resize({500, 300});
+  frame();
+  EXPECT_EQ(io().DisplaySize.x, 500);
+  EXPECT_EQ(io().DisplayFramebufferScale.x, 1);
+  EXPECT_GT(io().DeltaTime, 0);
+}
+
+TEST_F(PanelInputs, FollowTheMouse) {
+  xdotool("mousemove 123 45");
+  EXPECT_TRUE(
+      eventually_in_a_frame([&] { return io().MousePos.x == 123 && io().MousePos.y == 45; }));
+  xdotool("mousedown 1");
+  EXPECT_TRUE(eventually_in_a_frame([&] { return io().MouseDown[0]; }));
+  xdotool("mouseup 1");
+  EXPECT_TRUE(eventually_in_a_frame([&] { return !io().MouseDown[0]; }));
+  xdotool("click 4");
+  EXPECT_TRUE(eventually([&] { return io().MouseWheel > 0; }));  // the frame's end clears it
+}
+
+TEST_F(PanelInputs, ReadTheKeyboard) {
+  xdotool("mousemove 100 100 search --class geotherm windowfocus --sync");
+  xdotool("keydown space");
+  EXPECT_TRUE(
+      eventually_in_a_frame([&] { return ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space)); }));
+  xdotool("keyup space");
+  EXPECT_TRUE(
+      eventually_in_a_frame([&] { return !ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Space)); }));
+}
+
+/// The window still hears what ImGui hears.
+TEST_F(PanelInputs, LeaveTheWindowItsEvents) {
+  while (window_->wait(0.3)) {
+  }
+  xdotool("mousemove 30 30 click 1");
+  EXPECT_TRUE(eventually([&] { return window_->wait(0); }));
+}
+
+TEST_F(PanelInputs, EndWithTheWindow) {
+  target_.reset();
+  window_.reset();
+  EXPECT_EQ(io().BackendPlatformUserData, nullptr);
+  ImGui::SetClipboardText("nobody takes this");
+  EXPECT_STREQ(ImGui::GetClipboardText(), "");
+}
+
+}  // namespace
+}  // namespace geotherm::test

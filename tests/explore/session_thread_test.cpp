@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// A session whose work runs on threads of its own, as the window uses it. All names hold "Thread",
+// so that the thread sanitizer runs them.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include "app/explore/worker.h"
+#include "tests/explore/session_fixture.h"
+
+namespace geotherm::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+class SessionThread : public SessionFixture {
+ protected:
+  SessionThread()
+      : threaded([this] {
+          SessionHooks hooks;
+          hooks.wake = [this] { ++wakes; };
+          return hooks;
+        }()) {}
+
+  std::atomic<int> wakes = 0;
+  Session threaded;
+};
+
+TEST_F(SessionThread, SubmitReturnsAtOnceAndTheAnswerFollows) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  EXPECT_TRUE(threaded.stale());
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_FALSE(threaded.stale());
+  EXPECT_TRUE(threaded.explored().a);
+  EXPECT_GT(wakes, 0);
+}
+
+TEST_F(SessionThread, TheLatestOfManyWins) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  for (int i = 1; i <= 200; ++i) {
+    ASSERT_TRUE(threaded.submit(command::Set{"time-factor", std::to_string(i)}));
+    ASSERT_TRUE(threaded.submit(command::SetSources{{std::to_string(i)}}));
+    threaded.update();
+  }
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_EQ(threaded.explored().a->method.options().time_step.factor, 200);
+  EXPECT_EQ(threaded.explored().sources, std::vector<std::string>{"200"});
+  EXPECT_FALSE(threaded.stale());
+}
+
+TEST_F(SessionThread, ThePictureFollowsADrag) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.submit(command::SetSources{{"1"}}));
+  ASSERT_TRUE(threaded.finish());
+  threaded.set_dragging(true);
+  int pictures = 0;
+  std::uint64_t version = threaded.explored().version;
+  for (int i = 0; i < 2000 && pictures < 20; ++i) {
+    ASSERT_TRUE(threaded.submit(command::MoveSource{0, std::to_string(1 + i % 300)}));
+    std::this_thread::sleep_for(200us);
+    threaded.update();
+    pictures += threaded.explored().version != version ? 1 : 0;
+    version = threaded.explored().version;
+  }
+  EXPECT_EQ(pictures, 20) << "queries whose sources alone have changed are let finish";
+  threaded.set_dragging(false);
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_FALSE(threaded.stale());
+  EXPECT_GT(threaded.explored().a->result.quality.eikonal_error_mean, 0) << "after the drag";
+}
+
+TEST_F(SessionThread, AFailureLeavesTheLastGoodAnswer) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  ASSERT_TRUE(threaded.submit(command::SetSources{{"99999999"}}));
+  const auto finished = threaded.finish();
+  ASSERT_FALSE(finished);
+  EXPECT_NE(threaded.failure(), "");
+  EXPECT_TRUE(threaded.explored().a);
+  EXPECT_TRUE(threaded.stale());
+}
+
+TEST_F(SessionThread, AScriptWaitsForAnswersBeforeItSaves) {
+  const std::string path = folder() + "s.geotherm";
+  write(path, "open " + small_model() + "\nsource set 7\nsave distances " + folder() +
+                  "d.csv\nsource set 8\nsave distances " + folder() + "e.csv\nquit\n");
+  ASSERT_TRUE(threaded.submit(command::Run{path}));
+  for (int i = 0; i < 10000 && !threaded.quits(); ++i) {
+    threaded.update();
+    std::this_thread::sleep_for(1ms);
+  }
+  ASSERT_TRUE(threaded.quits());
+  const auto line_of_zero = [](const std::string& file) {
+    std::ifstream in(file);
+    std::string line;
+    while (std::getline(in, line)) {
+      if (line.ends_with(",0")) return line;
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(line_of_zero(folder() + "d.csv"), "7,0");
+  EXPECT_EQ(line_of_zero(folder() + "e.csv"), "8,0");
+}
+
+TEST_F(SessionThread, EndsWhileWorkGoesOn) {
+  for (int i = 0; i < 20; ++i) {
+    SessionHooks hooks;
+    hooks.wake = [] {};
+    Session short_lived(std::move(hooks));
+    ASSERT_TRUE(short_lived.submit(command::Open{small_model()}));
+    std::this_thread::sleep_for(std::chrono::microseconds(300 * i));
+  }
+}
+
+TEST_F(SessionThread, CancelEndsTheWorkAndTheNextCommandStartsItAgain) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  threaded.cancel();
+  [[maybe_unused]] const auto ended = threaded.finish();
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_FALSE(threaded.stale());
+}
+
+TEST_F(SessionThread, ComparesBesideTheOtherWork) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  ASSERT_TRUE(threaded.submit(command::Compare{"eigen-ldlt"}));
+  EXPECT_TRUE(threaded.compare().running);
+  ASSERT_TRUE(threaded.submit(command::SetSources{{"4"}}));
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_EQ(threaded.compare().rows.size(), 1U);
+  EXPECT_EQ(threaded.explored().sources, std::vector<std::string>{"4"});
+}
+
+TEST(WorkerThread, KeepsTheLatestOfWhatWaits) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool may_go = false;
+  std::vector<int> done;
+  Worker worker([] {});
+  worker.start(
+      [&](const Progress&) {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return may_go; });
+        done.push_back(0);
+      },
+      false);
+  while (worker.status().stage.empty() && !worker.status().busy) std::this_thread::yield();
+  std::this_thread::sleep_for(5ms);  // the first job has begun, or is replaced: both are legal
+  for (int i = 1; i <= 10; ++i) {
+    worker.start(
+        [&, i](const Progress&) {
+          const std::lock_guard lock(mutex);
+          done.push_back(i);
+        },
+        false);
+  }
+  {
+    const std::lock_guard lock(mutex);
+    may_go = true;
+  }
+  changed.notify_all();
+  worker.wait();
+  ASSERT_FALSE(done.empty());
+  EXPECT_EQ(done.back(), 10);
+  EXPECT_LE(done.size(), 2U);
+}
+
+TEST(WorkerThread, AsksAJobToStop) {
+  Worker worker([] {});
+  std::atomic<bool> running = false, stopped = false;
+  worker.start(
+      [&](const Progress& progress) {
+        running = true;
+        while (progress("long", 0.5)) std::this_thread::sleep_for(100us);
+        stopped = true;
+      },
+      false);
+  while (!running) std::this_thread::yield();
+  worker.cancel();
+  worker.wait();
+  EXPECT_TRUE(stopped);
+}
+
+}  // namespace
+}  // namespace geotherm::app

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "ui/file_dialog.h"
+
+#include <cstdlib>
+#include <fstream>
+
+#include "tests/ui/driver.h"
+#include "ui/file_task.h"
+#include "ui/key_codes.h"
+
+namespace geotherm::ui {
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::vector<std::string>;
+
+void touch(const fs::path& path) { std::ofstream(path) << "x"; }
+
+class FileDialogTest : public UiTest {
+ protected:
+  void SetUp() override {
+    open_square();
+    fs::create_directories(folder() / "sub");
+    touch(folder() / "a.OBJ");
+    touch(folder() / "b.txt");
+    touch(folder() / "sub" / "c.ply");
+  }
+  void control(int letter, bool shift = false) {
+    hold(true, shift, false);
+    key(letter);
+    hold(false, false, false);
+    frame();
+  }
+  void go_to(const fs::path& path) { fill("Files/folder", path.string()); }
+  bool is_open() {
+    frame();
+    return is_drawn("Files/up");
+  }
+};
+
+TEST_F(FileDialogTest, ListsFoldersAndTheFilesOfItsKind) {
+  control('O');
+  go_to(folder());
+  EXPECT_TRUE(is_drawn("Files/sub"));
+  EXPECT_TRUE(is_drawn("Files/a.OBJ"));
+  EXPECT_TRUE(is_drawn("Files/square.obj"));
+  EXPECT_FALSE(is_drawn("Files/b.txt"));
+  click_item("Files/all files");
+  frame();
+  EXPECT_TRUE(is_drawn("Files/b.txt"));
+}
+
+TEST_F(FileDialogTest, OpensWhatIsChosenInAFolder) {
+  control('O');
+  go_to(folder());
+  click_item("Files/sub");
+  frame();
+  click_item("Files/c.ply");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"open " + (folder() / "sub" / "c.ply").string()});
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(FileDialogTest, OpensWithADoubleClick) {
+  control('O');
+  go_to(folder());
+  wait();
+  const ImVec2 at = middle_of("Files/a.OBJ");
+  move(at.x, at.y);
+  press();
+  release();
+  press();
+  release();
+  EXPECT_EQ(sent(), Texts{"open " + (folder() / "a.OBJ").string()});
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(FileDialogTest, OpensATypedNameWithEnter) {
+  control('O');
+  go_to(folder());
+  fill("Files/name", "sub/c.ply");
+  EXPECT_EQ(sent(), Texts{"open " + (folder() / "sub" / "c.ply").string()});
+}
+
+TEST_F(FileDialogTest, EntersATypedFolder) {
+  control('O');
+  go_to(folder());
+  fill("Files/name", "sub");
+  frame();
+  EXPECT_TRUE(is_drawn("Files/c.ply"));
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST_F(FileDialogTest, StaysOpenWhereThereIsNoSuchFile) {
+  control('O');
+  go_to(folder());
+  fill("Files/name", "nothing.obj");
+  EXPECT_TRUE(is_open());
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST_F(FileDialogTest, StaysWhereItWasWhenAFolderCannotBeListed) {
+  control('O');
+  go_to(folder());
+  go_to(folder() / "nowhere");
+  EXPECT_TRUE(is_drawn("Files/a.OBJ"));
+}
+
+TEST_F(FileDialogTest, ClosesOnEscape) {
+  control('O');
+  ASSERT_TRUE(is_open());
+  key(kKeyEscape);
+  EXPECT_FALSE(is_open());
+  EXPECT_EQ(sent(), Texts{});
+  EXPECT_FALSE(last_.cancel);
+}
+
+TEST_F(FileDialogTest, KeepsKeysAndClicksFromThePicture) {
+  control('O');
+  click(seen(0.02, 0.02).x, seen(0.02, 0.02).y);
+  EXPECT_EQ(sent(), Texts{});
+  EXPECT_TRUE(is_open());
+}
+
+TEST_F(FileDialogTest, CompletesTheNameOfANewFile) {
+  control('S');
+  go_to(folder());
+  fill("Files/name", "work");
+  EXPECT_EQ(sent(), Texts{"save session " + (folder() / "work.geotherm").string()});
+  EXPECT_TRUE(fs::exists(folder() / "work.geotherm"));
+}
+
+TEST_F(FileDialogTest, AsksBeforeItReplacesAFile) {
+  touch(folder() / "d.csv");
+  control('D');
+  go_to(folder());
+  fill("Files/name", "d.csv");
+  frame();
+  EXPECT_EQ(sent(), Texts{});
+  ASSERT_TRUE(is_drawn("Files/replace"));
+  click_item("Files/keep");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Files/name"));
+  EXPECT_EQ(sent(), Texts{});
+  click_item("Files/accept");
+  frame();
+  click_item("Files/replace");
+  EXPECT_EQ(sent(), Texts{"save distances " + (folder() / "d.csv").string()});
+  EXPECT_FALSE(is_open());
+}
+
+TEST_F(FileDialogTest, EscapeAtTheQuestionKeepsTheFileAndTheDialog) {
+  touch(folder() / "d.csv");
+  control('D');
+  go_to(folder());
+  fill("Files/name", "d.csv");
+  frame();
+  key(kKeyEscape);
+  EXPECT_TRUE(is_open());
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST_F(FileDialogTest, ChoosesTheFormatOfDistances) {
+  control('D');
+  go_to(folder());
+  fill("Files/folder", folder().string());
+  click_item("Files/.vtp");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"save distances " + (folder() / "square.vtp").string()});
+}
+
+TEST_F(FileDialogTest, SavesThePictureInItsSize) {
+  control('P');
+  go_to(folder());
+  click_item("Files/as shown");
+  fill("Files/width", "640");
+  fill("Files/height", "480");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.png").string() + " 640x480"});
+}
+
+TEST_F(FileDialogTest, SavesThePictureAsShownWithPanels) {
+  control('S', true);
+  go_to(folder());
+  click_item("Files/panels");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.png").string() + " panels"});
+}
+
+TEST_F(FileDialogTest, SaysThatAFolderIsMissing) {
+  control('S');
+  fill("Files/name", (folder() / "none" / "x.geotherm").string());
+  EXPECT_TRUE(is_open());
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST(FolderListing, PutsFoldersFirstInTheOrderOfTheAlphabet) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "geotherm_listing";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "Zoo");
+  fs::create_directories(folder / "ant");
+  for (const char* name : {"b.ply", "A.PLY", ".hidden.ply", "c.txt"}) touch(folder / name);
+  fs::create_symlink(folder / "gone", folder / "dangling.ply");
+  constexpr std::string_view kPly[] = {".ply"};
+  Texts names;
+  for (const FolderEntry& entry : list_folder(folder, kPly).entries) names.push_back(entry.name);
+  EXPECT_EQ(names, (Texts{"ant", "Zoo", "A.PLY", "b.ply", "dangling.ply"}));
+  EXPECT_EQ(list_folder(folder, {}).entries.size(), 6U);
+  EXPECT_NE(list_folder(folder / "none", {}).error, "");
+  fs::remove_all(folder);
+}
+
+TEST(FolderListing, UnderstandsTypedPaths) {
+  EXPECT_EQ(typed_path("a/../b.obj", "/x"), fs::path("/x/b.obj"));
+  EXPECT_EQ(typed_path("/y/b.obj", "/x"), fs::path("/y/b.obj"));
+  if (const char* home = std::getenv("HOME")) {
+    EXPECT_EQ(typed_path("~/b", "/x"), fs::path(home) / "b");
+  }
+}
+
+TEST(FileTasks, AreInTheOrderOfTheirPurposes) {
+  for (const FilePurpose purpose :
+       {FilePurpose::kOpenModel, FilePurpose::kOpenSession, FilePurpose::kSavePicture,
+        FilePurpose::kSaveDistances, FilePurpose::kSaveSession, FilePurpose::kSaveLog,
+        FilePurpose::kSaveFigures}) {
+    EXPECT_EQ(file_task(purpose).purpose, purpose);
+  }
+  EXPECT_EQ(suggested_name("/a/b.c/gear.stl", file_task(FilePurpose::kSavePicture)), "gear.png");
+  EXPECT_EQ(suggested_name("", file_task(FilePurpose::kSaveFigures)), "geotherm.json");
+}
+
+}  // namespace
+}  // namespace geotherm::ui

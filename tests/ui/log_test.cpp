@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "tests/ui/driver.h"
+#include "ui/key_codes.h"
+
+namespace geotherm::ui {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+class LogPanel : public UiTest {
+ protected:
+  void SetUp() override {
+    Layout layout = everything_open();
+    layout.log = true;
+    layout.log_height = 300;
+    restart(layout);
+    open_square();
+  }
+};
+
+TEST_F(LogPanel, TakesCommands) {
+  fill("Log/command", "time-factor 3");
+  EXPECT_EQ(sent(), Texts{"time-factor 3"});
+  // The field is ready for the next one.
+  frames(2);
+  type("view flat");
+  key(kKeyEnter);
+  EXPECT_EQ(sent(), Texts{"view flat"});
+}
+
+TEST_F(LogPanel, KeepsAWrongCommandToBeMended) {
+  fill("Log/command", "view fla");
+  frame();
+  EXPECT_EQ(sent(), Texts{"view fla"});
+}
+
+TEST_F(LogPanel, KeepsWhatIsNoCommandToBeMended) {
+  fill("Log/command", "no such command");
+  EXPECT_EQ(sent(), Texts{});
+  click_item("Log/command");
+  hold(true, false, false);
+  key('A');
+  hold(false, false, false);
+  type("undo");
+  key(kKeyEnter);
+  EXPECT_EQ(sent(), Texts{"undo"});
+}
+
+TEST_F(LogPanel, BringsBackWhatWasTypedBefore) {
+  fill("Log/command", "view flat");
+  frames(2);
+  fill("Log/command", "view smooth");
+  frames(2);
+  sent();
+  key(kKeyUp);
+  key(kKeyUp);
+  key(kKeyEnter);
+  EXPECT_EQ(sent(), Texts{"view flat"});
+}
+
+TEST_F(LogPanel, CopiesTheLinesThatAreShown) {
+  std::string copied;
+  ImGuiIO& io = ImGui::GetIO();
+  io.ClipboardUserData = &copied;
+  io.SetClipboardTextFn = [](void* user, const char* text) {
+    *static_cast<std::string*>(user) = text;
+  };
+  run("view flat");
+  frame();
+  click_item("Log/copy");
+  EXPECT_NE(copied.find("view flat"), std::string::npos);
+  click_item("Log/commands");
+  click_item("Log/copy");
+  EXPECT_EQ(copied.find("view flat"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace geotherm::ui

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include <fstream>
+
+#include "app/explore/settings.h"
+#include "solver/mesh/generate.h"
+#include "tests/ui/driver.h"
+#include "ui/bundled.h"
+#include "ui/key_codes.h"
+
+namespace geotherm::ui {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+struct Click {
+  const char* before;  ///< commands, one a line
+  Texts items;         ///< clicked one after the other
+  Texts commands;
+};
+
+class PanelClicks : public UiTest, public ::testing::WithParamInterface<Click> {};
+
+TEST_P(PanelClicks, SendExactlyTheirCommand) {
+  open_square();
+  std::istringstream before(GetParam().before);
+  for (std::string line; std::getline(before, line);) run(line);
+  frames(2);
+  for (const std::string& item : GetParam().items) click_item(item);
+  EXPECT_EQ(sent(), GetParam().commands);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sources, PanelClicks,
+    ::testing::Values(Click{"", {"Sources/more"}, {"source more"}},
+                      Click{"source set random:3", {"Sources/fewer"}, {"source fewer"}},
+                      Click{"", {"Sources/shuffle"}, {"source shuffle"}},
+                      Click{"", {"Sources/boundary"}, {"source set boundary"}},
+                      Click{"", {"Sources/clear"}, {"source clear"}},
+                      Click{"", {"Sources/set random"}, {"source set random:5"}},
+                      Click{"source set 3 4 5", {"Sources/remove 1"}, {"source remove 1"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Solver, PanelClicks,
+    ::testing::Values(
+        Click{"", {"Solver/backend", "Solver/backend=cg"}, {"backend cg"}},
+        Click{"",
+              {"Solver/time-step", "Solver/time-step=mean-face-area"},
+              {"time-step mean-face-area"}},
+        Click{"", {"Solver/constraint", "Solver/constraint=penalty"}, {"constraint penalty:10"}},
+        Click{"", {"Solver/constraint", "Solver/constraint=pin-vertex"}, {"constraint pin-vertex"}},
+        Click{"", {"Solver/heat", "Solver/heat=hold"}, {"heat hold"}},
+        Click{"", {"Solver/boundary", "Solver/boundary=average"}, {"boundary average"}},
+        Click{"", {"Solver/laplacian", "Solver/laplacian=cotan"}, {"laplacian cotan"}},
+        Click{"", {"Solver/variant", "Solver/variant=classic"}, {"variant classic"}},
+        Click{"", {"Solver/backend", "Solver/backend=cholmod"}, {}}));  // what it is already
+
+INSTANTIATE_TEST_SUITE_P(
+    AAndB, PanelClicks,
+    ::testing::Values(Click{"", {"A and B/keep"}, {"keep"}},
+                      Click{"keep", {"A and B/swap"}, {"swap"}},
+                      Click{"keep", {"A and B/forget"}, {"forget"}},
+                      Click{"keep\nbackend cg", {"A and B/show b"}, {"show b"}},
+                      Click{"keep\nshow b", {"A and B/show a"}, {"show a"}},
+                      Click{"keep", {"A and B/show difference"}, {"show difference"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    View, PanelClicks,
+    ::testing::Values(
+        Click{"", {"View/view", "View/view=smooth"}, {"view smooth"}},
+        Click{"", {"View/colour-map", "View/colour-map=viridis"}, {"colour-map viridis"}},
+        Click{"", {"View/light", "View/light=headlight"}, {"light headlight"}},
+        Click{"", {"View/background", "View/background=dark"}, {"background dark"}},
+        Click{"", {"View/samples", "View/samples=1"}, {"samples 1"}},
+        Click{"", {"View/projection", "View/projection=orthographic"}, {"projection orthographic"}},
+        Click{"", {"View/fit", "View/fit=tight"}, {"fit tight"}},
+        Click{"", {"View/reverse"}, {"reverse on"}}, Click{"", {"View/bar"}, {"bar off"}},
+        Click{"", {"View/caption"}, {"caption off"}}, Click{"", {"View/markers"}, {"markers off"}},
+        Click{"", {"View/frame"}, {"camera frame"}}, Click{"", {"View/rotate"}, {"rotate on"}},
+        Click{"camera orbit 10 10", {"View/reset"}, {"camera frame", "camera place 30 20 1 0 0"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Others, PanelClicks,
+    ::testing::Values(Click{"pick face:3:1:0:0", {"Point/forget"}, {"pick none"}},
+                      Click{"", {"Compare backends/run"}, {"compare"}},
+                      Click{"", {"Menu/Edit", "Menu/Clear sources"}, {"source clear"}},
+                      Click{"", {"Menu/View", "Menu/Flat"}, {"view flat"}},
+                      Click{"", {"Menu/Solve", "Menu/Keep as B"}, {"keep"}},
+                      Click{"", {"Menu/File", "Menu/Quit"}, {"quit"}},
+                      Click{"keep", {"Menu/Solve", "Menu/Flip A and B"}, {"flip"}}));
+
+struct Typing {
+  const char* before;
+  const char* field;
+  const char* text;
+  Texts commands;
+};
+
+class PanelFields : public UiTest, public ::testing::WithParamInterface<Typing> {};
+
+TEST_P(PanelFields, SendWhatWasTyped) {
+  open_square();
+  if (*GetParam().before) run(GetParam().before);
+  frames(2);
+  fill(GetParam().field, GetParam().text);
+  EXPECT_EQ(sent(), GetParam().commands);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Fields, PanelFields,
+    ::testing::Values(
+        Typing{"", "Solver/time-factor", "2.5", {"time-factor 2.5"}},
+        Typing{"", "Solver/time-factor", "1", {}},
+        Typing{"time-step absolute:0.25", "Solver/absolute", "0.5", {"time-step absolute:0.5"}},
+        Typing{"constraint penalty:10", "Solver/penalty", "1e6", {"constraint penalty:1e6"}},
+        Typing{"constraint pin-vertex", "Solver/pin", "4", {"constraint pin-vertex:4"}},
+        Typing{"", "Solver/threads", "2", {"threads 2"}},
+        Typing{"", "Sources/ids", "3, 9 12", {"source set 3,9,12"}},
+        Typing{"", "Sources/ids", "random:3:7", {"source set random:3:7"}},
+        Typing{"", "View/range min", "0.5", {"range 0.5:"}},
+        Typing{"range 0.5:", "View/range max", "2", {"range 0.5:2"}},
+        Typing{"range 0.5:2", "View/range max", "", {"range 0.5:"}},
+        Typing{"", "View/spacing", "0.125", {"spacing 0.125"}},
+        Typing{"spacing 0.5", "View/spacing", "", {"spacing auto"}},
+        Typing{"", "View/azimuth", "75", {"azimuth 75"}},
+        Typing{"", "View/elevation", "-10", {"elevation -10"}},
+        Typing{"", "View/zoom", "3", {"zoom 3"}},
+        Typing{"", "View/pan up", "0.25", {"pan 0:0.25"}}));
+
+class Panels : public UiTest {};
+
+TEST_F(Panels, ShowEverySettingOfTheMethodAndThePicture) {
+  open_square();
+  for (const app::Setting& setting : app::settings()) {
+    const std::string name(setting.name);
+    if (name == "size" || name == "centre") continue;  // the dialog's, and the mouse's
+    const std::string in = setting.of_method ? "Solver/" : "View/";
+    const std::string item = name == "range" ? "range min" : name == "pan" ? "pan up" : name;
+    EXPECT_TRUE(is_drawn(in + item)) << name;
+  }
+}
+
+TEST_F(Panels, FieldThatIsLeftSendsWhatWasTyped) {
+  open_square();
+  click_item("Solver/time-factor");
+  type("4");
+  click_item("Quality/");  // drawn after it
+  EXPECT_EQ(sent(), Texts{"time-factor 4"});
+  click_item("Solver/time-factor");
+  type("5");
+  click_item("Model/");  // drawn before it
+  EXPECT_EQ(sent(), Texts{"time-factor 5"});
+}
+
+TEST_F(Panels, EscapeInAFieldTakesBackWhatWasTyped) {
+  open_square();
+  click_item("Solver/time-factor");
+  type("7");
+  key(kKeyEscape);
+  frames(2);
+  EXPECT_EQ(sent(), Texts{});
+  EXPECT_FALSE(last_.cancel);
+}
+
+TEST_F(Panels, SliderMovesTheTimeFactorThroughItsDecades) {
+  open_square();
+  const ImVec2 at = middle_of("Solver/time-factor slider");
+  drag(at, {at.x + 20, at.y});
+  const Texts texts = sent();
+  ASSERT_FALSE(texts.empty());
+  for (const std::string& text : texts) EXPECT_EQ(text.rfind("time-factor ", 0), 0U) << text;
+  EXPECT_GT(session_.state().heat.time_step.factor, 3);
+  EXPECT_LT(session_.state().heat.time_step.factor, 1000);
+}
+
+TEST_F(Panels, AbsoluteTimeBeginsWithTheOneThatHolds) {
+  open_square();
+  const double t =
+      app::diffusion_time(session_.state().heat.time_step, session_.explored().model->mesh);
+  click_item("Solver/time-step");
+  click_item("Solver/time-step=absolute");
+  ASSERT_EQ(session_.state().heat.time_step.rule, TimeRule::kAbsolute);
+  EXPECT_NEAR(session_.state().heat.time_step.absolute, t, 1e-3 * t);
+}
+
+TEST_F(Panels, CompareLeavesOutWhatIsNotTicked) {
+  open_square();
+  click_item("Compare backends/with cg");
+  click_item("Compare backends/run");
+  const Texts texts = sent();
+  ASSERT_EQ(texts.size(), 1U);
+  EXPECT_EQ(texts[0].find("cg"), std::string::npos);
+  EXPECT_EQ(texts[0].rfind("compare ", 0), 0U);
+  frames(2);
+  EXPECT_GE(session_.compare().rows.size(), 1U);
+}
+
+TEST_F(Panels, OfferModelsWhereNoneIsOpen) {
+  frame();
+  for (const Bundled& model : bundled()) {
+    EXPECT_TRUE(is_drawn("Hint/" + std::string(model.name)));
+  }
+  click_item("Hint/bunny");
+  EXPECT_EQ(sent(), Texts{"open bunny"});
+  frame();
+  EXPECT_FALSE(is_drawn("Hint/bunny"));
+  EXPECT_TRUE(session_.explored().model);
+}
+
+TEST_F(Panels, OfferTheModelsThatThereAre) {
+  Texts names, expected;
+  for (const Bundled& model : bundled()) names.emplace_back(model.name);
+  for (const BundledModel& model : bundled_models()) expected.emplace_back(model.name);
+  EXPECT_EQ(names, expected);
+}
+
+TEST_F(Panels, TellAFailureOverThePicture) {
+  open_square();
+  panels_->drop({"/no/such/file.obj"});
+  frames(3);
+  ASSERT_TRUE(is_drawn("Notices/close"));
+  EXPECT_TRUE(session_.explored().model);  // what was shown stays
+  click_item("Notices/log");
+  EXPECT_TRUE(panels_->layout().log);
+  EXPECT_FALSE(is_drawn("Notices/close"));
+}
+
+TEST_F(Panels, WorkWithTheLightThemeAndLargerLetters) {
+  open_square();
+  click_item("Menu/View");
+  click_item("Menu/Light theme");
+  EXPECT_EQ(panels_->layout().theme, Theme::kLight);
+  click_item("Menu/View");
+  click_item("Menu/Size of letters");
+  frames(30);
+  click_item("Menu/150 %");
+  EXPECT_EQ(panels_->layout().scale, 1.5F);
+  panels_->set_scale(1.5F);
+  frames(2);
+  EXPECT_EQ(panels_->scale(), 1.5F);
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST_F(Panels, SleepWhereNothingHappens) {
+  open_square();
+  frames(6);
+  EXPECT_FALSE(frame().animating);
+  type("2");
+  EXPECT_TRUE(last_.animating);
+}
+
+}  // namespace
+}  // namespace geotherm::ui

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "ui/source_edit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace geotherm::ui {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+/// Sources 5, random:2 (on 7 and 9) and a curve over 1 and 2.
+app::Explored three_entries() {
+  app::Explored explored;
+  explored.sources = {"5", "random:2", "curve:1,2"};
+  const auto place = [](int entry, Index vertex, bool alone) {
+    return app::SourcePlace{entry, SurfacePoint::at_vertex(vertex), Vec3(vertex, 0, 0), alone};
+  };
+  explored.places = {place(0, 5, true), place(1, 7, false), place(1, 9, false), place(2, 1, false),
+                     place(2, 2, false)};
+  return explored;
+}
+
+TEST(SourceEdit, WritesPointsThatReadBackExactly) {
+  const double third = 1.0 / 3, tiny = std::numeric_limits<double>::denorm_min();
+  const auto point = SurfacePoint::in_face(12, {third, 1 - third - tiny, tiny});
+  const auto back = point_in(point_text(point), 100, 100);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->face, 12);
+  EXPECT_EQ(back->weights, point.weights);
+  EXPECT_EQ(point_text(SurfacePoint::at_vertex(7)), "7");
+}
+
+TEST(SourceEdit, ReadsNoPointThatIsNotOnTheModel) {
+  EXPECT_TRUE(point_in("face:3:1:0:0", 10, 4));
+  EXPECT_FALSE(point_in("face:4:1:0:0", 10, 4));
+  EXPECT_TRUE(point_in("9", 10, 4));
+  EXPECT_FALSE(point_in("10", 10, 4));
+  EXPECT_FALSE(point_in("1,2", 10, 4));
+  EXPECT_FALSE(point_in("random:1", 10, 4));
+  EXPECT_FALSE(point_in("", 10, 4));
+}
+
+TEST(SourceEdit, MovesPointsButNoCurves) {
+  const auto explored = three_entries();
+  EXPECT_TRUE(is_movable(explored, explored.places[0]));
+  EXPECT_TRUE(is_movable(explored, explored.places[1]));
+  EXPECT_FALSE(is_movable(explored, explored.places[3]));
+}
+
+TEST(SourceEdit, TakesApartOneEntryAndLeavesTheOthers) {
+  const Apart apart = taken_apart(three_entries(), 2);
+  EXPECT_EQ(apart.sources, (Texts{"5", "7", "9", "curve:1,2"}));
+  EXPECT_EQ(apart.entry, 2);
+}
+
+TEST(SourceEdit, RemovesOnePlaceOfAnEntry) {
+  const auto explored = three_entries();
+  EXPECT_EQ(removal(explored, 0), app::Command(app::command::RemoveSource{0}));
+  EXPECT_EQ(removal(explored, 1), app::Command(app::command::SetSources{{"5", "9", "curve:1,2"}}));
+  EXPECT_EQ(removal(explored, 4), app::Command(app::command::RemoveSource{2}));
+}
+
+TEST(SourceEdit, RemovesTheLastPlaceByClearing) {
+  app::Explored explored;
+  explored.sources = {"random:1"};
+  explored.places = {{0, SurfacePoint::at_vertex(4), Vec3::Zero(), false}};
+  EXPECT_EQ(removal(explored, 0), app::Command(app::command::ClearSources{}));
+}
+
+TEST(SourceEdit, FindsTheNearestPlace) {
+  EXPECT_EQ(nearest_place(three_entries(), Vec3(8.4, 0, 0)), 2U);
+  EXPECT_FALSE(nearest_place(app::Explored{}, Vec3::Zero()));
+}
+
+TEST(SourceEdit, FindsTheNearestCorner) {
+  const auto mesh = TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}});
+  ASSERT_TRUE(mesh);
+  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::in_face(0, {0.2, 0.7, 0.1})), 1);
+  // The largest weight is not always the nearest corner.
+  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::in_face(0, {0.3, 0.4, 0.3})), 2);
+  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::at_vertex(1)), 1);
+}
+
+}  // namespace
+}  // namespace geotherm::ui

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "ui/action.h"
+
+#include "app/picture/picture_text.h"
+#include "ui/frame.h"
+
+namespace geotherm::ui {
+namespace {
+
+using app::View;
+
+std::optional<View> view_of(Action action) {
+  switch (action) {
+    case Action::kWireframe:
+      return View::kWireframe;
+    case Action::kFlat:
+      return View::kFlat;
+    case Action::kSmooth:
+      return View::kSmooth;
+    case Action::kSources:
+      return View::kSources;
+    case Action::kHeatGradient:
+      return View::kHeatGradient;
+    case Action::kGradientError:
+      return View::kGradientError;
+    case Action::kContours:
+      return View::kContours;
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<FilePurpose> purpose_of(Action action) {
+  switch (action) {
+    case Action::kOpenModel:
+      return FilePurpose::kOpenModel;
+    case Action::kOpenSession:
+      return FilePurpose::kOpenSession;
+    case Action::kSaveSession:
+      return FilePurpose::kSaveSession;
+    case Action::kSavePicture:
+      return FilePurpose::kSavePicture;
+    case Action::kSaveDistances:
+      return FilePurpose::kSaveDistances;
+    case Action::kSaveFigures:
+      return FilePurpose::kSaveFigures;
+    case Action::kSaveLog:
+      return FilePurpose::kSaveLog;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// What an action sends, where it sends something.
+std::optional<app::Command> command_of(const Frame& frame, Action action) {
+  if (const auto view = view_of(action)) {
+    return app::command::Set{"view", app::to_text(*view)};
+  }
+  switch (action) {
+    case Action::kQuit:
+      return app::command::Quit{};
+    case Action::kUndo:
+      return app::command::Undo{};
+    case Action::kRedo:
+      return app::command::Redo{};
+    case Action::kRotate:
+      return app::command::Rotate{!frame.state().rotating};
+    case Action::kFrame:
+      return app::command::Frame{};
+    case Action::kMoreSources:
+      return app::command::MoreSources{};
+    case Action::kFewerSources:
+      return app::command::FewerSources{};
+    case Action::kShuffleSources:
+      return app::command::ShuffleSources{};
+    case Action::kClearSources:
+      return app::command::ClearSources{};
+    case Action::kBoundarySource:
+      return app::command::SetSources{{"boundary"}};
+    case Action::kKeep:
+      return app::command::Keep{};
+    case Action::kFlip:
+      return app::command::Flip{};
+    case Action::kSwap:
+      return app::command::Swap{};
+    case Action::kForget:
+      return app::command::Forget{};
+    case Action::kShowDifference:
+      return app::command::Show{app::Shown::kDifference};
+    case Action::kCompare:
+      return app::command::Compare{};
+    default:
+      return std::nullopt;
+  }
+}
+
+/// One thing at a time: first what the mouse is set to, then what is marked, then the work.
+void stop(Frame& frame) {
+  if (frame.ui.input.brush) {
+    frame.ui.input.brush = false;
+  } else if (frame.session.work().busy) {
+    frame.out.cancel = true;
+  } else if (frame.state().picked) {
+    frame.send(app::command::Pick{std::nullopt});
+  }
+}
+
+void turn_switch(Frame& frame, Action action) {
+  Layout& layout = frame.ui.layout;
+  switch (action) {
+    case Action::kBrush:
+      frame.ui.input.brush = !frame.ui.input.brush;
+      return;
+    case Action::kLeftPanel:
+      layout.left = !layout.left;
+      return;
+    case Action::kRightPanel:
+      layout.right = !layout.right;
+      return;
+    case Action::kLogPanel:
+      layout.log = !layout.log;
+      return;
+    case Action::kTheme:
+      layout.theme = layout.theme == Theme::kDark ? Theme::kLight : Theme::kDark;
+      frame.ui.restyle = true;
+      return;
+    case Action::kKeys:
+      frame.ui.ask_keys = true;
+      return;
+    case Action::kAbout:
+      frame.ui.ask_about = true;
+      return;
+    case Action::kStop:
+      return stop(frame);
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
+void perform(Frame& frame, Action action) {
+  if (!is_possible(frame, action)) return;
+  if (auto command = command_of(frame, action)) return frame.send(*std::move(command));
+  if (const auto purpose = purpose_of(action)) return frame.ui.dialog.ask(*purpose, frame.state());
+  turn_switch(frame, action);
+}
+
+bool is_possible(const Frame& frame, Action action) {
+  switch (action) {
+    case Action::kUndo:
+      return frame.session.can_undo();
+    case Action::kRedo:
+      return frame.session.can_redo();
+    case Action::kMoreSources:
+    case Action::kBrush:
+    case Action::kSavePicture:
+    case Action::kCompare:
+      return frame.model() != nullptr;
+    case Action::kFewerSources:
+    case Action::kShuffleSources:
+      return frame.model() && !frame.state().sources.empty();
+    case Action::kClearSources:
+      return !frame.state().sources.empty();
+    case Action::kBoundarySource:
+      return frame.model() && frame.model()->mesh.boundary_edges > 0;
+    case Action::kSaveDistances:
+    case Action::kSaveFigures:
+      return frame.answer() != nullptr;
+    case Action::kFlip:
+    case Action::kSwap:
+    case Action::kForget:
+    case Action::kShowDifference:
+      return frame.state().kept.has_value();
+    default:
+      return true;
+  }
+}
+
+bool is_on(const Frame& frame, Action action) {
+  if (const auto view = view_of(action)) return frame.state().picture.view == *view;
+  switch (action) {
+    case Action::kRotate:
+      return frame.state().rotating;
+    case Action::kBrush:
+      return frame.ui.input.brush;
+    case Action::kLeftPanel:
+      return frame.ui.layout.left;
+    case Action::kRightPanel:
+      return frame.ui.layout.right;
+    case Action::kLogPanel:
+      return frame.ui.layout.log;
+    case Action::kTheme:
+      return frame.ui.layout.theme == Theme::kLight;
+    case Action::kShowDifference:
+      return frame.state().shown == app::Shown::kDifference;
+    default:
+      return false;
+  }
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace geotherm::ui {
+
+/// What a key or an entry of a menu asks for.
+enum class Action {
+  kOpenModel,
+  kOpenSession,
+  kSaveSession,
+  kSavePicture,
+  kSaveDistances,
+  kSaveFigures,
+  kSaveLog,
+  kQuit,
+  kUndo,
+  kRedo,
+  kWireframe,
+  kFlat,
+  kSmooth,
+  kSources,
+  kHeatGradient,
+  kGradientError,
+  kContours,
+  kRotate,
+  kFrame,
+  kMoreSources,
+  kFewerSources,
+  kShuffleSources,
+  kClearSources,
+  kBoundarySource,
+  kBrush,
+  kKeep,
+  kFlip,
+  kSwap,
+  kForget,
+  kShowDifference,
+  kCompare,
+  kLeftPanel,
+  kRightPanel,
+  kLogPanel,
+  kTheme,
+  kKeys,
+  kAbout,
+  kStop,  ///< the brush, the picked point or the work, in this order
+};
+
+struct Frame;
+
+/// Sends its command, opens its dialog or turns its switch. What is not possible now does nothing.
+void perform(Frame& frame, Action action);
+
+/// Whether it would do anything now.
+bool is_possible(const Frame& frame, Action action);
+
+/// Whether what it turns on is on.
+bool is_on(const Frame& frame, Action action);
+
+}  // namespace geotherm::ui

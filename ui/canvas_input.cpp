@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "ui/canvas_input.h"
+
+#include <imgui.h>
+
+#include <cmath>
+
+#include "ui/canvas_menu.h"
+#include "ui/frame.h"
+#include "ui/source_edit.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr float kStill = 4;             ///< pixels at scale 1 within which a press is a click
+constexpr float kReach = 9;             ///< pixels at scale 1 from the middle of a source
+constexpr double kTurnPerHeight = 220;  ///< degrees for a drag across the picture
+constexpr double kZoomPerHeight = 3.5;  ///< logarithm of the zoom for a drag across it
+constexpr double kZoomPerNotch = 1.15;
+constexpr double kHidden = 0.02;  ///< of the model's size: a place that far behind is not seen
+
+constexpr const char* kButtons[] = {"Left", "Right", "Middle"};
+
+double canvas_height(const Frame& frame) { return std::max(1.0F, frame.ui.places.canvas.height); }
+
+bool is_over_canvas(const Frame& frame) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Rect& canvas = frame.ui.places.canvas;
+  return !ImGui::GetIO().WantCaptureMouse && mouse.x >= canvas.x && mouse.y >= canvas.y &&
+         mouse.x < canvas.x + canvas.width && mouse.y < canvas.y + canvas.height;
+}
+
+/// The surface under a pixel, on the model that is shown.
+std::optional<SurfacePoint> surface_at(const Frame& frame, float x, float y) {
+  if (!frame.model()) return std::nullopt;
+  auto point = frame.canvas.surface_at(x, y);
+  const MeshReport& mesh = frame.model()->mesh;
+  // The picture may be one frame behind.
+  const bool fits = point && (point->is_vertex() ? point->vertex < mesh.vertices
+                                                 : point->face >= 0 && point->face < mesh.faces);
+  return fits ? point : std::nullopt;
+}
+
+}  // namespace
+
+bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_at) {
+  const auto front = surface_at(frame, seen_at[0], seen_at[1]);
+  if (!front) return false;
+  const Vec3 size = frame.model()->mesh.box_max - frame.model()->mesh.box_min;
+  const Vec3 between = position_of(*frame.model()->model.mesh, *front) - place;
+  return between.norm() > kHidden * size.norm();
+}
+
+std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
+  if (!frame.model()) return std::nullopt;
+  std::optional<std::size_t> nearest;
+  float least = frame.px(kReach);
+  const auto& places = frame.explored().places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!is_movable(frame.explored(), places[i])) continue;
+    const auto seen = frame.canvas.place_of(places[i].position);
+    if (!seen) continue;
+    const float distance = std::hypot((*seen)[0] - x, (*seen)[1] - y);
+    if (distance > least || is_hidden(frame, places[i].position, *seen)) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+void CanvasInput::draw(Frame& frame) {
+  const ImGuiIO& io = ImGui::GetIO();
+  hovered_.reset();
+  const bool over = is_over_canvas(frame);
+  if (over && button_ < 0) {
+    for (int button = 0; button < 3 && button_ < 0; ++button) {
+      if (io.MouseClicked[button]) begin(frame, button);
+    }
+  }
+  if (button_ >= 0) follow(frame);
+  if (button_ >= 0 && !io.MouseDown[button_]) end(frame);
+  if (over && io.MouseWheel != 0) zoom_with_wheel(frame);
+  if (over) hovered_ = surface_at(frame, io.MousePos.x, io.MousePos.y);
+  if (over || action_) draw_marks(frame);
+}
+
+void CanvasInput::begin(Frame& frame, int button) {
+  const ImGuiIO& io = ImGui::GetIO();
+  button_ = button;
+  press_ = last_ = {io.MousePos.x, io.MousePos.y};
+  modifiers_ = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
+  double_click_ = io.MouseDoubleClicked[button];
+  action_.reset();
+  moved_to_.clear();
+  painted_ = kNoIndex;
+  entry_ = -1;
+  const bool plain = !modifiers_.ctrl && !modifiers_.shift && !modifiers_.alt;
+  // Places belong to what is shown; while other sources are on their way, they cannot be taken.
+  const bool settled = frame.explored().sources == frame.state().sources;
+  place_.reset();
+  if (button == 0 && plain && !brush && settled) place_ = place_at(frame, press_.x, press_.y);
+  if (button != 0 || !brush) return;
+  action_ = mouse_action(modifiers_, "Left drag with the brush");
+  if (!action_) return;
+  paint(frame, press_);  // at once: a touch of the brush is a source, too
+  if (painted_ == kNoIndex) action_.reset();
+}
+
+void CanvasInput::follow(Frame& frame) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Mouse now{io.MousePos.x, io.MousePos.y};
+  if (!ImGui::IsMousePosValid(&io.MousePos)) return;
+  if (!action_) {
+    if (std::hypot(now.x - press_.x, now.y - press_.y) <= frame.px(kStill)) return;
+    if (place_) action_ = mouse_action(modifiers_, "Left drag of a source");
+    if (!action_) action_ = mouse_action(modifiers_, std::string(kButtons[button_]) + " drag");
+    if (!action_) return;
+  }
+  if (now.x == last_.x && now.y == last_.y) return;
+  drag(frame, last_, now);
+  last_ = now;
+}
+
+void CanvasInput::drag(Frame& frame, Mouse from, Mouse to) {
+  const double right = (to.x - from.x) / canvas_height(frame);
+  const double up = (from.y - to.y) / canvas_height(frame);
+  switch (*action_) {
+    case MouseAction::kOrbit:  // what is grabbed follows the hand: the eye goes the other way
+      return frame.send(app::command::Orbit{-right * kTurnPerHeight, -up * kTurnPerHeight});
+    case MouseAction::kZoom:
+      return frame.send(app::command::Zoom{std::exp(up * kZoomPerHeight), 0, 0});
+    case MouseAction::kPan:
+      return frame.send(app::command::Pan{right, up});
+    case MouseAction::kMoveSource:
+      return move_source(frame, to);
+    case MouseAction::kPaint:
+      return paint(frame, to);
+    default:
+      return;
+  }
+}
+
+void CanvasInput::move_source(Frame& frame, Mouse to) {
+  const auto point = surface_at(frame, to.x, to.y);
+  if (!point) return;  // it waits where it was until the pointer is back
+  if (entry_ < 0) {
+    const app::Explored& explored = frame.explored();
+    if (*place_ >= explored.places.size()) return;
+    entry_ = explored.places[*place_].entry;
+    if (!explored.places[*place_].alone) {
+      Apart apart = taken_apart(explored, *place_);
+      entry_ = apart.entry;
+      frame.send(app::command::SetSources{std::move(apart.sources)});
+    }
+  }
+  std::string text = point_text(*point);
+  if (text == moved_to_) return;
+  moved_to_ = text;
+  frame.send(app::command::MoveSource{entry_, std::move(text)});
+}
+
+void CanvasInput::paint(Frame& frame, Mouse to) {
+  const auto point = surface_at(frame, to.x, to.y);
+  if (!point || !frame.model()) return;
+  const Index vertex = nearest_corner(*frame.model()->model.mesh, *point);
+  if (vertex == painted_) return;
+  if (painted_ == kNoIndex) {
+    frame.send(app::command::AddSources{{"curve:" + std::to_string(vertex)}});
+  } else {
+    frame.send(app::command::ExtendCurve{{vertex}});
+  }
+  painted_ = vertex;
+}
+
+void CanvasInput::end(Frame& frame) {
+  if (!action_) click(frame);
+  button_ = -1;
+  action_.reset();
+  place_.reset();
+}
+
+void CanvasInput::click(Frame& frame) {
+  const std::string button = kButtons[button_];
+  auto action = mouse_action(modifiers_, button + " click");
+  // The first click of a double click has done its work already.
+  if (double_click_) {
+    if (const auto twice = mouse_action(modifiers_, button + " double click")) action = twice;
+  }
+  if (!action || !frame.model()) return;
+  const auto point = surface_at(frame, press_.x, press_.y);
+  if (*action == MouseAction::kMenu) return open_canvas_menu(frame, point);
+  if (point) send_point_command(frame, *action, *point);
+}
+
+void CanvasInput::zoom_with_wheel(Frame& frame) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (mouse_action({io.KeyCtrl, io.KeyShift, io.KeyAlt}, "Wheel") != MouseAction::kWheelZoom)
+    return;
+  const auto centre = frame.canvas.lens_centre();
+  frame.send(app::command::Zoom{std::pow(kZoomPerNotch, io.MouseWheel),
+                                (io.MousePos.x - centre[0]) / canvas_height(frame),
+                                (centre[1] - io.MousePos.y) / canvas_height(frame)});
+}
+
+void CanvasInput::draw_marks(Frame& frame) const {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const ImU32 accent = packed(frame.colours().accent);
+  const ImU32 shade = packed({0, 0, 0, 0.5F});
+  const auto ring = [&](ImVec2 at, float radius) {
+    list->AddCircle(at, frame.px(radius), shade, 0, frame.px(3.5F));
+    list->AddCircle(at, frame.px(radius), accent, 0, frame.px(1.8F));
+  };
+  if (brush) return ring(mouse, 6);
+  if (action_ || button_ >= 0) return;
+  if (const auto place = place_at(frame, mouse.x, mouse.y)) {
+    const auto seen = frame.canvas.place_of(frame.explored().places[*place].position);
+    if (seen) ring({(*seen)[0], (*seen)[1]}, kReach);
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  }
+}
+
+}  // namespace geotherm::ui

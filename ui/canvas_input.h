@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/explore/command.h"
+#include "app/explore/explored.h"
+#include "ui/key_map.h"
+
+namespace geotherm::ui {
+
+struct Frame;
+
+/// The mouse on the picture: one stroke from press to release at a time.
+class CanvasInput {
+ public:
+  /// Turns what the mouse did since the last frame into commands, and marks what it points at.
+  void draw(Frame& frame);
+
+  /// A drag goes on.
+  bool is_dragging() const { return action_.has_value(); }
+  /// What lies under the pointer while it is over the picture.
+  const std::optional<SurfacePoint>& hovered() const { return hovered_; }
+
+  bool brush = false;  ///< left drags paint
+
+ private:
+  struct Mouse {
+    float x = 0, y = 0;
+  };
+  void begin(Frame& frame, int button);
+  void follow(Frame& frame);
+  void end(Frame& frame);
+  void drag(Frame& frame, Mouse from, Mouse to);
+  void move_source(Frame& frame, Mouse to);
+  void paint(Frame& frame, Mouse to);
+  void click(Frame& frame);
+  void zoom_with_wheel(Frame& frame);
+  void draw_marks(Frame& frame) const;
+
+  int button_ = -1;  ///< that holds the stroke; negative: none does
+  Mouse press_, last_;
+  Modifiers modifiers_;  ///< at the press
+  bool double_click_ = false;
+  std::optional<MouseAction> action_;  ///< of the drag, once it is one
+  std::optional<std::size_t> place_;   ///< of Explored::places, under the press
+  int entry_ = -1;                     ///< the source that is moved
+  std::string moved_to_;
+  Index painted_ = kNoIndex;  ///< the curve's last vertex
+  std::optional<SurfacePoint> hovered_;
+};
+
+/// Whether the surface hides a place from the eye. Precondition: a model is shown.
+bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_at);
+
+/// The place that a pixel shows within reach of the mouse, the nearest of them.
+std::optional<std::size_t> place_at(const Frame& frame, float x, float y);
+
+}  // namespace geotherm::ui

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "ui/canvas_menu.h"
+
+#include <imgui.h>
+
+#include "ui/frame.h"
+#include "ui/menu_bar.h"
+#include "ui/source_edit.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr const char* kMenu = "point menu";
+
+/// An entry that stands for a stroke of the mouse.
+void draw_stroke(Frame& frame, const char* label, MouseAction action) {
+  const bool possible = frame.ui.menu_point.has_value() &&
+                        (action != MouseAction::kRemoveSource || !frame.explored().places.empty());
+  std::string stroke;
+  for (const MouseBinding& binding : mouse_bindings()) {
+    if (binding.action == action) stroke = binding.stroke;
+  }
+  if (ImGui::MenuItem(label, stroke.c_str(), false, possible)) {
+    send_point_command(frame, action, *frame.ui.menu_point);
+  }
+  frame.mark(label);
+}
+
+}  // namespace
+
+void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& point) {
+  const TriangleMesh& mesh = *frame.model()->model.mesh;
+  switch (action) {
+    case MouseAction::kSetSource:
+      return frame.send(app::command::SetSources{{point_text(point)}});
+    case MouseAction::kAddSource:
+      return frame.send(app::command::AddSources{{point_text(point)}});
+    case MouseAction::kRemoveSource:
+      if (const auto place = nearest_place(frame.explored(), position_of(mesh, point))) {
+        frame.send(removal(frame.explored(), *place));
+      }
+      return;
+    case MouseAction::kPick:
+      return frame.send(app::command::Pick{point_text(point)});
+    case MouseAction::kCentre: {
+      const Vec3 at = position_of(mesh, point);
+      return frame.send(app::command::Centre{at.x(), at.y(), at.z()});
+    }
+    default:
+      return;
+  }
+}
+
+void open_canvas_menu(Frame& frame, const std::optional<SurfacePoint>& point) {
+  frame.ui.menu_point = point;
+  frame.ui.ask_menu = true;
+}
+
+void draw_canvas_menu(Frame& frame) {
+  frame.section = "point menu";
+  if (frame.ui.ask_menu) ImGui::OpenPopup(kMenu);
+  frame.ui.ask_menu = false;
+  if (!ImGui::BeginPopup(kMenu)) return;
+  // A model may have been opened since: its faces are others.
+  if (!frame.model()) frame.ui.menu_point.reset();
+  draw_stroke(frame, "Source here", MouseAction::kSetSource);
+  draw_stroke(frame, "Add a source here", MouseAction::kAddSource);
+  draw_stroke(frame, "Remove the nearest source", MouseAction::kRemoveSource);
+  ImGui::Separator();
+  draw_stroke(frame, "Show figures here", MouseAction::kPick);
+  draw_stroke(frame, "Turn about this point", MouseAction::kCentre);
+  ImGui::Separator();
+  draw_menu_action(frame, "Whole model", Action::kFrame);
+  draw_menu_action(frame, "Rotate", Action::kRotate);
+  draw_menu_action(frame, "Brush", Action::kBrush);
+  draw_menu_action(frame, "Clear sources", Action::kClearSources);
+  ImGui::EndPopup();
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "ui/canvas_overlay.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/text.h"
+#include "ui/action.h"
+#include "ui/bundled.h"
+#include "ui/source_edit.h"
+#include "ui/widgets.h"
+#include "ui/work_row.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr double kNoticeTime = 12;  ///< seconds
+constexpr std::size_t kMostNotices = 3;
+
+constexpr ImGuiWindowFlags kFloating =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNavInputs |
+    ImGuiWindowFlags_AlwaysAutoResize;
+
+void draw_centred(const char* text) {
+  const float width = ImGui::CalcTextSize(text).x;
+  ImGui::SetCursorPosX(std::max(0.0F, (ImGui::GetWindowWidth() - width) / 2));
+  ImGui::TextUnformatted(text);
+}
+
+/// A window in the middle of the picture. False: there is no room for it.
+bool begin_middle(Frame& frame, const char* name, float width) {
+  const Rect& canvas = frame.ui.places.canvas;
+  width = std::min(frame.px(width), canvas.width - frame.px(16));
+  if (width < frame.px(120) || canvas.height < frame.px(120)) return false;
+  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + canvas.height / 2},
+                          ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, canvas.height - frame.px(8)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {frame.px(20), frame.px(18)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
+  ImGui::Begin(name, nullptr, kFloating);
+  ImGui::PopStyleVar(2);
+  return true;
+}
+
+void draw_hint(Frame& frame) {
+  frame.section = "Hint";
+  if (!begin_middle(frame, "##hint", 400)) return;
+  if (big_font()) ImGui::PushFont(big_font());
+  draw_centred("Drop a model here");
+  if (big_font()) ImGui::PopFont();
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
+  draw_centred(".obj  .ply  .off  .stl");
+  ImGui::PopStyleColor();
+  ImGui::Dummy({0, frame.px(4)});
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (draw_button(frame, "open", "Open a file\u2026   Ctrl+O", true, room)) {
+    perform(frame, Action::kOpenModel);
+  }
+  ImGui::Dummy({0, frame.px(4)});
+  draw_dim(frame, "or a bundled one:");
+  const float width = button_width(3);
+  int column = 0;
+  for (const Bundled& model : bundled()) {
+    if (column++ % 3 != 0) ImGui::SameLine();
+    const std::string name(model.name);
+    if (draw_button(frame, name, name.c_str(), true, width)) frame.send(app::command::Open{name});
+    draw_tip(frame, model.what);
+  }
+  ImGui::Dummy({0, frame.px(4)});
+  draw_dim(frame, "F1 shows all keys.");
+  ImGui::End();
+}
+
+/// Over an empty picture while the first model is read.
+void draw_reading(Frame& frame) {
+  frame.section = "Reading";
+  if (!begin_middle(frame, "##reading", 340)) return;
+  const app::SessionWork work = frame.session.work();
+  draw_centred((work.stage.empty() ? std::string("working") : work.stage).c_str());
+  draw_dim(frame, frame.state().model);
+  draw_progress(frame, work.share, frame.px(5));
+  if (draw_button(frame, "cancel", "Cancel", true, ImGui::GetContentRegionAvail().x)) {
+    frame.out.cancel = true;
+  }
+  ImGui::End();
+}
+
+/// A small label on the picture, its middle at `at`.
+void draw_badge(Frame& frame, ImVec2 at, const std::string& text) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const ImVec2 pad(frame.px(9), frame.px(3));
+  const ImVec2 low(std::floor(at.x - size.x / 2 - pad.x), std::floor(at.y - size.y / 2 - pad.y));
+  const ImVec2 high(low.x + size.x + 2 * pad.x, low.y + size.y + 2 * pad.y);
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  list->AddRectFilled(low, high, packed(faded(frame.colours().panel, 0.92F)), frame.px(4));
+  list->AddRect(low, high, packed(frame.colours().border), frame.px(4));
+  list->AddText({low.x + pad.x, low.y + pad.y}, packed(frame.colours().text), text.c_str());
+}
+
+void draw_shown_badge(Frame& frame) {
+  if (!frame.state().kept || !frame.model()) return;
+  constexpr const char* kShown[] = {"A", "B", "A \u2212 B"};
+  std::string text = kShown[static_cast<std::size_t>(frame.state().shown)];
+  const app::Answer* answer = frame.answer();
+  if (answer && frame.state().shown != app::Shown::kDifference) {
+    text += "  \u00b7  " + answer->method.options().backend +
+            "  \u00b7  t = " + app::significant(answer->method.t(), 3);
+  }
+  const Rect& canvas = frame.ui.places.canvas;
+  draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(20)}, text);
+}
+
+void draw_picked(Frame& frame) {
+  const auto& picked = frame.state().picked;
+  if (!picked || !frame.model()) return;
+  const MeshReport& mesh = frame.model()->mesh;
+  const auto point = point_in(*picked, mesh.vertices, mesh.faces);
+  if (!point) return;
+  const auto figures = app::figures_at(frame.explored(), frame.state().shown, *point);
+  const auto seen = frame.canvas.place_of(figures.position);
+  if (!seen || is_hidden(frame, figures.position, *seen)) return;
+  const ImVec2 at((*seen)[0], (*seen)[1]);
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const float arm = frame.px(9);
+  const auto cross = [&](ImU32 colour, float thick) {
+    list->AddLine({at.x - arm, at.y}, {at.x + arm, at.y}, colour, frame.px(thick));
+    list->AddLine({at.x, at.y - arm}, {at.x, at.y + arm}, colour, frame.px(thick));
+  };
+  cross(packed({0, 0, 0, 0.65F}), 4);
+  cross(packed({1, 1, 1, 1}), 2);
+  const auto& value = figures.difference ? figures.difference : figures.distance;
+  if (!value) return;
+  const std::string text = std::isfinite(*value) ? app::significant(*value) : "not reached";
+  draw_badge(frame, {at.x, at.y - frame.px(24)}, text);
+}
+
+void draw_notices(Frame& frame) {
+  auto& notices = frame.ui.notices;
+  std::erase_if(notices, [](const Notice& notice) { return notice.until < ImGui::GetTime(); });
+  const Rect& canvas = frame.ui.places.canvas;
+  const float width = std::min(frame.px(460), canvas.width - frame.px(24));
+  if (notices.empty() || width < frame.px(100)) return;
+  frame.section = "Notices";
+  ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + canvas.height - frame.px(12)},
+                          ImGuiCond_Always, {0.5F, 1});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(1.0F, canvas.height / 2)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ImGui::GetStyle().FrameBorderSize);
+  ImGui::Begin("##notices", nullptr, kFloating);
+  ImGui::PopStyleVar(2);
+  for (const Notice& notice : notices) {
+    draw_note(notice.text, notice.kind == app::LogLine::Kind::kError ? frame.colours().error
+                                                                     : frame.colours().warning);
+  }
+  const float button = frame.px(70);
+  if (draw_button(frame, "close", "Close", true, button)) notices.clear();
+  ImGui::SameLine();
+  if (draw_button(frame, "log", "Log", true, button)) {
+    notices.clear();
+    frame.ui.layout.log = true;
+  }
+  ImGui::End();
+}
+
+}  // namespace
+
+void take_notices(Frame& frame) {
+  const auto log = frame.session.log();
+  std::size_t& taken = frame.ui.notified;
+  // The session forgets the oldest lines of a long log at times; only the newest is new then.
+  if (taken > log.size()) taken = log.size() - std::min<std::size_t>(1, log.size());
+  for (; taken < log.size(); ++taken) {
+    const app::LogLine& line = log[taken];
+    if (line.kind != app::LogLine::Kind::kError) continue;
+    auto& notices = frame.ui.notices;
+    std::erase_if(notices, [&](const Notice& notice) { return notice.text == line.text; });
+    notices.push_back({line.text, line.kind, ImGui::GetTime() + kNoticeTime});
+    if (notices.size() > kMostNotices) notices.erase(notices.begin());
+  }
+}
+
+void draw_canvas_overlay(Frame& frame) {
+  if (!frame.model()) {
+    if (frame.session.work().busy) {
+      draw_reading(frame);
+    } else {
+      draw_hint(frame);
+    }
+  }
+  draw_shown_badge(frame);
+  draw_picked(frame);
+  draw_notices(frame);
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "app/text.h"
+#include "ui/dialog.h"
+#include "ui/file_dialog.h"
+#include "ui/file_task.h"
+#include "ui/key_codes.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr const char* kName = "files";
+constexpr int kLargestSide = 8192;  ///< of a picture
+
+}  // namespace
+
+void FileDialog::draw(Frame& frame) {
+  frame.section = "Files";
+  if (asked_) ImGui::OpenPopup(kName);
+  asked_ = false;
+  if (!begin_dialog(frame, kName, file_task(purpose_).title, 700, 500)) return;
+  done_ = false;
+  draw_folder(frame);
+  draw_entries(frame, -height_below(frame));
+  if (question_) {
+    draw_question(frame);
+  } else {
+    draw_name(frame);
+    draw_formats(frame);
+    if (purpose_ == FilePurpose::kSavePicture) draw_picture_options(frame);
+    draw_buttons(frame);
+  }
+  if (done_) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void FileDialog::draw_folder(Frame& frame) {
+  if (draw_button(frame, "up", "\u2191 Up", folder_.has_parent_path())) {
+    enter(folder_.parent_path());
+  }
+  ImGui::SameLine();
+  if (draw_button(frame, "home", "Home")) enter(typed_path("~", folder_));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (const auto typed = draw_field(frame, "folder", folder_.string())) {
+    enter(typed_path(*typed, folder_));
+  }
+}
+
+void FileDialog::draw_entries(Frame& frame, float height) {
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, frame.colours().frame);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {frame.px(6), frame.px(4)});
+  ImGui::BeginChild("entries", {0, height}, true);
+  ImGui::PopStyleVar();
+  if (listing_.entries.empty()) {
+    draw_dim(frame, all_files_ ? "Nothing here." : "No folder and no file of this kind here.");
+  }
+  std::filesystem::path into;
+  bool taken = false;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(listing_.entries.size()));
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const FolderEntry& entry = listing_.entries[i];
+      const std::string label = (entry.is_folder ? "\u25b8 " : "    ") + entry.name +
+                                (entry.is_folder ? "/" : "") + "##" + entry.name;
+      const bool clicked = ImGui::Selectable(label.c_str(), !entry.is_folder && entry.name == name_,
+                                             ImGuiSelectableFlags_AllowDoubleClick);
+      frame.mark(entry.name);
+      if (clicked && entry.is_folder) into = folder_ / entry.name;
+      if (clicked && !entry.is_folder) {
+        name_ = entry.name;
+        question_ = false;
+        taken = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+      }
+      if (entry.is_folder) continue;
+      const std::string size = size_text(entry.bytes);
+      const float width = ImGui::CalcTextSize(size.c_str()).x;
+      ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+      ImGui::TextDisabled("%s", size.c_str());
+    }
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+  if (!into.empty()) enter(into);
+  if (taken) accept(frame);
+}
+
+void FileDialog::draw_name(Frame& frame) {
+  draw_label(frame, "name");
+  if (take_focus_) ImGui::SetKeyboardFocusHere();
+  take_focus_ = false;
+  const bool enter_pressed = ImGui::InputText(
+      "##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  frame.mark("name");
+  if (ImGui::IsItemEdited()) error_ = listing_.error;
+  if (enter_pressed) accept(frame);
+}
+
+void FileDialog::draw_formats(Frame& frame) {
+  const FileTask& task = file_task(purpose_);
+  draw_label(frame, task.saves ? "format" : "files");
+  for (const std::string_view extension : task.extensions) {
+    if (!task.saves) break;
+    const std::string text(extension);
+    const bool on = has_extension(name_, {&extension, 1});
+    if (draw_toggle(frame, {text, text.c_str(), on}, frame.px(90))) {
+      name_ = std::filesystem::path(name_).replace_extension(text).string();
+    }
+    ImGui::SameLine();
+  }
+  if (!task.saves) {
+    ImGui::TextUnformatted(app::joined(task.extensions, " ").c_str());
+    ImGui::SameLine(0, frame.px(16));
+  }
+  if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
+}
+
+void FileDialog::draw_picture_options(Frame& frame) {
+  draw_label(frame, "size");
+  const auto draw_side = [&](const char* key, int& side) {
+    ImGui::BeginDisabled(as_shown_);
+    ImGui::SetNextItemWidth(frame.px(70));
+    ImGui::InputInt((std::string("##") + key).c_str(), &side, 0, 0);
+    frame.mark(key);
+    ImGui::EndDisabled();
+    side = std::clamp(side, 1, kLargestSide);
+  };
+  draw_checkbox(frame, "as shown", "as shown", as_shown_);
+  ImGui::SameLine(0, frame.px(16));
+  draw_side("width", width_);
+  ImGui::SameLine();
+  ImGui::TextUnformatted("\u00d7");
+  ImGui::SameLine();
+  draw_side("height", height_);
+  ImGui::SameLine(0, frame.px(16));
+  ImGui::BeginDisabled(!as_shown_);
+  draw_checkbox(frame, "panels", "with the panels", panels_);
+  ImGui::EndDisabled();
+}
+
+void FileDialog::draw_buttons(Frame& frame) {
+  draw_note(error_.empty() ? " " : error_, frame.colours().error);
+  const FileTask& task = file_task(purpose_);
+  const float width = frame.px(110);
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - gap);
+  if (draw_button(frame, "cancel", "Cancel", true, width) || is_escape_pressed()) done_ = true;
+  ImGui::SameLine();
+  if (draw_button(frame, "accept", task.verb, !name_.empty(), width)) accept(frame);
+  // Enter in the field has been dealt with there.
+  if (!done_ && !ImGui::GetIO().WantTextInput && is_enter_pressed()) accept(frame);
+}
+
+void FileDialog::draw_question(Frame& frame) {
+  const std::string name = typed_path(name_, folder_).filename().string();
+  draw_note(name + " is there already. Replace it?", frame.colours().warning);
+  const float width = frame.px(110);
+  if (draw_button(frame, "replace", "Replace", true, width) || is_enter_pressed()) accept(frame);
+  ImGui::SameLine();
+  if (draw_button(frame, "keep", "Keep", true, width) || is_escape_pressed()) {
+    question_ = false;
+    take_focus_ = true;
+  }
+}
+
+float FileDialog::height_below(const Frame& frame) const {
+  const float line = ImGui::GetFrameHeightWithSpacing();
+  if (question_) return 2 * line + frame.px(4);
+  const float rows = purpose_ == FilePurpose::kSavePicture ? 4 : 3;
+  // A message may need two lines.
+  const float messages = error_.empty() ? 1 : 2;
+  return rows * line + messages * ImGui::GetTextLineHeightWithSpacing() + frame.px(4);
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "ui/file_task.h"
+
+#include "app/text.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr std::string_view kModels[] = {".obj", ".ply", ".off", ".stl"};
+constexpr std::string_view kPictures[] = {".png"};
+constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
+constexpr std::string_view kSessions[] = {kSessionExtension, ".txt"};
+constexpr std::string_view kFigures[] = {".json"};
+
+constexpr FileTask kTasks[] = {
+    {FilePurpose::kOpenModel, "Open a model", "Open", false, kModels},
+    {FilePurpose::kOpenSession, "Open a session", "Open", false, kSessions},
+    {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
+    {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
+    {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
+    {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
+    {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
+};
+
+}  // namespace
+
+const FileTask& file_task(FilePurpose purpose) {
+  return kTasks[static_cast<std::size_t>(purpose)];  // in the order of the enumeration
+}
+
+std::string suggested_name(const std::string& model, const FileTask& task) {
+  std::string name = std::filesystem::path(model).stem().string();
+  if (name.empty()) name = "geotherm";
+  if (task.purpose == FilePurpose::kSaveLog) name += "-log";
+  return name + std::string(task.extensions.front());
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
+  auto size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  while (size >= 1000 && unit + 1 < std::size(kUnits)) {
+    size /= 1000;
+    ++unit;
+  }
+  return (unit == 0 ? app::grouped(static_cast<std::int64_t>(bytes)) : app::significant(size, 3)) +
+         " " + kUnits[unit];
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "ui/interface.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "ui/action.h"
+#include "ui/canvas_menu.h"
+#include "ui/canvas_overlay.h"
+#include "ui/dialog.h"
+#include "ui/frame.h"
+#include "ui/key_codes.h"
+#include "ui/key_map.h"
+#include "ui/menu_bar.h"
+#include "ui/side_bars.h"
+#include "ui/status_bar.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr double kTurnPerSecond = 20;   ///< degrees, while the model rotates
+constexpr double kLongestFrame = 0.25;  ///< seconds; after a pause the model goes on, not leaps
+constexpr int kAwake = 3;  ///< frames that ImGui needs until it shows what a click has done
+
+struct KeyPlace {
+  ImGuiKey key;
+  int code;
+};
+constexpr KeyPlace kEditing[] = {
+    {ImGuiKey_Tab, kKeyTab},
+    {ImGuiKey_LeftArrow, kKeyLeft},
+    {ImGuiKey_RightArrow, kKeyRight},
+    {ImGuiKey_UpArrow, kKeyUp},
+    {ImGuiKey_DownArrow, kKeyDown},
+    {ImGuiKey_PageUp, kKeyPageUp},
+    {ImGuiKey_PageDown, kKeyPageDown},
+    {ImGuiKey_Home, kKeyHome},
+    {ImGuiKey_End, kKeyEnd},
+    {ImGuiKey_Insert, kKeyInsert},
+    {ImGuiKey_Delete, kKeyDelete},
+    {ImGuiKey_Backspace, kKeyBackspace},
+    {ImGuiKey_Space, kKeySpace},
+    {ImGuiKey_Enter, kKeyEnter},
+    {ImGuiKey_Escape, kKeyEscape},
+    {ImGuiKey_KeyPadEnter, kKeyPadEnter},
+    {ImGuiKey_A, 'A'},
+    {ImGuiKey_C, 'C'},
+    {ImGuiKey_V, 'V'},
+    {ImGuiKey_X, 'X'},
+    {ImGuiKey_Y, 'Y'},
+    {ImGuiKey_Z, 'Z'},
+};
+
+/// Whether the user does anything: then a few frames follow, until all of it is seen.
+bool is_active() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool mouse = io.MouseDelta.x != 0 || io.MouseDelta.y != 0 || io.MouseWheel != 0;
+  const auto any = [](const auto& flags) {
+    return std::any_of(std::begin(flags), std::end(flags), [](bool flag) { return flag; });
+  };
+  return mouse || any(io.MouseDown) || any(io.MouseReleased) || any(io.KeysDown) ||
+         !io.InputQueueCharacters.empty();
+}
+
+void take_drop(Frame& frame) {
+  if (frame.ui.dropped.empty()) return;
+  const std::string file = frame.ui.dropped.front();
+  frame.ui.dropped.clear();
+  if (std::filesystem::path(file).extension() == kSessionExtension) {
+    frame.send(app::command::Run{file});
+  } else {
+    frame.send(app::command::Open{file});
+  }
+}
+
+void rotate(Frame& frame) {
+  if (!frame.state().rotating || frame.ui.input.is_dragging()) return;
+  const double seconds = std::min<double>(ImGui::GetIO().DeltaTime, kLongestFrame);
+  frame.send(app::command::Orbit{kTurnPerSecond * seconds, 0});
+}
+
+void take_keys(Frame& frame) {
+  if (ImGui::GetIO().WantTextInput || ImGui::GetTopMostPopupModal()) return;
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  if (popup && is_escape_pressed()) return ImGui::ClosePopupToLevel(0, true);
+  for (const Action action : pressed_actions()) perform(frame, action);
+}
+
+/// The window that popups belong to; nothing of it is seen.
+void begin_host() {
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({1, 1});
+  ImGui::Begin("##host", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing);
+}
+
+}  // namespace
+
+struct Interface::State : UiState {};
+
+Interface::Interface(Layout layout, std::span<const std::byte> font, float scale)
+    : state_(std::make_unique<State>()) {
+  state_->layout = std::move(layout);
+  state_->font = font;
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // what is remembered is the layout
+  io.LogFilename = nullptr;
+  io.ConfigWindowsMoveFromTitleBarOnly = true;
+  for (const KeyPlace& place : kEditing) {
+    // A window system has said so before; without one these numbers hold as well.
+    if (io.KeyMap[place.key] < 0) io.KeyMap[place.key] = place.code;
+  }
+  set_scale(scale);
+}
+
+Interface::~Interface() = default;
+
+void Interface::set_scale(float scale) {
+  state_->scale = scale;
+  load_fonts(state_->font, scale);
+  set_style(state_->layout.theme, scale);
+}
+
+float Interface::scale() const { return state_->scale; }
+
+FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
+  FrameOutput out;
+  UiState& ui = *state_;
+  if (std::exchange(ui.restyle, false)) set_style(ui.layout.theme, ui.scale);
+  Frame frame{session, canvas, ui, out, {}};
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ui.places = place_panels(ui.layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight());
+  ui.items.clear();
+  if (std::exchange(ui.quit, false)) frame.send(app::command::Quit{});
+  take_drop(frame);
+  take_notices(frame);
+
+  begin_host();
+  ui.input.draw(frame);  // first: panels show what lies under the pointer now
+  draw_menu_bar(frame);
+  draw_side_bars(frame);
+  draw_status_bar(frame);
+  draw_canvas_overlay(frame);
+  draw_canvas_menu(frame);
+  take_keys(frame);
+  ui.dialog.draw(frame);
+  draw_keys_dialog(frame);
+  draw_about_dialog(frame);
+  ImGui::End();
+
+  rotate(frame);
+  ui.awake = is_active() || !out.commands.empty() ? kAwake : std::max(0, ui.awake - 1);
+  out.dragging = ui.input.is_dragging();
+  out.animating = session.state().rotating || ui.awake > 0;
+  return out;
+}
+
+Rect Interface::canvas() const { return state_->places.canvas; }
+
+void Interface::drop(const std::vector<std::string>& files) { state_->dropped = files; }
+
+void Interface::ask_to_quit() { state_->quit = true; }
+
+const Layout& Interface::layout() const { return state_->layout; }
+
+std::optional<Rect> Interface::place_of_item(std::string_view name) const {
+  const auto found = state_->items.find(name);
+  if (found == state_->items.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace geotherm::ui

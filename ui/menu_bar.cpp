@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "ui/menu_bar.h"
+
+#include <imgui.h>
+
+#include <string>
+
+#include "ui/bundled.h"
+#include "ui/key_map.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr int kScales[] = {75, 100, 125, 150, 200};  ///< of letters, percent
+
+/// A menu of the bar. True: open.
+bool begin_menu(Frame& frame, const char* name) {
+  frame.section = "Menu";
+  const bool open = ImGui::BeginMenu(name);
+  frame.mark(name);
+  return open;
+}
+
+void draw_file_menu(Frame& frame) {
+  if (!begin_menu(frame, "File")) return;
+  draw_menu_action(frame, "Open model\u2026", Action::kOpenModel);
+  if (ImGui::BeginMenu("Open bundled")) {
+    draw_bundled_menu(frame);
+    ImGui::EndMenu();
+  }
+  frame.mark("Open bundled");
+  draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);
+  ImGui::Separator();
+  draw_menu_action(frame, "Save session\u2026", Action::kSaveSession);
+  draw_menu_action(frame, "Save picture\u2026", Action::kSavePicture);
+  draw_menu_action(frame, "Save distances\u2026", Action::kSaveDistances);
+  draw_menu_action(frame, "Save figures\u2026", Action::kSaveFigures);
+  draw_menu_action(frame, "Save log\u2026", Action::kSaveLog);
+  ImGui::Separator();
+  draw_menu_action(frame, "Quit", Action::kQuit);
+  ImGui::EndMenu();
+}
+
+void draw_edit_menu(Frame& frame) {
+  if (!begin_menu(frame, "Edit")) return;
+  draw_menu_action(frame, "Undo", Action::kUndo);
+  draw_menu_action(frame, "Redo", Action::kRedo);
+  ImGui::Separator();
+  draw_menu_action(frame, "More sources", Action::kMoreSources);
+  draw_menu_action(frame, "Fewer sources", Action::kFewerSources);
+  draw_menu_action(frame, "Shuffle sources", Action::kShuffleSources);
+  draw_menu_action(frame, "Boundary as source", Action::kBoundarySource);
+  draw_menu_action(frame, "Clear sources", Action::kClearSources);
+  draw_menu_action(frame, "Brush", Action::kBrush);
+  ImGui::EndMenu();
+}
+
+void draw_scale_menu(Frame& frame) {
+  if (!ImGui::BeginMenu("Size of letters")) return;
+  for (const int percent : kScales) {
+    const auto scale = static_cast<float>(percent) / 100;
+    const std::string label = std::to_string(percent) + " %";
+    if (ImGui::MenuItem(label.c_str(), nullptr, frame.ui.layout.scale == scale)) {
+      frame.ui.layout.scale = scale;
+    }
+    frame.mark(label);
+  }
+  ImGui::EndMenu();
+}
+
+void draw_view_menu(Frame& frame) {
+  if (!begin_menu(frame, "View")) return;
+  draw_menu_action(frame, "Wireframe", Action::kWireframe);
+  draw_menu_action(frame, "Flat", Action::kFlat);
+  draw_menu_action(frame, "Smooth", Action::kSmooth);
+  draw_menu_action(frame, "Heat sources", Action::kSources);
+  draw_menu_action(frame, "Heat gradient X", Action::kHeatGradient);
+  draw_menu_action(frame, "Gradient error", Action::kGradientError);
+  draw_menu_action(frame, "Distance contours", Action::kContours);
+  ImGui::Separator();
+  draw_menu_action(frame, "Rotate", Action::kRotate);
+  draw_menu_action(frame, "Whole model", Action::kFrame);
+  ImGui::Separator();
+  draw_menu_action(frame, "Left side bar", Action::kLeftPanel);
+  draw_menu_action(frame, "Right side bar", Action::kRightPanel);
+  draw_menu_action(frame, "Log", Action::kLogPanel);
+  ImGui::Separator();
+  draw_menu_action(frame, "Light theme", Action::kTheme);
+  draw_scale_menu(frame);
+  ImGui::EndMenu();
+}
+
+void draw_solve_menu(Frame& frame) {
+  if (!begin_menu(frame, "Solve")) return;
+  draw_menu_action(frame, "Keep as B", Action::kKeep);
+  draw_menu_action(frame, "Swap A and B", Action::kSwap);
+  draw_menu_action(frame, "Forget B", Action::kForget);
+  draw_menu_action(frame, "Flip A and B", Action::kFlip);
+  draw_menu_action(frame, "Difference A \u2212 B", Action::kShowDifference);
+  ImGui::Separator();
+  draw_menu_action(frame, "Compare all backends", Action::kCompare);
+  if (ImGui::MenuItem("Cancel the work", "Esc", false, frame.session.work().busy)) {
+    frame.out.cancel = true;
+  }
+  frame.mark("Cancel the work");
+  ImGui::EndMenu();
+}
+
+void draw_help_menu(Frame& frame) {
+  if (!begin_menu(frame, "Help")) return;
+  draw_menu_action(frame, "Keys and mouse", Action::kKeys);
+  draw_menu_action(frame, "About", Action::kAbout);
+  ImGui::EndMenu();
+}
+
+}  // namespace
+
+void draw_menu_action(Frame& frame, const char* label, Action action) {
+  const std::string keys(shortcut(action));
+  if (ImGui::MenuItem(label, keys.c_str(), is_on(frame, action), is_possible(frame, action))) {
+    perform(frame, action);
+  }
+  frame.mark(label);
+}
+
+void draw_menu_bar(Frame& frame) {
+  if (!ImGui::BeginMainMenuBar()) return;
+  draw_file_menu(frame);
+  draw_edit_menu(frame);
+  draw_view_menu(frame);
+  draw_solve_menu(frame);
+  draw_help_menu(frame);
+  ImGui::EndMainMenuBar();
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+
+#include <cmath>
+
+#include "app/text.h"
+#include "ui/panels.h"
+#include "ui/source_edit.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+std::string length_text(double value) {
+  return std::isfinite(value) ? app::significant(value, 5) : "not reached";
+}
+
+void draw_figures(Frame& frame, const SurfacePoint& point) {
+  const app::PointFigures figures = app::figures_at(frame.explored(), frame.state().shown, point);
+  draw_value(frame, "distance", figures.distance ? length_text(*figures.distance) : "\u2013", "",
+             "Interpolated between the corners, model units.");
+  if (figures.difference) {
+    draw_value(frame, "A \u2212 B", length_text(*figures.difference), "", "d_A \u2212 d_B here.");
+  }
+  if (figures.heat) {
+    draw_value(frame, "heat u", app::significant(*figures.heat, 4), "",
+               "Of the heat step, scaled so that its largest value is 1.");
+  }
+  draw_value(frame, "nearest vertex", app::grouped(figures.nearest_vertex), "",
+             "Its number in the file, from 0.");
+  if (!point.is_vertex()) {
+    draw_value(frame, "face", app::grouped(point.face), "", "Its number in the file, from 0.");
+    draw_value(frame, "barycentric",
+               app::fixed(point.weights[0], 3) + "  " + app::fixed(point.weights[1], 3) + "  " +
+                   app::fixed(point.weights[2], 3),
+               "", "Weights of the face's corners.");
+  }
+  draw_value(frame, "position",
+             app::significant(figures.position.x(), 4) + "  " +
+                 app::significant(figures.position.y(), 4) + "  " +
+                 app::significant(figures.position.z(), 4),
+             "", "x, y, z in model units.");
+}
+
+void draw_picked(Frame& frame) {
+  draw_heading(frame, "Picked point");
+  const auto& text = frame.state().picked;
+  const MeshReport& mesh = frame.model()->mesh;
+  const auto point = text ? point_in(*text, mesh.vertices, mesh.faces) : std::nullopt;
+  if (!point) return draw_dim(frame, "Ctrl+click on the model keeps the figures of a point here.");
+  draw_figures(frame, *point);
+  const float width = button_width(3);
+  if (draw_button(frame, "copy", "Copy", true, width)) ImGui::SetClipboardText(text->c_str());
+  draw_tip(frame, "Copies the point as a source: " + *text);
+  ImGui::SameLine();
+  if (draw_button(frame, "source", "Source", true, width)) {
+    frame.send(app::command::SetSources{{*text}});
+  }
+  draw_tip(frame, "The source is here.");
+  ImGui::SameLine();
+  if (draw_button(frame, "forget", "Forget", true, width)) {
+    frame.send(app::command::Pick{std::nullopt});
+  }
+}
+
+}  // namespace
+
+void draw_point_panel(Frame& frame) {
+  if (!draw_section(frame, "Point")) return;
+  if (!frame.model()) return draw_dim(frame, "No model is open.");
+  draw_picked(frame);
+  draw_heading(frame, "Under the pointer");
+  if (const auto& hovered = frame.ui.input.hovered()) {
+    draw_figures(frame, *hovered);
+  } else {
+    draw_dim(frame, "Point at the model.");
+  }
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/explore/settings.h"
+#include "app/text.h"
+#include "ui/number.h"
+#include "ui/panels.h"
+#include "ui/setting_rows.h"
+#include "ui/widgets.h"
+#include "ui/work_row.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr double kLeastFactor = 0.01, kMostFactor = 1000;  ///< of the slider
+
+/// The choice of a setting whose text is NAME or NAME:VALUE. `value` gives what follows a name.
+template <class Value>
+void draw_named_choice(Frame& frame, std::string_view name, std::string_view label,
+                       std::string_view tip, Value value) {
+  const app::Setting* setting = app::find_setting(name);
+  if (!setting) return;
+  std::vector<std::string> names;
+  for (const std::string& each : setting->values()) names.push_back(name_part(each));
+  draw_label(frame, label, std::string(setting->help) + "\n" + std::string(tip));
+  const auto chosen = draw_choice(frame, name, name_part(setting->get(frame.state())), names);
+  if (chosen) frame.set(name, *chosen + value(*chosen));
+}
+
+/// t as the present settings mean it, rounded so that it can be read.
+std::string rounded_time(const Frame& frame) {
+  const double t =
+      frame.model() ? app::diffusion_time(frame.state().heat.time_step, frame.model()->mesh) : 0.01;
+  return app::significant(t, 4);
+}
+
+void draw_factor(Frame& frame) {
+  draw_label(
+      frame, "factor m",
+      "m of t = m h\u00b2 or t = m A/F. Around 1 is right for most meshes; larger smooths the "
+      "distances, smaller costs accuracy on coarse meshes.");
+  const double current = frame.state().heat.time_step.factor;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  double factor = current;
+  ImGui::SetNextItemWidth(width * 0.6F - gap);
+  if (ImGui::SliderScalar("##slider", ImGuiDataType_Double, &factor, &kLeastFactor, &kMostFactor,
+                          "", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
+    const std::string text = app::significant(factor, 3);
+    if (app::number_in<double>(text) != current) frame.set("time-factor", text);
+  }
+  frame.mark("time-factor slider");
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (const auto typed = draw_field(frame, "time-factor", exact(current))) {
+    frame.set("time-factor", *typed);
+  }
+}
+
+void draw_time(Frame& frame) {
+  draw_named_choice(frame, "time-step", "time rule",
+                    "mean-edge: t = m h\u00b2; mean-face-area: t = m A/F; absolute: t itself.",
+                    [&frame](const std::string& name) {
+                      return name == "absolute" ? ":" + rounded_time(frame) : std::string();
+                    });
+  const TimeStep& step = frame.state().heat.time_step;
+  if (step.rule == TimeRule::kAbsolute) {
+    draw_label(frame, "t", "Diffusion time, model units squared.");
+    if (const auto typed = draw_field(frame, "absolute", exact(step.absolute))) {
+      frame.set("time-step", "absolute:" + *typed);
+    }
+  } else {
+    draw_factor(frame);
+  }
+  if (!frame.model()) return;
+  const double t = app::diffusion_time(step, frame.model()->mesh);
+  draw_value(frame, "t now", app::significant(t), "",
+             "Diffusion time that these settings mean, model units squared.");
+  if (const app::Answer* answer = frame.answer()) {
+    draw_value(frame, "t of the answer", app::significant(answer->method.t()), "",
+               "Diffusion time that the distances shown were computed with.",
+               frame.session.stale() ? frame.colours().warning : frame.colours().text);
+  }
+}
+
+void draw_constraint(Frame& frame) {
+  draw_named_choice(
+      frame, "constraint", "constraint",
+      "pin-sources: \u03c6 = 0 on every source; pin-vertex: on one vertex; penalty: a "
+      "number on the diagonal; conserve-energy: the total of \u03c6 is fixed; "
+      "pseudo-inverse: the smallest solution.",
+      [](const std::string& name) {
+        return name == "penalty" ? std::string(":10") : std::string();
+      });
+  const std::string text = setting_text(frame, "constraint");
+  const std::string name = name_part(text);
+  if (name == "penalty") {
+    draw_label(frame, "value", "On the diagonal of the last row.");
+    if (const auto typed = draw_field(frame, "penalty", value_part(text))) {
+      frame.set("constraint", "penalty:" + *typed);
+    }
+  }
+  if (name == "pin-vertex") {
+    draw_label(frame, "vertex", "Held at 0 in its component; empty: one is chosen.");
+    if (const auto typed = draw_field(frame, "pin", value_part(text), "chosen")) {
+      frame.set("constraint", typed->empty() ? name : name + ":" + *typed);
+    }
+  }
+}
+
+void draw_failure(Frame& frame) {
+  const std::string& failure = frame.session.failure();
+  if (failure.empty()) return;
+  draw_note(failure, frame.colours().error);
+  if (draw_button(frame, "undo failure", "Undo the change", frame.session.can_undo())) {
+    frame.send(app::command::Undo{});
+  }
+}
+
+std::string laplacian_tip(const Frame& frame) {
+  std::string tip =
+      "auto flips edges where weights would be negative; cotan takes the mesh as it is.";
+  if (const app::Answer* answer = frame.answer()) {
+    const bool flipped = answer->method.laplacian() == LaplacianKind::kIntrinsicDelaunay;
+    tip += std::string("\nNow: ") + (flipped ? "intrinsic-delaunay" : "cotan") + ", " +
+           app::counted(answer->method.flips(), "flip", "flips") + ".";
+  }
+  return tip;
+}
+
+}  // namespace
+
+void draw_solver_panel(Frame& frame) {
+  if (!draw_section(frame, "Solver")) return;
+  draw_work_row(frame);
+  draw_failure(frame);
+  draw_setting_choice(frame, "backend", "backend");
+  draw_time(frame);
+  draw_constraint(frame);
+  draw_setting_choice(frame, "heat", "heat",
+                      "unit: 1 on every source; diffuse: weighted with the source's area; hold: "
+                      "u = 1 held on the sources.");
+  draw_setting_choice(frame, "boundary", "boundary",
+                      "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean "
+                      "of both.");
+  draw_setting_choice(frame, "laplacian", "Laplacian", laplacian_tip(frame));
+  draw_setting_choice(frame, "variant", "variant",
+                      "corrected: this program's; classic: as first published.");
+  draw_setting_field(frame, "threads", "threads");
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+#include "app/text.h"
+#include "ui/action.h"
+#include "ui/panels.h"
+#include "ui/source_edit.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr int kMostRandom = 100000;
+constexpr int kListLines = 6;  ///< of the list before it scrolls
+
+/// "3, 99 512" -> "3,99,512": what people type as a list of vertices. Other texts stay.
+std::string with_commas(const std::string& typed) {
+  const bool is_list = !typed.empty() && std::all_of(typed.begin(), typed.end(), [](char c) {
+    return (c >= '0' && c <= '9') || c == ',' || c == ' ';
+  });
+  if (!is_list) return typed;
+  std::string list;
+  for (const char c : typed) {
+    if (c >= '0' && c <= '9') {
+      list += c;
+    } else if (!list.empty() && list.back() != ',') {
+      list += ',';
+    }
+  }
+  if (!list.empty() && list.back() == ',') list.pop_back();
+  return list;
+}
+
+void draw_list(Frame& frame) {
+  const auto& sources = frame.state().sources;
+  if (sources.empty()) {
+    return draw_dim(frame, "No source: click on the model to set one.");
+  }
+  const float line = ImGui::GetFrameHeight();
+  const float lines = static_cast<float>(std::min<std::size_t>(sources.size(), kListLines));
+  ImGui::BeginChild("list", {0, lines * (line + ImGui::GetStyle().ItemSpacing.y)});
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(sources.size()));
+  while (clipper.Step()) {
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      ImGui::PushID(i);
+      const float corner = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - line;
+      ImGui::AlignTextToFramePadding();
+      const ImVec2 low = ImGui::GetCursorScreenPos();
+      const float space = ImGui::GetStyle().ItemSpacing.x;
+      ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(),
+                                {low.x, low.y + ImGui::GetStyle().FramePadding.y},
+                                {low.x + corner - ImGui::GetCursorPosX() - space, low.y + line},
+                                low.x + corner - ImGui::GetCursorPosX() - space, low.x + corner,
+                                sources[i].c_str(), nullptr, nullptr);
+      ImGui::Dummy({corner - ImGui::GetCursorPosX() - space, line});
+      draw_tip(frame, sources[i]);
+      ImGui::SameLine(corner);
+      const std::string key = "remove " + std::to_string(i);
+      if (draw_button(frame, key, "\u00d7", true, line)) frame.send(app::command::RemoveSource{i});
+      draw_tip(frame, "Removes this source.");
+      ImGui::PopID();
+    }
+  }
+  ImGui::EndChild();
+}
+
+void draw_random(Frame& frame) {
+  SourcesForm& form = frame.ui.sources;
+  draw_label(frame, "random", "Sources at random vertices.");
+  const float button = frame.px(38);
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+  ImGui::InputInt("##count", &form.count, 0, 0);
+  frame.mark("count");
+  form.count = std::clamp(form.count, 1, kMostRandom);
+  ImGui::SameLine();
+  if (draw_button(frame, "set random", "set", frame.model(), button)) {
+    frame.send(app::command::SetSources{{"random:" + std::to_string(form.count)}});
+  }
+  draw_tip(frame, "This many sources at random places, and no others.");
+}
+
+void draw_typed(Frame& frame) {
+  SourcesForm& form = frame.ui.sources;
+  draw_label(frame, "typed",
+             "Vertex ids such as 3, 99, 512, or any source: random:5:7, boundary, "
+             "face:12:0.2:0.3:0.5, xyz:0:1:0, curve:3,99.");
+  const float button = frame.px(38);
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2 * (button + gap));
+  const bool enter = ImGui::InputTextWithHint("##ids", "3, 99, 512", &form.ids,
+                                              ImGuiInputTextFlags_EnterReturnsTrue);
+  frame.mark("ids");
+  const std::string spec = with_commas(std::string(app::trimmed(form.ids)));
+  const bool possible = frame.model() && !spec.empty();
+  ImGui::SameLine();
+  if ((draw_button(frame, "set ids", "set", possible, button) || enter) && possible) {
+    frame.send(app::command::SetSources{{spec}});
+  }
+  ImGui::SameLine();
+  if (draw_button(frame, "add ids", "add", possible, button)) {
+    frame.send(app::command::AddSources{{spec}});
+  }
+}
+
+/// A button of the grid below the fields.
+struct SourceButton {
+  const char* key;
+  const char* label;
+  Action action;
+  const char* tip;
+};
+constexpr SourceButton kButtons[] = {
+    {"fewer", "\u2212 fewer", Action::kFewerSources, "One random source fewer (-)."},
+    {"more", "+ more", Action::kMoreSources, "One more random source (+)."},
+    {"shuffle", "shuffle", Action::kShuffleSources, "As many sources at new random places (h)."},
+    {"boundary", "border", Action::kBoundarySource,
+     "Distance from the whole boundary, where the model has one."},
+    {"clear", "clear", Action::kClearSources, "No sources."},
+    {"brush", "brush", Action::kBrush,
+     "Drag over the model to paint a curve of sources (b); the right button rotates."},
+};
+
+}  // namespace
+
+void draw_sources_panel(Frame& frame) {
+  if (!draw_section(frame, "Sources")) return;
+  draw_list(frame);
+  draw_random(frame);
+  draw_typed(frame);
+  const float width = button_width(3);
+  int column = 0;
+  for (const SourceButton& button : kButtons) {
+    if (column++ % 3 != 0) ImGui::SameLine();
+    const bool on = is_on(frame, button.action);
+    const bool possible = is_possible(frame, button.action);
+    if (draw_toggle(frame, {button.key, button.label, on, possible}, width)) {
+      perform(frame, button.action);
+    }
+    draw_tip(frame, button.tip);
+  }
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "ui/query_plot.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/text.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr float kHeight = 62;  ///< pixels at scale 1
+constexpr float kColumn = 5;   ///< width of a query with its gap, pixels at scale 1
+
+void draw_query_tip(const app::QueryRecord& query) {
+  const QueryTiming& timing = query.timing;
+  ImGui::BeginTooltip();
+  ImGui::Text("%s: query %s ms", query.backend.c_str(), app::milliseconds(timing.query).c_str());
+  ImGui::Text("diffuse %s, gradient %s, poisson %s", app::milliseconds(timing.diffuse).c_str(),
+              app::milliseconds(timing.gradient).c_str(),
+              app::milliseconds(timing.poisson).c_str());
+  ImGui::EndTooltip();
+}
+
+void draw_legend(Frame& frame) {
+  constexpr const char* kNames[] = {"diffuse", "gradient", "poisson"};
+  const float side = frame.px(8);
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0) ImGui::SameLine(0, frame.px(10));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float top = at.y + (ImGui::GetTextLineHeight() - side) / 2;
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + side, top + side},
+                                              packed(frame.colours().series[i]), frame.px(2));
+    ImGui::Dummy({side, 1});
+    ImGui::SameLine(0, frame.px(4));
+    ImGui::TextDisabled("%s", kNames[i]);
+  }
+}
+
+}  // namespace
+
+void draw_query_plot(Frame& frame) {
+  const auto all = frame.session.queries();
+  if (all.size() < 2) return;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size(std::max(1.0F, ImGui::GetContentRegionAvail().x), frame.px(kHeight));
+  ImGui::InvisibleButton("##queries", size);
+  frame.mark("queries");
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float round = frame.px(4), pad = frame.px(4);
+  list->AddRectFilled(low, {low.x + size.x, low.y + size.y}, packed(frame.colours().frame), round);
+
+  const float column = frame.px(kColumn);
+  const auto fit = static_cast<std::size_t>(std::max(1.0F, (size.x - 2 * pad) / column));
+  const auto shown = all.last(std::min(fit, all.size()));
+  double most = 0;
+  for (const app::QueryRecord& query : shown) most = std::max(most, query.timing.query);
+  if (!(most > 0)) return;
+  const float top = low.y + pad + ImGui::GetTextLineHeight();
+  const float bottom = low.y + size.y - pad;
+  float x = low.x + size.x - pad - column * static_cast<float>(shown.size());
+  const app::QueryRecord* pointed = nullptr;
+  for (const app::QueryRecord& query : shown) {
+    const double parts[] = {query.timing.diffuse, query.timing.gradient, query.timing.poisson};
+    float y = bottom;
+    for (int i = 0; i < 3; ++i) {
+      const auto height = static_cast<float>(parts[i] / most) * (bottom - top);
+      list->AddRectFilled({x, y - height}, {x + column - frame.px(1), y},
+                          packed(frame.colours().series[i]));
+      y -= height;
+    }
+    const float mouse = ImGui::GetIO().MousePos.x;
+    if (ImGui::IsItemHovered() && mouse >= x && mouse < x + column) pointed = &query;
+    x += column;
+  }
+  const std::string scale = app::milliseconds(most) + " ms";
+  list->AddText({low.x + pad, low.y + frame.px(1)}, packed(frame.colours().dim), scale.c_str());
+  if (pointed) draw_query_tip(*pointed);
+  draw_legend(frame);
+}
+
+}  // namespace geotherm::ui

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "ui/source_edit.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "app/source_spec.h"
+#include "ui/number.h"
+
+namespace geotherm::ui {
+
+std::string point_text(const SurfacePoint& point) {
+  if (point.is_vertex()) return exact(point.vertex);
+  std::string text = "face:" + exact(point.face);
+  for (const double weight : point.weights) text += ":" + exact(weight);
+  return text;
+}
+
+std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces) {
+  const auto spec = app::parse_source(text);
+  if (!spec) return std::nullopt;
+  if (const auto* list = std::get_if<app::VertexList>(&*spec)) {
+    if (list->vertices.size() != 1 || list->vertices[0] < 0 || list->vertices[0] >= vertices) {
+      return std::nullopt;
+    }
+    return SurfacePoint::at_vertex(list->vertices[0]);
+  }
+  const auto* point = std::get_if<app::FacePoint>(&*spec);
+  if (!point || point->face < 0 || point->face >= faces) return std::nullopt;
+  return SurfacePoint::in_face(point->face, point->weights);
+}
+
+Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+  if (point.is_vertex()) return mesh.positions()[point.vertex];
+  Vec3 position = Vec3::Zero();
+  const Face& face = mesh.faces()[point.face];
+  for (std::size_t k = 0; k < 3; ++k) position += point.weights[k] * mesh.positions()[face[k]];
+  return position;
+}
+
+Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
+  if (point.is_vertex()) return point.vertex;
+  const Vec3 position = position_of(mesh, point);
+  const Face& face = mesh.faces()[point.face];
+  return *std::min_element(face.begin(), face.end(), [&](Index a, Index b) {
+    return (mesh.positions()[a] - position).squaredNorm() <
+           (mesh.positions()[b] - position).squaredNorm();
+  });
+}
+
+bool is_movable(const app::Explored& explored, const app::SourcePlace& place) {
+  if (place.alone) return true;
+  const std::string& text = explored.sources[place.entry];
+  return text != "boundary" && !text.starts_with("curve");
+}
+
+Apart taken_apart(const app::Explored& explored, std::size_t place) {
+  const int entry = explored.places[place].entry;
+  Apart apart;
+  for (int i = 0; i < static_cast<int>(explored.sources.size()); ++i) {
+    if (i != entry) {
+      apart.sources.push_back(explored.sources[i]);
+      continue;
+    }
+    for (std::size_t k = 0; k < explored.places.size(); ++k) {
+      if (explored.places[k].entry != entry) continue;
+      if (k == place) apart.entry = static_cast<int>(apart.sources.size());
+      apart.sources.push_back(point_text(explored.places[k].point));
+    }
+  }
+  return apart;
+}
+
+app::Command removal(const app::Explored& explored, std::size_t place) {
+  const app::SourcePlace& gone = explored.places[place];
+  if (gone.alone || !is_movable(explored, gone)) return app::command::RemoveSource{gone.entry};
+  Apart apart = taken_apart(explored, place);
+  apart.sources.erase(apart.sources.begin() + apart.entry);
+  if (apart.sources.empty()) return app::command::ClearSources{};
+  return app::command::SetSources{std::move(apart.sources)};
+}
+
+std::optional<std::size_t> nearest_place(const app::Explored& explored, const Vec3& position) {
+  std::optional<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < explored.places.size(); ++i) {
+    const double distance = (explored.places[i].position - position).squaredNorm();
+    if (distance >= least) continue;
+    least = distance;
+    nearest = i;
+  }
+  return nearest;
+}
+
+}  // namespace geotherm::ui

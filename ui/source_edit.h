@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/explore/command.h"
+#include "app/explore/explored.h"
+
+// What the mouse does to sources, without the mouse.
+namespace geotherm::ui {
+
+/// "17", or "face:ID:b0:b1:b2" with digits that read back exactly.
+std::string point_text(const SurfacePoint& point);
+
+/// The point that such a text names, on a model with so many vertices and faces. Nothing for other
+/// texts and what does not lie on it.
+std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces);
+
+Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
+
+/// The corner that lies nearest to a point of a face.
+Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);
+
+/// Whether the mouse can move a place: those of points, not those of curves and the boundary.
+bool is_movable(const app::Explored& explored, const app::SourcePlace& place);
+
+/// The sources with the entry of a place taken apart into its single places.
+struct Apart {
+  std::vector<std::string> sources;
+  int entry = 0;  ///< where the place is among them
+};
+/// Preconditions: `place` is an index into Explored::places; is_movable.
+Apart taken_apart(const app::Explored& explored, std::size_t place);
+
+/// Removes one place, and no other: a curve or the boundary as a whole. The same precondition.
+app::Command removal(const app::Explored& explored, std::size_t place);
+
+/// The place nearest to a position, if there is any.
+std::optional<std::size_t> nearest_place(const app::Explored& explored, const Vec3& position);
+
+}  // namespace geotherm::ui

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "ui/widgets.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/text.h"
+#include "ui/number.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr float kLabelShare = 0.36F;  ///< of a row's width
+constexpr float kTipWidth = 320;      ///< pixels at scale 1
+
+float label_width(const Frame& frame) {
+  const float row = ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x;
+  return std::min(row * kLabelShare, frame.px(110));
+}
+
+std::string id_of(const Frame& frame, std::string_view key) {
+  return "##" + frame.section + "/" + std::string(key);
+}
+
+ImVec2 size_of(std::string_view text) {
+  return ImGui::CalcTextSize(text.data(), text.data() + text.size());
+}
+
+void draw_text(std::string_view text) {
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+}
+
+/// The text with an ellipsis where it is wider than `width`.
+std::string cut_to(const std::string& text, float width) {
+  if (size_of(text).x <= width) return text;
+  const std::string dots = "\u2026";
+  std::string front = text;
+  while (!front.empty() && size_of(front + dots).x > width) {
+    while (!front.empty() && (static_cast<unsigned char>(front.back()) & 0xc0U) == 0x80) {
+      front.pop_back();
+    }
+    if (!front.empty()) front.pop_back();
+  }
+  return front + dots;
+}
+
+}  // namespace
+
+void Frame::mark(std::string_view key) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ui.items[section + "/" + std::string(key)] = {low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+bool draw_section(Frame& frame, const char* name, bool open_at_first) {
+  frame.section = name;
+  auto& open = frame.ui.layout.open;
+  const auto known = open.find(name);
+  const bool was_open = known == open.end() ? open_at_first : known->second;
+  ImGui::Dummy({0, frame.px(1)});
+  ImGui::SetNextItemOpen(was_open);
+  ImGui::PushStyleColor(ImGuiCol_Header, frame.colours().header);
+  ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0);
+  const bool is_open = ImGui::CollapsingHeader(name);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  frame.mark("");
+  if (is_open != was_open) open[name] = is_open;
+  return is_open;
+}
+
+bool draw_more(Frame& frame, const char* name) {
+  auto& open = frame.ui.layout.open;
+  const auto known = open.find(name);
+  const bool was_open = known != open.end() && known->second;
+  ImGui::SetNextItemOpen(was_open);
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().accent);
+  const bool is_open = ImGui::TreeNodeEx(
+      name, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+  ImGui::PopStyleColor();
+  frame.mark(name);
+  if (is_open != was_open) open[name] = is_open;
+  return is_open;
+}
+
+void draw_share(Frame& frame, double share) {
+  if (!(share > 0.002)) return;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float before = frame.px(4);  // so that no letter stands on the edge
+  const float width =
+      (ImGui::GetContentRegionAvail().x + 2 * before) * static_cast<float>(std::min(share, 1.0));
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {low.x - before, low.y}, {low.x - before + width, low.y + ImGui::GetTextLineHeight()},
+      packed(faded(frame.colours().accent, 0.25F)), frame.px(2));
+}
+
+void draw_heading(Frame& frame, const char* text) {
+  ImGui::Dummy({0, frame.px(2)});
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().accent);
+  ImGui::TextUnformatted(text);
+  ImGui::PopStyleColor();
+}
+
+void draw_tip(Frame& frame, std::string_view text) {
+  if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(frame.px(kTipWidth));
+  draw_text(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+void draw_label(Frame& frame, std::string_view label, std::string_view help) {
+  const float begin = ImGui::GetCursorPosX();
+  const float width = label_width(frame);
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
+  draw_text(cut_to(std::string(label), width - frame.px(4)));
+  ImGui::PopStyleColor();
+  draw_tip(frame, help);
+  ImGui::SameLine(begin + width);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void draw_value(Frame& frame, std::string_view label, std::string_view value, std::string_view unit,
+                std::string_view help, const ImVec4& colour) {
+  const float begin = ImGui::GetCursorPosX();
+  const float right = begin + ImGui::GetContentRegionAvail().x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
+  draw_text(label);
+  const float after = begin + size_of(label).x + frame.px(10);
+  const float space = unit.empty() ? 0 : frame.px(4);
+  const float unit_width = size_of(unit).x;
+  const std::string whole(value);
+  const std::string shown = cut_to(whole, right - unit_width - space - after);
+  ImGui::SameLine(std::max(after, right - unit_width - space - size_of(shown).x));
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  draw_text(shown);
+  ImGui::PopStyleColor();
+  if (!unit.empty()) {
+    ImGui::SameLine(right - unit_width);
+    draw_text(unit);
+  }
+  ImGui::PopStyleColor();
+  const float bottom = corner.y + ImGui::GetTextLineHeight();
+  if (ImGui::IsWindowHovered() &&
+      ImGui::IsMouseHoveringRect(corner, {corner.x + right - begin, bottom})) {
+    const std::string tip =
+        shown == whole ? std::string(help) : whole + (help.empty() ? "" : "\n" + std::string(help));
+    if (!tip.empty()) {
+      ImGui::BeginTooltip();
+      ImGui::PushTextWrapPos(frame.px(kTipWidth));
+      draw_text(tip);
+      ImGui::PopTextWrapPos();
+      ImGui::EndTooltip();
+    }
+  }
+}
+
+void draw_value(Frame& frame, std::string_view label, std::string_view value, std::string_view unit,
+                std::string_view help) {
+  draw_value(frame, label, value, unit, help, frame.colours().text);
+}
+
+void draw_note(std::string_view text, const ImVec4& colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(0);
+  draw_text(text);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void draw_dim(Frame& frame, std::string_view text) { draw_note(text, frame.colours().dim); }
+
+bool draw_button(Frame& frame, std::string_view key, const char* label, bool possible,
+                 float width) {
+  ImGui::BeginDisabled(!possible);
+  const bool pressed = ImGui::Button((label + id_of(frame, key)).c_str(), {width, 0});
+  ImGui::EndDisabled();
+  frame.mark(key);
+  return pressed;
+}
+
+float button_width(int count) {
+  const float gaps = ImGui::GetStyle().ItemSpacing.x * static_cast<float>(count - 1);
+  return std::floor((ImGui::GetContentRegionAvail().x - gaps) / static_cast<float>(count));
+}
+
+bool draw_checkbox(Frame& frame, std::string_view key, const char* label, bool& on) {
+  const bool changed = ImGui::Checkbox((label + id_of(frame, key)).c_str(), &on);
+  frame.mark(key);
+  return changed;
+}
+
+bool draw_toggle(Frame& frame, const Segment& segment, float width) {
+  if (segment.on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, frame.colours().selected);
+    ImGui::PushStyleColor(ImGuiCol_Border, frame.colours().accent);
+  }
+  const bool pressed = draw_button(frame, segment.key, segment.label, segment.possible, width);
+  if (segment.on) ImGui::PopStyleColor(2);
+  return pressed;
+}
+
+int draw_segments(Frame& frame, std::initializer_list<Segment> segments) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {frame.px(2), ImGui::GetStyle().ItemSpacing.y});
+  const float width = button_width(static_cast<int>(segments.size()));
+  int chosen = -1, index = 0;
+  for (const Segment& segment : segments) {
+    if (index > 0) ImGui::SameLine();
+    if (draw_toggle(frame, segment, width)) chosen = index;
+    ++index;
+  }
+  ImGui::PopStyleVar();
+  return chosen;
+}
+
+std::optional<std::string> draw_choice(Frame& frame, std::string_view key,
+                                       const std::string& current,
+                                       std::span<const std::string> values) {
+  std::optional<std::string> chosen;
+  const bool open = ImGui::BeginCombo(id_of(frame, key).c_str(), current.c_str());
+  frame.mark(key);
+  if (!open) return chosen;
+  for (const std::string& value : values) {
+    const bool is_current = value == current;
+    if (ImGui::Selectable(value.c_str(), is_current)) chosen = value;
+    frame.mark(std::string(key) + "=" + value);
+    if (is_current) ImGui::SetItemDefaultFocus();
+  }
+  ImGui::EndCombo();
+  if (chosen == current) chosen.reset();
+  return chosen;
+}
+
+std::optional<std::string> draw_field(Frame& frame, std::string_view key,
+                                      const std::string& current, const char* hint) {
+  const std::string name = id_of(frame, key);
+  const ImGuiID id = ImGui::GetID(name.c_str());
+  TextEdit& edit = frame.ui.edit;
+  const bool was_edited = edit.id == id;
+  std::string text = was_edited ? edit.text : current;
+  // Another item that took over before this one was drawn leaves `text` as it was typed; Escape
+  // puts back what ImGui had at the beginning, and that is no change.
+  ImGui::InputTextWithHint(name.c_str(), hint, &text, ImGuiInputTextFlags_AutoSelectAll);
+  frame.mark(key);
+  if (ImGui::IsItemActive()) {
+    edit = {id, was_edited ? edit.start : current, text};
+    return std::nullopt;
+  }
+  if (!was_edited) return std::nullopt;
+  const std::string start = edit.start;
+  edit = {};
+  const std::string typed(app::trimmed(text));
+  return typed == start ? std::nullopt : std::optional(typed);
+}
+
+std::optional<double> draw_number(Frame& frame, std::string_view key, double current) {
+  const auto typed = draw_field(frame, key, exact(current));
+  if (!typed) return std::nullopt;
+  const auto value = app::number_in<double>(*typed);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+}  // namespace geotherm::ui
