@@ -17,7 +17,7 @@ Result<SolveFigures> solve_model(Model model, const HeatOptions& options,
   if (!method) return about_model(model.name, method.error());
   if (!report(progress, "solve", 0.9))
     return Error{ErrorCode::kCancelled, "the work was cancelled"};
-  auto result = method->solve(sources->set, query);
+  auto result = method->solve(sources->set, query, part_of(progress, 0.9, 1.0));
   if (!result) return about_model(model.name, result.error());
 
   const double peak = peak_rss_mb();  // of the solve, not of the report

@@ -79,11 +79,19 @@ int run(const Arguments& arguments) {
     print(render_text(render), out);
   }
 
-  if (groups.empty() && loads.empty() && render.device.empty() && render.failure.empty())
+  ExploreBench explore;
+  if (std::regex_search("explore", plan.only)) {
+    explore = measure_explore(say);
+    say("");
+    print(explore_text(explore), out);
+  }
+
+  if (groups.empty() && loads.empty() && render.device.empty() && render.failure.empty() &&
+      explore.rows.empty() && explore.failure.empty())
     print("Nothing fits --only " + arguments.only + "\n", stderr);
   if (arguments.json.empty()) return 0;
   const auto written =
-      write_file(arguments.json, to_json(machine, threads, groups, growth, loads, render));
+      write_file(arguments.json, to_json(machine, threads, groups, growth, loads, render, explore));
   if (written) return 0;
   print("geotherm_bench: error: " + written.error().message + "\n", stderr);
   return 1;
@@ -99,7 +107,7 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--only", arguments.only,
                  "Regular expression: measure only rows MESH-SIZEk/BACKEND in which it is found, "
                  "such as 'gargoyle-200k/cholmod' or '1050k'; 'load' is the reading of files, "
-                 "'render' the drawing")
+                 "'render' the drawing, 'explore' the viewer")
       ->check([](const std::string& text) {
         try {
           const std::regex parsed(text);

@@ -157,9 +157,29 @@ std::string render_text(const RenderBench& bench) {
   return text;
 }
 
+std::string explore_text(const ExploreBench& bench) {
+  std::string text;
+  if (!bench.rows.empty()) {
+    text +=
+        "\nExploring at 1280x800: a source dragged, from picture to picture, beside what that\n"
+        "consists of; the longest frame while t is switched, beside the usual one\n" +
+        format("%-12s%10s%10s%9s%9s%9s%8s%11s%9s%8s\n", "mesh", "faces", "drag ms", "query",
+               "upload", "frame", "ratio", "switch ms", "longest", "ratio");
+  }
+  for (const ExploreRow& row : bench.rows) {
+    text += format("%-12s%10d", row.mesh.c_str(), row.faces) + milliseconds(row.drag_ms, 10) +
+            milliseconds(row.query_ms, 9) + milliseconds(row.upload_ms, 9) +
+            milliseconds(row.frame_ms, 9) + number(row.drag_ratio(), 8, 2, "x") +
+            milliseconds(row.switch_ms, 11) + milliseconds(row.longest_frame_ms, 9) +
+            number(row.frame_ratio(), 8, 2, "x") + "\n";
+  }
+  if (!bench.failure.empty()) text += "Exploring was not measured: " + bench.failure + "\n";
+  return text;
+}
+
 std::string to_json(const Machine& machine, int threads, const std::vector<SolveGroup>& groups,
                     const std::vector<Growth>& growth, const std::vector<LoadRow>& loads,
-                    const RenderBench& render) {
+                    const RenderBench& render, const ExploreBench& explore) {
   Json out;
   out["machine"] = {{"cpu", machine.cpu},   {"cores", machine.cores},       {"threads", threads},
                     {"blas", machine.blas}, {"compiler", machine.compiler}, {"load", machine.load}};
@@ -195,6 +215,18 @@ std::string to_json(const Machine& machine, int threads, const std::vector<Solve
   }
   if (!render.rows.empty()) {
     out["render_device"] = {{"name", render.device}, {"peak_mb", render.peak_mb}};
+  }
+  for (const ExploreRow& row : explore.rows) {
+    out["explore"].push_back({{"mesh", row.mesh},
+                              {"faces", row.faces},
+                              {"drag_ms", value(row.drag_ms)},
+                              {"query_ms", value(row.query_ms)},
+                              {"upload_ms", value(row.upload_ms)},
+                              {"frame_ms", value(row.frame_ms)},
+                              {"drag_ratio", value(row.drag_ratio())},
+                              {"switch_ms", value(row.switch_ms)},
+                              {"longest_frame_ms", value(row.longest_frame_ms)},
+                              {"frame_ratio", value(row.frame_ratio())}});
   }
   return out.dump(2) + "\n";
 }

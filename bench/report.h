@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/explore_bench.h"
 #include "bench/load_bench.h"
 #include "bench/machine.h"
 #include "bench/render_bench.h"
@@ -19,10 +20,11 @@ std::string solve_text(const SolveGroup& group);
 std::string growth_text(const std::vector<Growth>& growth);
 std::string load_text(const LoadRow& row);
 std::string render_text(const RenderBench& bench);
+std::string explore_text(const ExploreBench& bench);
 
 /// The whole as JSON. What was not measured is null; a part without rows is absent.
 std::string to_json(const Machine& machine, int threads, const std::vector<SolveGroup>& groups,
                     const std::vector<Growth>& growth, const std::vector<LoadRow>& loads,
-                    const RenderBench& render);
+                    const RenderBench& render, const ExploreBench& explore);
 
 }  // namespace geotherm::bench

@@ -25,11 +25,12 @@ bool begin_menu(Frame& frame, const char* name) {
 void draw_file_menu(Frame& frame) {
   if (!begin_menu(frame, "File")) return;
   draw_menu_action(frame, "Open model\u2026", Action::kOpenModel);
-  if (ImGui::BeginMenu("Open bundled")) {
+  const bool open = ImGui::BeginMenu("Open bundled");
+  frame.mark("Open bundled");
+  if (open) {
     draw_bundled_menu(frame);
     ImGui::EndMenu();
   }
-  frame.mark("Open bundled");
   draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);
   ImGui::Separator();
   draw_menu_action(frame, "Save session\u2026", Action::kSaveSession);
@@ -57,7 +58,9 @@ void draw_edit_menu(Frame& frame) {
 }
 
 void draw_scale_menu(Frame& frame) {
-  if (!ImGui::BeginMenu("Size of letters")) return;
+  const bool open = ImGui::BeginMenu("Size of letters");
+  frame.mark("Size of letters");
+  if (!open) return;
   for (const int percent : kScales) {
     const auto scale = static_cast<float>(percent) / 100;
     const std::string label = std::to_string(percent) + " %";

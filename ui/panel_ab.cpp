@@ -28,17 +28,16 @@ void draw_settings(Frame& frame) {
 void draw_difference(Frame& frame) {
   const auto& difference = frame.explored().difference;
   if (!difference) return;
-  const auto relative = [&](double value) {
-    return difference->largest > 0 ? app::significant(100 * value / difference->largest, 3) + " %"
-                                   : std::string("\u2013");
+  const auto in_words = [&](double value) {
+    const std::string text = app::significant(value);
+    if (!(difference->largest > 0)) return text;
+    return text + "  (" + app::significant(100 * value / difference->largest, 3) + " %)";
   };
   const char* help =
-      "Of |d_A \u2212 d_B| over all vertices: model units, and relative to the largest "
-      "distance of A.";
-  draw_value(frame, "largest", app::significant(difference->most), "", help);
-  draw_value(frame, "", relative(difference->most), "", help);
-  draw_value(frame, "mean", app::significant(difference->mean), "", help);
-  draw_value(frame, "", relative(difference->mean), "", help);
+      "Of |d_A \u2212 d_B| over all vertices: model units, and relative to the largest distance of "
+      "A.";
+  draw_value(frame, "largest", in_words(difference->most), "", help);
+  draw_value(frame, "mean", in_words(difference->mean), "", help);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/text.h"
+#include "ui/number.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
@@ -26,10 +27,10 @@ void draw_figures(Frame& frame, const SurfacePoint& point) {
     draw_value(frame, "heat u", app::significant(*figures.heat, 4), "",
                "Of the heat step, scaled so that its largest value is 1.");
   }
-  draw_value(frame, "nearest vertex", app::grouped(figures.nearest_vertex), "",
+  draw_value(frame, "nearest vertex", exact(figures.nearest_vertex), "",
              "Its number in the file, from 0.");
   if (!point.is_vertex()) {
-    draw_value(frame, "face", app::grouped(point.face), "", "Its number in the file, from 0.");
+    draw_value(frame, "face", exact(point.face), "", "Its number in the file, from 0.");
     draw_value(frame, "barycentric",
                app::fixed(point.weights[0], 3) + "  " + app::fixed(point.weights[1], 3) + "  " +
                    app::fixed(point.weights[2], 3),

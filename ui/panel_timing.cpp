@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <imgui.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -56,6 +58,16 @@ void draw_query(Frame& frame, const QueryTiming& query) {
   draw_stage(frame, {"query", query.query, "From the source set to the distances."}, 0);
 }
 
+/// Asked for once a second: the system takes its time to answer.
+double peak_mb(Frame& frame) {
+  UiState& ui = frame.ui;
+  if (ui.peak_read_at < 0 || ImGui::GetTime() - ui.peak_read_at >= 1) {
+    ui.peak_mb = app::peak_rss_mb();
+    ui.peak_read_at = ImGui::GetTime();
+  }
+  return ui.peak_mb;
+}
+
 }  // namespace
 
 void draw_timing_panel(Frame& frame) {
@@ -70,8 +82,8 @@ void draw_timing_panel(Frame& frame) {
   draw_heading(frame, "Memory");
   draw_value(frame, "factors", app::significant(answer->method.factor_mb(), 3), "MB",
              "Of all factors of the answer that is shown.");
-  draw_value(frame, "program, peak", app::grouped(static_cast<std::int64_t>(app::peak_rss_mb())),
-             "MB", "The most that the program has held so far.");
+  draw_value(frame, "program, peak", app::grouped(static_cast<std::int64_t>(peak_mb(frame))), "MB",
+             "The most that the program has held so far.");
 }
 
 }  // namespace geotherm::ui

@@ -97,6 +97,7 @@ void draw_camera(Frame& frame) {
                      "Degrees of the eye, -90 to 90.");
   draw_camera_number(frame, "zoom", "zoom", camera.zoom, "1: as large as it fits.");
   draw_pan(frame);
+  draw_setting_field(frame, "centre", "centre");
   const float width = button_width(3);
   if (draw_button(frame, "frame", "Frame", frame.model(), width)) perform(frame, Action::kFrame);
   draw_tip(frame, "The whole model in the middle; the direction stays (f).");

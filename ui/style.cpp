@@ -135,10 +135,10 @@ void set_style(Theme theme, float scale) {
   style.ScrollbarRounding = 6;
   style.GrabRounding = 4;
   style.TabRounding = 4;
-  style.WindowMinSize = {1, 1};
   style.WindowTitleAlign = {0, 0.5F};
   style.DisabledAlpha = 0.5F;
   style.ScaleAllSizes(scale);
+  style.WindowMinSize = {1, 1};  // ImGui wants no less
   // Borders are lines: one pixel, two where pixels are small.
   style.WindowBorderSize = 0;
   style.PopupBorderSize = style.FrameBorderSize = std::max(1.0F, std::floor(scale));

@@ -67,6 +67,7 @@ struct UiState {
   std::vector<std::string> dropped;
   bool quit = false;
   bool ask_keys = false, ask_about = false;  ///< dialogs to be opened in this frame
+  double peak_mb = 0, peak_read_at = -1;     ///< memory of the program, and ImGui's time then
   int awake = 0;                             ///< frames to follow at once
 };
 

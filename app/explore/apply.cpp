@@ -13,7 +13,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr const char* kFirstSource = "random:1:1";
+constexpr const char* kFirstSource = "random:1";
 
 Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 

@@ -17,7 +17,7 @@ namespace geotherm::app {
 
 namespace command {
 
-/// Opens a model; sources that only fit the old one become `random:1:1`.
+/// Opens a model; sources that only fit the old one become `random:1`.
 struct Open {  // open MODEL
   std::string model;
   bool operator==(const Open&) const = default;

@@ -324,7 +324,7 @@ Result<Command> parse_command(std::string_view line) {
                              names(is_group ? first : ""));
   }
   if (reader.left() < form->least || reader.left() > form->most) {
-    if (reader.left() > form->most) reader.skip(form->most);
+    reader.skip(std::min(reader.left(), form->most));  // to what is too much, or missing
     return reader.fail(form->arguments.empty() ? "nothing after " + name
                                                : name + " " + std::string(form->arguments));
   }

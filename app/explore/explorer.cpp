@@ -124,7 +124,7 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(
   QueryOptions query;
   query.fields = request.fields;
   query.quality = request.quality;
-  auto result = mine->method.solve(explored.set, query);
+  auto result = mine->method.solve(explored.set, query, progress);
   if (!result) return about_model(model_->model.name, result.error());
   Answer out{mine->method, *std::move(result), {}, mine->setup, mine->setup_ms, {}};
   out.distance = summarize(out.result.distances);

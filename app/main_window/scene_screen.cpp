@@ -5,7 +5,6 @@
 #include "app/main_drawing/device_words.h"
 #include "app/main_drawing/picture_scene.h"
 #include "app/main_drawing/upload_picture.h"
-#include "engine/offscreen_target.h"
 #include "engine/picture.h"
 
 namespace geotherm::app {
@@ -20,24 +19,43 @@ DrawnPicture in_our_words(engine::Image image) {
 SceneScreen::SceneScreen(engine::Device device, engine::Renderer renderer)
     : device_(std::move(device)), renderer_(std::move(renderer)) {}
 
-Result<std::unique_ptr<SceneScreen>> SceneScreen::open(engine::Window* window,
-                                                       const engine::DeviceOptions& options) {
-  engine::DeviceOptions mine = options;
-  mine.window = window;
-  auto device = engine::Device::open(mine);
+Result<std::unique_ptr<SceneScreen>> SceneScreen::prepare(const engine::DeviceOptions& options) {
+  auto device = engine::Device::open(options);
   if (!device) return device.error();
   auto renderer = engine::Renderer::build(*device);
   if (!renderer) return renderer.error();
-  std::unique_ptr<SceneScreen> screen(new SceneScreen(*std::move(device), *std::move(renderer)));
-  if (window == nullptr) return screen;
-  auto target = engine::WindowTarget::build(screen->device_, *window);
+  return std::unique_ptr<SceneScreen>(new SceneScreen(*std::move(device), *std::move(renderer)));
+}
+
+Result<std::unique_ptr<SceneScreen>> SceneScreen::open(engine::Window& window,
+                                                       const engine::DeviceOptions& options) {
+  engine::DeviceOptions for_window = options;
+  for_window.window = &window;
+  auto screen = prepare(for_window);
+  if (!screen) return screen;
+  auto target = engine::WindowTarget::build((*screen)->device_, window);
   if (!target) return target.error();
-  screen->target_ = *std::move(target);
+  (*screen)->window_target_ = *std::move(target);
   return screen;
 }
 
-Result<bool> SceneScreen::follow_window() { return target_->follow_window(); }
-glm::ivec2 SceneScreen::window_extent() const { return target_->extent(); }
+Result<std::unique_ptr<SceneScreen>> SceneScreen::open_without_window(
+    glm::ivec2 extent, const engine::DeviceOptions& options) {
+  auto screen = prepare(options);
+  if (!screen) return screen;
+  auto target = engine::OffscreenTarget::build((*screen)->device_, extent);
+  if (!target) return target.error();
+  (*screen)->offscreen_target_ = *std::move(target);
+  return screen;
+}
+
+Result<bool> SceneScreen::follow_window() {
+  return window_target_ ? window_target_->follow_window() : Result<bool>(true);
+}
+
+glm::ivec2 SceneScreen::window_extent() const {
+  return window_target_ ? window_target_->extent() : offscreen_target_->extent();
+}
 
 Result<void> SceneScreen::set_panel_font(const engine::PanelFont& font) {
   return renderer_.set_panel_font(font);
@@ -93,8 +111,12 @@ Result<void> SceneScreen::update(const Session& session, const PictureArea& area
 
 Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
   renderer_.set_samples(fast && device_.info().software ? 1 : samples_);
-  target_->set_picture_corner(area_.corner);
-  return renderer_.render(*target_, scene_, legend_.overlay, &panels);
+  if (window_target_) {
+    window_target_->set_picture_corner(area_.corner);
+    return renderer_.render(*window_target_, scene_, legend_.overlay, &panels);
+  }
+  offscreen_target_->set_origin(-area_.corner);
+  return renderer_.render(*offscreen_target_, scene_, legend_.overlay, &panels);
 }
 
 Result<DrawnPicture> SceneScreen::picture(const PictureData& data,

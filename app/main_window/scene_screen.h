@@ -7,6 +7,7 @@
 
 #include "app/drawing.h"
 #include "app/explore/session.h"
+#include "engine/offscreen_target.h"
 #include "engine/overlay/legend.h"
 #include "engine/overlay/panel_draw.h"
 #include "engine/renderer.h"
@@ -23,9 +24,12 @@ struct PictureArea {
 /// changed and nothing else. Errors: kNoDevice (also: the device was lost), kOutOfMemory.
 class SceneScreen {
  public:
-  /// `window`: null draws pictures alone.
-  static Result<std::unique_ptr<SceneScreen>> open(engine::Window* window,
+  /// `options.window`: where to.
+  static Result<std::unique_ptr<SceneScreen>> open(engine::Window& window,
                                                    const engine::DeviceOptions& options);
+  /// Draws into memory what a window of this size would show.
+  static Result<std::unique_ptr<SceneScreen>> open_without_window(
+      glm::ivec2 extent, const engine::DeviceOptions& options);
 
   /// Follows the window's size. False: nothing can be drawn into it now.
   Result<bool> follow_window();
@@ -54,13 +58,15 @@ class SceneScreen {
 
  private:
   SceneScreen(engine::Device device, engine::Renderer renderer);
+  static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
   Result<void> update_data(const Session& session);
   void update_legend(const PictureSettings& settings);
 
   // In the order of creation; the last go first.
   engine::Device device_;
   engine::Renderer renderer_;
-  std::unique_ptr<engine::WindowTarget> target_;
+  std::unique_ptr<engine::WindowTarget> window_target_;
+  std::unique_ptr<engine::OffscreenTarget> offscreen_target_;
 
   // What has been uploaded.
   std::shared_ptr<const PictureData> base_;

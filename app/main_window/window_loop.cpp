@@ -48,7 +48,7 @@ Result<void> WindowLoop::open_screen() {
   engine::DeviceOptions options;
   options.name = start_.device;
   options.validation = start_.validation;
-  auto screen = SceneScreen::open(window_.get(), options);
+  auto screen = SceneScreen::open(*window_, options);
   if (!screen) return screen.error();
   screen_ = *std::move(screen);
   font_is_uploaded_ = false;

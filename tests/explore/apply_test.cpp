@@ -42,9 +42,9 @@ TEST(Apply, OpenKeepsSourcesThatFitAnyModelAndFramesIt) {
 }
 
 TEST(Apply, AModelBeginsWithOneRandomSource) {
-  EXPECT_EQ(after({"open bunny"}).sources, std::vector<std::string>{"random:1:1"});
+  EXPECT_EQ(after({"open bunny"}).sources, std::vector<std::string>{"random:1"});
   EXPECT_EQ(after({"open a", "source set 5", "open b"}).sources,
-            std::vector<std::string>{"random:1:1"});
+            std::vector<std::string>{"random:1"});
 }
 
 TEST(Apply, MoreAndFewerCountTheRandomSources) {
@@ -54,14 +54,14 @@ TEST(Apply, MoreAndFewerCountTheRandomSources) {
   EXPECT_EQ(state.sources, std::vector<std::string>{"17"});
   EXPECT_EQ(after({"source fewer"}, state).sources, std::vector<std::string>{});
   EXPECT_NE(refusal(after({"source clear"}, state), "source fewer"), "");
-  EXPECT_EQ(after({"source more"}, state).sources, (std::vector<std::string>{"17", "random:1:1"}));
+  EXPECT_EQ(after({"source more"}, state).sources, (std::vector<std::string>{"17", "random:1"}));
 }
 
 TEST(Apply, ShuffleKeepsTheNumberAndChangesThePlaces) {
   const ViewerState state = after({"open a", "source set random:5:3"});
   EXPECT_EQ(after({"source shuffle"}, state).sources, std::vector<std::string>{"random:5:4"});
   EXPECT_EQ(after({"source set 1 2", "source shuffle"}, state).sources,
-            std::vector<std::string>{"random:2:1"});
+            std::vector<std::string>{"random:2"});
 }
 
 TEST(Apply, ABrushBeginsACurveAndExtendsIt) {

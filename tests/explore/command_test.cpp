@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"SaveFigures", SaveFigures{"f.json"}, "save figures f.json"},
         TextCase{"Undo", Undo{}, "undo"}, TextCase{"Redo", Redo{}, "redo"},
         TextCase{"Quit", Quit{}, "quit"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Command, EveryKindHasATextCase) {
   // The list above must grow with the variant: 34 kinds.
@@ -117,8 +117,8 @@ INSTANTIATE_TEST_SUITE_P(AllSettings, SettingText, testing::ValuesIn([] {
                            for (const Setting& s : settings()) names.emplace_back(s.name);
                            return names;
                          }()),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::erase(name, '-');
                            return name;
                          });
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadCase{"SettingTwo", "view flat smooth", "column 6: ", "one value"},
                     BadCase{"SettingValue", "constraint glue", "column 12: ", "pin-sources"},
                     BadCase{"BackendName", "backend gpu", "column 9: ", "eigen-ldlt"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Script, SkipsBlankLinesAndComments) {
   const auto lines = parse_script("# head\n\n  open bunny # here\r\n\t\nview flat", "s");

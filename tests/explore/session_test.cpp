@@ -171,7 +171,7 @@ TEST_F(SessionTest, ScriptsSayTheirLineAndStopWhereTheyFail) {
   const auto ran = session.submit(command::Run{path});
   ASSERT_FALSE(ran);
   EXPECT_NE(ran.error().message.find("there is no vertex 99999999"), std::string::npos);
-  write(path, "view flat\nundo\nundo\n");
+  write(path, "view flat\nview smooth\nredo\n");
   const auto undone = session.submit(command::Run{path});
   ASSERT_FALSE(undone);
   EXPECT_NE(undone.error().message.find("bad.geotherm: line 3: "), std::string::npos)

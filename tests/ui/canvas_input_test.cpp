@@ -253,14 +253,14 @@ TEST_P(PointMenu, SendsItsCommand) {
   expect_all(GetParam().command);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Entries, PointMenu,
-    ::testing::Values(MenuEntry{"Source here", "source set face:"},
-                      MenuEntry{"Remove the nearest source", "source remove 0"},
-                      MenuEntry{"Turn about this point", "camera centre"},
-                      MenuEntry{"Show figures here", "pick face:"},
-                      MenuEntry{"Whole model", "camera frame"}, MenuEntry{"Rotate", "rotate on"},
-                      MenuEntry{"Clear sources", "source clear"}));
+INSTANTIATE_TEST_SUITE_P(Entries, PointMenu,
+                         ::testing::Values(MenuEntry{"Source here", "source set face:"},
+                                           MenuEntry{"Remove the nearest source",
+                                                     "source remove 0"},
+                                           MenuEntry{"Turn about this point", "camera centre"},
+                                           MenuEntry{"Show figures here", "pick face:"},
+                                           MenuEntry{"Whole model", "camera frame"},
+                                           MenuEntry{"Clear sources", "source clear"}));
 
 TEST_F(CanvasMouse, ClickThatClosesAMenuIsNoClickOnTheModel) {
   click(seen(0.5, 0.75).x, seen(0.5, 0.75).y, 1);

@@ -2,6 +2,7 @@
 #include "tests/ui/driver.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -67,7 +68,7 @@ Layout everything_open() {
   return layout;
 }
 
-UiTest::UiTest() {
+UiTest::UiTest(app::SessionHooks hooks) : session_(std::move(hooks)) {
   const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test.test_suite_name()) + "." + test.name();
   std::replace(name.begin(), name.end(), '/', '_');
@@ -119,6 +120,7 @@ FrameOutput UiTest::frame() {
     // What fails is in the log, as in the window.
     if (!session_.submit(command)) continue;
   }
+  if (last_.cancel) session_.cancel();
   session_.update();
   return last_;
 }
@@ -204,13 +206,14 @@ void UiTest::fill(const std::string& name, const std::string& text) {
   hold(true, false, false);
   key('A');
   hold(false, false, false);
+  key(kKeyDelete);
   type(text);
   key(kKeyEnter);
 }
 
 ImVec2 UiTest::seen(double x, double y) const {
   const auto place = *canvas_.place_of(Vec3(x, y, 0));
-  return {place[0], place[1]};
+  return {std::floor(place[0]), std::floor(place[1])};  // as ImGui reads the mouse
 }
 
 std::vector<std::string> UiTest::sent() { return std::exchange(sent_, {}); }

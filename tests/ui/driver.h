@@ -36,7 +36,7 @@ class FlatCanvas : public Canvas {
 /// A session on the square with panels so high that all sections are seen at once.
 class UiTest : public ::testing::Test {
  protected:
-  UiTest();
+  explicit UiTest(app::SessionHooks hooks = {});
   ~UiTest() override;
 
   /// Panels anew, with another layout. All sections are open unless it says otherwise.

@@ -28,12 +28,6 @@ TEST_F(LogPanel, TakesCommands) {
   EXPECT_EQ(sent(), Texts{"view flat"});
 }
 
-TEST_F(LogPanel, KeepsAWrongCommandToBeMended) {
-  fill("Log/command", "view fla");
-  frame();
-  EXPECT_EQ(sent(), Texts{"view fla"});
-}
-
 TEST_F(LogPanel, KeepsWhatIsNoCommandToBeMended) {
   fill("Log/command", "no such command");
   EXPECT_EQ(sent(), Texts{});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fstream>
+#include <sstream>
 
 #include "app/explore/settings.h"
 #include "solver/mesh/generate.h"
@@ -75,13 +75,13 @@ INSTANTIATE_TEST_SUITE_P(
         Click{"", {"View/fit", "View/fit=tight"}, {"fit tight"}},
         Click{"", {"View/reverse"}, {"reverse on"}}, Click{"", {"View/bar"}, {"bar off"}},
         Click{"", {"View/caption"}, {"caption off"}}, Click{"", {"View/markers"}, {"markers off"}},
-        Click{"", {"View/frame"}, {"camera frame"}}, Click{"", {"View/rotate"}, {"rotate on"}},
+        Click{"", {"View/frame"}, {"camera frame"}},
         Click{"camera orbit 10 10", {"View/reset"}, {"camera frame", "camera place 30 20 1 0 0"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Others, PanelClicks,
     ::testing::Values(Click{"pick face:3:1:0:0", {"Point/forget"}, {"pick none"}},
-                      Click{"", {"Compare backends/run"}, {"compare"}},
+                      Click{"", {"Compare backends/run"}, {"compare all"}},
                       Click{"", {"Menu/Edit", "Menu/Clear sources"}, {"source clear"}},
                       Click{"", {"Menu/View", "Menu/Flat"}, {"view flat"}},
                       Click{"", {"Menu/Solve", "Menu/Keep as B"}, {"keep"}},
@@ -128,11 +128,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 class Panels : public UiTest {};
 
+TEST_F(Panels, TurnTheModel) {
+  open_square();
+  click_item("View/rotate");
+  EXPECT_EQ(sent().at(0), "rotate on");
+}
+
 TEST_F(Panels, ShowEverySettingOfTheMethodAndThePicture) {
   open_square();
   for (const app::Setting& setting : app::settings()) {
     const std::string name(setting.name);
-    if (name == "size" || name == "centre") continue;  // the dialog's, and the mouse's
+    if (name == "size") continue;  // in the dialog that saves a picture
     const std::string in = setting.of_method ? "Solver/" : "View/";
     const std::string item = name == "range" ? "range min" : name == "pan" ? "pan up" : name;
     EXPECT_TRUE(is_drawn(in + item)) << name;
@@ -237,6 +243,53 @@ TEST_F(Panels, WorkWithTheLightThemeAndLargerLetters) {
   panels_->set_scale(1.5F);
   frames(2);
   EXPECT_EQ(panels_->scale(), 1.5F);
+  EXPECT_EQ(sent(), Texts{});
+}
+
+app::SessionHooks in_the_background() {
+  app::SessionHooks hooks;
+  hooks.wake = [] {};
+  return hooks;
+}
+
+/// Can be seen at work.
+class BusyPanels : public UiTest {
+ protected:
+  BusyPanels() : UiTest(in_the_background()) {}
+  void SetUp() override {
+    run("open gargoyle");  // large enough to be at work for longer than this test needs
+    ASSERT_TRUE(session_.work().busy);
+    frames(2);
+    ASSERT_TRUE(session_.work().busy);
+  }
+};
+
+TEST_F(BusyPanels, CancelOverTheEmptyPicture) {
+  ASSERT_TRUE(is_drawn("Reading/cancel"));
+  const ImVec2 at = middle_of("Reading/cancel");
+  move(at.x, at.y);
+  press();
+  release();
+  EXPECT_TRUE(last_.cancel);
+  (void)session_.finish();
+  frame();
+  EXPECT_FALSE(session_.work().busy);
+  EXPECT_FALSE(session_.explored().model);
+}
+
+TEST_F(BusyPanels, CancelInTheSolverSection) {
+  ASSERT_TRUE(is_drawn("Solver/cancel"));
+  const ImVec2 at = middle_of("Solver/cancel");
+  move(at.x, at.y);
+  press();
+  release();
+  EXPECT_TRUE(last_.cancel);
+}
+
+TEST_F(BusyPanels, CancelWithEscape) {
+  ImGui::GetIO().KeysDown[kKeyEscape] = true;
+  frame();
+  EXPECT_TRUE(last_.cancel);
   EXPECT_EQ(sent(), Texts{});
 }
 

@@ -10,7 +10,7 @@
 #include "engine/window/window_target.h"
 #include "tests/engine/gpu_fixture.h"
 #include "tests/engine/stage.h"
-#include "tests/engine/window/private_display.h"
+#include "tests/support/private_display.h"
 
 namespace geotherm::test {
 

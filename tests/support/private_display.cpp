@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/engine/window/private_display.h"
+#include "tests/support/private_display.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -45,7 +45,7 @@ std::size_t word(const std::vector<std::uint8_t>& dump, std::size_t index) {
 
 }  // namespace
 
-PrivateDisplay::PrivateDisplay() {
+PrivateDisplay::PrivateDisplay(int width, int height) : width_(width), height_(height) {
   try {
     start();
   } catch (...) {
@@ -64,7 +64,7 @@ void PrivateDisplay::start() {
   if (::pipe2(pipe.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
 
   const std::string fd = "9";
-  const std::string size = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x24";
+  const std::string size = std::to_string(width_) + "x" + std::to_string(height_) + "x24";
   const std::array<const char*, 12> words = {"Xvfb",      "-displayfd", fd.c_str(), "-screen",
                                              "0",         size.c_str(), "-fbdir",   folder_.c_str(),
                                              "-nolisten", "tcp",        "-noreset", nullptr};
@@ -106,10 +106,11 @@ engine::Image PrivateDisplay::screen() const {
   const std::size_t row = word(dump, 12);
   const std::size_t begin = word(dump, 0) + 12 * word(dump, 19);  // header, colour map
   engine::Image image;
-  image.width = kWidth;
-  image.height = kHeight;
-  for (std::size_t y = 0; y < kHeight; ++y) {
-    for (std::size_t x = 0; x < kWidth; ++x) {
+  image.width = width_;
+  image.height = height_;
+  const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
       const std::size_t at = begin + y * row + 4 * x;  // blue, green, red, nothing
       image.pixels.insert(image.pixels.end(), {dump.at(at + 2), dump.at(at + 1), dump.at(at), 255});
     }

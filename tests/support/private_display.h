@@ -13,13 +13,11 @@ namespace geotherm::test {
 /// A display in memory (Xvfb) with nothing on it, named by DISPLAY of this process until it ends.
 class PrivateDisplay {
  public:
-  /// Throws std::runtime_error with the reason.
-  PrivateDisplay();
+  /// Pixels. Throws std::runtime_error with the reason.
+  explicit PrivateDisplay(int width = 1024, int height = 768);
   PrivateDisplay(const PrivateDisplay&) = delete;
   PrivateDisplay& operator=(const PrivateDisplay&) = delete;
   ~PrivateDisplay();
-
-  static constexpr int kWidth = 1024, kHeight = 768;
 
   /// What it shows now.
   engine::Image screen() const;
@@ -28,6 +26,7 @@ class PrivateDisplay {
   void start();
   void stop();
 
+  int width_, height_;
   std::filesystem::path folder_;
   pid_t server_ = 0;  ///< 0: none
 };

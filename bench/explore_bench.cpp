@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "bench/explore_bench.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <system_error>
+
+#include "app/explore/session.h"
+#include "app/main_window/scene_screen.h"
+#include "bench/bench_mesh.h"
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/write_distances.h"
+
+namespace geotherm::bench {
+namespace {
+
+using namespace geotherm::app;
+
+constexpr glm::ivec2 kWindow(1280, 800);
+constexpr PictureArea kArea{{310, 22}, {660, 756}};
+constexpr int kDrags = 40;
+constexpr int kFrames = 15;
+
+double median(std::vector<double> all) {
+  if (all.empty()) return kNotMeasured;
+  std::ranges::sort(all);
+  return all[all.size() / 2];
+}
+
+/// Wakes whoever waits for a session's work.
+class Bell {
+ public:
+  void ring() {
+    {
+      const std::lock_guard lock(mutex_);
+      rung_ = true;
+    }
+    changed_.notify_one();
+  }
+  void wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return rung_; });
+    rung_ = false;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool rung_ = false;
+};
+
+/// A session on a worker and what draws it, as in the window.
+class Hand {
+ public:
+  explicit Hand(std::unique_ptr<SceneScreen> screen)
+      : screen_(std::move(screen)), session_(hooks()) {}
+
+  Result<void> open(const std::string& path) {
+    if (auto done = session_.submit(command::Open{path}); !done) return done;
+    if (auto done = session_.finish(); !done) return done;
+    if (auto done = screen_->update(session_, kArea); !done) return done;
+    return frame();
+  }
+
+  Result<void> frame() { return screen_->draw({}, true); }
+
+  /// One drag of a source, from the mouse to the picture.
+  Result<double> drag(Index vertex) {
+    const Stopwatch watch;
+    const std::uint64_t before = session_.explored().version;
+    const command::MoveSource move{0, std::to_string(vertex)};
+    if (auto done = session_.submit(move); !done) return done.error();
+    while (session_.explored().version == before) {
+      bell_.wait();
+      session_.update();
+    }
+    query_.push_back(session_.explored().a->result.timing.query);
+    Stopwatch part;
+    if (auto done = screen_->update(session_, kArea); !done) return done.error();
+    upload_.push_back(part.lap());
+    if (auto done = frame(); !done) return done.error();
+    frame_.push_back(part.lap());
+    return watch.milliseconds();
+  }
+
+  Result<void> measure_drag(ExploreRow& row) {
+    session_.set_dragging(true);
+    const Index vertices = session_.explored().model->mesh.vertices;
+    std::vector<double> all;
+    for (int i = 0; i < kDrags; ++i) {
+      const auto ms = drag(static_cast<Index>((17 + 131 * i) % vertices));
+      if (!ms) return ms.error();
+      if (i > 3) all.push_back(*ms);
+    }
+    row.drag_ms = median(all);
+    row.query_ms = median(query_);
+    row.upload_ms = median(upload_);
+    row.frame_ms = median(frame_);
+    session_.set_dragging(false);
+    return session_.finish();
+  }
+
+  /// Frames go on while the worker factors for another t.
+  Result<void> measure_switch(ExploreRow& row) {
+    std::vector<double> quiet;
+    for (int i = 0; i < kFrames; ++i) {
+      const Stopwatch watch;
+      if (auto done = frame(); !done) return done;
+      quiet.push_back(watch.milliseconds());
+    }
+    row.usual_frame_ms = median(quiet);
+    std::vector<double> longest, times;
+    for (const char* factor : {"2", "3", "5"}) {
+      const Stopwatch whole;
+      if (auto done = session_.submit(command::Set{"time-factor", factor}); !done) return done;
+      double most = 0;
+      while (session_.stale()) {
+        const Stopwatch watch;
+        session_.update();
+        if (auto done = screen_->update(session_, kArea); !done) return done;
+        if (auto done = frame(); !done) return done;
+        most = std::max(most, watch.milliseconds());
+      }
+      longest.push_back(most);
+      times.push_back(whole.milliseconds());
+    }
+    row.longest_frame_ms = median(longest);
+    row.switch_ms = median(times);
+    return {};
+  }
+
+ private:
+  SessionHooks hooks() {
+    SessionHooks hooks;
+    hooks.wake = [this] { bell_.ring(); };
+    return hooks;
+  }
+
+  Bell bell_;
+  std::unique_ptr<SceneScreen> screen_;
+  Session session_;
+  std::vector<double> query_, upload_, frame_;
+};
+
+Result<ExploreRow> measure_mesh(const char* name, Index faces) {
+  const auto mesh = make_mesh(name, faces);
+  if (!mesh) return mesh.error();
+  const std::string path =
+      (std::filesystem::temp_directory_path() / "geotherm_bench_explore.ply").string();
+  if (auto written = write_mesh(path, *mesh); !written) return written.error();
+  ExploreRow row{.mesh = name, .faces = mesh->face_count()};
+  const auto measured = [&]() -> Result<void> {
+    auto screen = SceneScreen::open_without_window(kWindow, {});
+    if (!screen) return screen.error();
+    Hand hand(*std::move(screen));
+    if (auto done = hand.open(path); !done) return done;
+    if (auto done = hand.measure_switch(row); !done) return done;
+    return hand.measure_drag(row);
+  }();
+  std::error_code unknown;
+  std::filesystem::remove(path, unknown);
+  if (!measured) return measured.error();
+  return row;
+}
+
+}  // namespace
+
+ExploreBench measure_explore(const Say& say) {
+  ExploreBench bench;
+  for (const Index faces : {69'000, 200'000}) {
+    say("exploring " + std::to_string(faces) + " faces");
+    auto row = measure_mesh("gargoyle", faces);
+    if (!row) {
+      bench.failure = row.error().message;
+      return bench;
+    }
+    bench.rows.push_back(*std::move(row));
+  }
+  return bench;
+}
+
+}  // namespace geotherm::bench

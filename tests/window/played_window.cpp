@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "tests/window/played_window.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+namespace geotherm::test {
+namespace {
+
+// The layout that the window starts with, pixels: what it reads from its configuration.
+constexpr int kBarWidth = 310, kLogHeight = 190;
+constexpr int kLine = 21;        ///< height of the menu bar, and of the status bar
+constexpr int kFieldAbove = 41;  ///< the command field, above the window's lower edge
+constexpr int kSteps = 6;        ///< of a drag
+
+/// A number out of a command that prints some.
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* const pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr) return text;
+  for (int letter = std::fgetc(pipe); letter != EOF; letter = std::fgetc(pipe)) {
+    text += static_cast<char>(letter);
+  }
+  ::pclose(pipe);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+std::string at(Spot spot) { return std::to_string(spot.x) + " " + std::to_string(spot.y) + " "; }
+
+}  // namespace
+
+void PlayedWindow::give_up(const std::string& why) {
+  const char* const wish = std::getenv("GEOTHERM_REQUIRE_VULKAN");
+  if (wish != nullptr && std::string_view(wish) == "1") FAIL() << why;
+  GTEST_SKIP() << why;
+}
+
+void PlayedWindow::SetUp() {
+  if (std::system("xdotool version > /dev/null 2>&1") != 0) {
+    return give_up("xdotool is not installed (Debian: xdotool)");
+  }
+  try {
+    display_.emplace(width_, height_);
+  } catch (const std::runtime_error& error) {
+    return give_up(error.what());
+  }
+  ::unsetenv("WAYLAND_DISPLAY");
+  ::setenv("XDG_CACHE_HOME", path("cache").c_str(), 1);
+  ::setenv("XDG_CONFIG_HOME", path("config").c_str(), 1);
+  std::filesystem::create_directories(path("config/geotherm"));
+  std::ofstream(path("config/geotherm/viewer.conf"))
+      << "log = on\nleft-width = " << kBarWidth << "\nright-width = " << kBarWidth
+      << "\nlog-height = " << kLogHeight << '\n';
+  if (const ProgramRun devices = run_program(path("."), {"devices"}); devices.code != 0) {
+    give_up(devices.err);
+  }
+}
+
+void PlayedWindow::start(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "view");
+  arguments.emplace_back("--validation");
+  program_.emplace(path("."), arguments);
+  const bool seen = eventually([this] {
+    window_ = output_of("xdotool search --onlyvisible --class geotherm 2> /dev/null");
+    return !window_.empty() || !program_->runs();
+  });
+  ASSERT_TRUE(seen) << "no window";
+  ASSERT_TRUE(program_->runs()) << program_->end().err;
+  // The start uses much more than this.
+  program_->notice(0, ::sysconf(_SC_CLK_TCK) / 4);
+  settle();
+}
+
+void PlayedWindow::quit() {
+  press("ctrl+q");
+  const ProgramRun run = program_->end();
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, "");
+}
+
+void PlayedWindow::settle() { EXPECT_TRUE(program_->rest()) << "the program does not rest"; }
+
+void PlayedWindow::hold(const std::string& down, const std::string& up) {
+  const long before = program_->ticks();
+  xdotool(down);
+  EXPECT_TRUE(program_->notice(before)) << down << ": the program takes no notice";
+  xdotool(up);
+  settle();
+}
+
+void PlayedWindow::move_to(Spot spot) {
+  const long before = program_->ticks();
+  xdotool("mousemove " + at({spot.x, spot.y + 2}) + "mousemove " + at(spot));
+  EXPECT_TRUE(program_->notice(before)) << "the program does not see the mouse";
+  settle();
+}
+
+void PlayedWindow::click(Spot spot, const std::string& modifier, int button) {
+  move_to(spot);
+  const std::string number = std::to_string(button);
+  if (modifier.empty()) return hold("mousedown " + number, "mouseup " + number);
+  hold("keydown " + modifier + " mousedown " + number, "mouseup " + number + " keyup " + modifier);
+}
+
+void PlayedWindow::drag(Spot from, Spot to, const std::string& modifier, int button) {
+  move_to(from);
+  const std::string number = std::to_string(button);
+  long before = program_->ticks();
+  xdotool((modifier.empty() ? "" : "keydown " + modifier + " ") + "mousedown " + number);
+  program_->notice(before);
+  for (int step = 1; step <= kSteps; ++step) {
+    before = program_->ticks();
+    xdotool("mousemove " + at({from.x + (to.x - from.x) * step / kSteps,
+                               from.y + (to.y - from.y) * step / kSteps}));
+    program_->notice(before);
+  }
+  xdotool("mouseup " + number + (modifier.empty() ? "" : " keyup " + modifier));
+  settle();
+}
+
+void PlayedWindow::turn_wheel(Spot spot, bool up) {
+  move_to(spot);
+  const long before = program_->ticks();
+  xdotool(up ? "click 4" : "click 5");
+  EXPECT_TRUE(program_->notice(before));
+  settle();
+}
+
+void PlayedWindow::press(const std::string& key) {
+  const std::size_t plus = key.find('+', 1);
+  if (plus == std::string::npos) return hold("keydown " + key, "keyup " + key);
+  const std::string modifier = key.substr(0, plus), rest = key.substr(plus + 1);
+  hold("keydown " + modifier + " keydown " + rest, "keyup " + rest + " keyup " + modifier);
+}
+
+void PlayedWindow::type(const std::string& text) {
+  const long before = program_->ticks();
+  xdotool("type --delay 2 '" + text + "'");
+  EXPECT_TRUE(program_->notice(before));
+  settle();
+}
+
+void PlayedWindow::resize(int width, int height) {
+  width_ = width;
+  height_ = height;
+  const long before = program_->ticks();
+  xdotool("windowsize " + window_ + " " + at({width, height}));
+  EXPECT_TRUE(program_->notice(before));
+  settle();
+}
+
+void PlayedWindow::run(const std::vector<std::string>& commands) {
+  click({width_ / 2, height_ - kFieldAbove});
+  for (const std::string& command : commands) {
+    type(command);
+    press("Return");
+  }
+  press("Escape");
+  move_to(kPanel);
+}
+
+std::vector<std::string> PlayedWindow::log() {
+  const std::string name = "log" + std::to_string(++logs_);
+  run({"save log " + name});
+  EXPECT_TRUE(is_there(name));
+  std::vector<std::string> commands = lines_of(path(name));
+  std::erase_if(commands, [](const auto& line) { return line.starts_with("save log"); });
+  return commands;
+}
+
+std::vector<std::string> PlayedWindow::lines_of(const std::string& path) const {
+  std::istringstream text(bytes_of(path));
+  std::vector<std::string> commands;
+  for (std::string line; std::getline(text, line);) {
+    if (!line.empty() && line.front() != '#') commands.push_back(line);
+  }
+  return commands;
+}
+
+Picture PlayedWindow::canvas_on_screen() {
+  constexpr int kTop = kLine & ~1;  // pictures begin at even pixels
+  const int bottom = height_ - kLine - kLogHeight;
+  return part_of(display_->screen(), kBarWidth, kTop, width_ - 2 * kBarWidth, bottom - kTop);
+}
+
+bool PlayedWindow::is_there(const std::string& name) const {
+  return std::filesystem::exists(path(name));
+}
+
+}  // namespace geotherm::test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/support/private_display.h"
+#include "tests/window/pictures.h"
+#include "tests/window/played_program.h"
+
+namespace geotherm::test {
+
+/// Pixels of the window from its top left corner, which is that of the screen: there is no window
+/// manager.
+struct Spot {
+  int x = 0, y = 0;
+};
+
+/// The program in a window on a display of its own, without a user's settings, played with mouse
+/// and keys. Skipped where the window cannot be opened, or failed where GEOTHERM_REQUIRE_VULKAN
+/// is 1.
+class PlayedWindow : public testing::Test {
+ protected:
+  void SetUp() override;
+
+  /// Starts the program, with validation, and waits until it has drawn its first picture.
+  void start(std::vector<std::string> arguments);
+  /// Ctrl+Q: it ends without a word.
+  void quit();
+
+  void move_to(Spot spot);
+  void click(Spot spot, const std::string& modifier = "", int button = 1);
+  /// Step by step, as a hand does.
+  void drag(Spot from, Spot to, const std::string& modifier = "", int button = 1);
+  void turn_wheel(Spot spot, bool up);
+  /// A key by its name of X, such as Tab, or with a modifier: ctrl+s.
+  void press(const std::string& key);
+  void type(const std::string& text);
+  void resize(int width, int height);
+
+  /// Types commands into the field under the log and leaves it.
+  void run(const std::vector<std::string>& commands);
+  /// The commands so far, of a log that is saved for that. Without those that saved logs.
+  std::vector<std::string> log();
+  /// The commands of a file of commands.
+  std::vector<std::string> lines_of(const std::string& path) const;
+
+  /// What is between the panels: its place in the window.
+  Picture canvas_on_screen();
+  std::string path(const std::string& name) const { return folder_.path(name); }
+  bool is_there(const std::string& name) const;
+  const std::string& window() const { return window_; }  ///< its number
+
+  TemporaryDirectory folder_;  ///< where the program runs
+  std::optional<PrivateDisplay> display_;
+  std::optional<PlayedProgram> program_;
+  int width_ = 1280, height_ = 800;
+
+ private:
+  void give_up(const std::string& why);
+  /// Holds keys or buttons until the program has seen them.
+  void hold(const std::string& down, const std::string& up);
+  void settle();
+
+  std::string window_;  ///< its number
+  int logs_ = 0;
+};
+
+// Where things are in a window of 1280 x 800 with the log shown.
+inline constexpr Spot kEar{650, 150}, kHead{490, 400}, kBody{600, 400}, kBack{680, 430};
+inline constexpr Spot kConstraintChoice{195, 534}, kTimeFactorField{248, 468};
+inline constexpr Spot kPanel{150, 208};  ///< nothing that could be hit
+
+}  // namespace geotherm::test
