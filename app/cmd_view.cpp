@@ -11,6 +11,7 @@
 #include "app/text.h"
 #include "app/view_picture.h"
 #include "solver/mesh/io/file_extension.h"
+#include "solver/mesh/io/mapped_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -204,6 +205,10 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   if (auto taken = take(scale_in(arguments.scale), "--scale", scale); !taken) return taken.error();
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
+  if (!arguments.model.empty() && !is_bundled(arguments.model)) {
+    // A window that opens to say that there is no such file helps nobody.
+    if (const auto file = io::MappedFile::open(arguments.model); !file) return file.error();
+  }
   ViewerStart start;
   start.commands = *std::move(commands);
   start.script = arguments.script;

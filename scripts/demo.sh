@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # From a fresh clone to geodesic distances and a picture of them: installs what is missing, builds,
-# solves, draws.
+# solves, draws, and opens the viewer where there is a display.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -39,6 +39,7 @@ Written: build/demo/contours.png  (a picture of them, drawn by Vulkan, with a GP
          build/demo/solve.json    (every figure above and more)
 
 Try next:
+  build/release/geotherm $model                                  the viewer, where there is a display
   build/release/geotherm render $model -s $source --view heat-gradient -o arrows.png
   build/release/geotherm solve bunny -s 3,99 -o distances.csv    several sources, one distance field
   build/release/geotherm compare bunny terrain                   the same work through each backend
@@ -46,3 +47,8 @@ Try next:
   build/release/geotherm generate gargoyle --faces 1000000 -o big.ply
   build/release/geotherm solve --help
 TEXT
+
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  say "geotherm $model -s $source   (Ctrl+Q quits, F1 shows the keys)"
+  "$program" "$model" -s "$source" || say "the viewer could not open; what is listed above is there"
+fi

@@ -96,8 +96,7 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
       return Error{ErrorCode::kBadInput,
                    "there is nothing to compare yet; open a model and give it a source"};
     }
-    start_compare(*wish);
-    return {};
+    return start_compare(*wish);
   }
   if (writes(command)) return save(command, session);
 
@@ -123,6 +122,8 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
     redo.clear();
     last_undoable = command;
   }
+  // Whoever asks again after a failure or a cancellation wants it tried again.
+  if (undo_rule(command).undoable && !failure.empty()) requested.reset();
   state = *std::move(next);
   return {};
 }

@@ -32,7 +32,7 @@ struct Session::State {
   void start(const ExploreRequest& request);
   bool take();
   void take_answer(const ExploreRequest& request, Result<Explored> answer);
-  void start_compare(const command::Compare& command);
+  Result<void> start_compare(const command::Compare& command);
   bool works();
 
   // session_files.cpp: what is written.

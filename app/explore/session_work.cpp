@@ -152,7 +152,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   }
 }
 
-void Session::State::start_compare(const command::Compare& command) {
+Result<void> Session::State::start_compare(const command::Compare& command) {
   CompareTask task;
   task.options = state.heat;
   if (command.backends == "all") {
@@ -160,7 +160,9 @@ void Session::State::start_compare(const command::Compare& command) {
   } else {
     std::string rest = command.backends + ",";
     for (std::size_t at = rest.find(','); at != std::string::npos; at = rest.find(',')) {
-      task.backends.push_back(rest.substr(0, at));
+      const auto backend = find_backend(rest.substr(0, at));
+      if (!backend) return backend.error();
+      task.backends.emplace_back((*backend)->name());
       rest.erase(0, at + 1);
     }
   }
@@ -183,10 +185,11 @@ void Session::State::start_compare(const command::Compare& command) {
   };
   if (compare_worker) {
     compare_worker->start(job, true);
-    return;
+    return {};
   }
   job(hooks.progress);
   take();
+  return {};
 }
 
 bool Session::stale() const {

@@ -11,9 +11,9 @@ class FrameClock {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Frames that follow something that happened: ImGui settles in two, and one more shows what
-  /// commands have changed.
-  static constexpr int kFramesAfterEvent = 3;
+  /// Frames that follow something that happened: what is laid out anew settles in two. Where the
+  /// panels want more, they say so.
+  static constexpr int kFramesAfterEvent = 2;
 
   void something_happened() { frames_left_ = kFramesAfterEvent; }
   bool frame_is_due() const { return frames_left_ > 0; }

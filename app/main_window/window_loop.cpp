@@ -10,6 +10,7 @@
 #include "app/text.h"
 #include "engine/overlay/overlay.h"
 #include "engine/scene/colour_map.h"
+#include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
 namespace {
@@ -20,6 +21,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kLossPause{10};
 /// Fields that are typed in have a cursor that blinks.
 constexpr double kBlink = 0.3;
+/// Milliseconds; above, panels that are only pointed at would lag behind the pointer.
+constexpr double kSlowFrame = 120;
 
 }  // namespace
 
@@ -88,10 +91,13 @@ Result<void> WindowLoop::run() {
     }
     remember_layout();
   }
-  for (const std::string& message : screen_->validation_messages()) {
-    return Error{ErrorCode::kNoDevice, "Vulkan's validation: " + one_line(message)};
-  }
-  return {};
+  const std::vector<std::string> messages = screen_->validation_messages();
+  // The window goes at once, even where work that cannot be interrupted is still to end.
+  interface_.reset();
+  screen_.reset();
+  window_.reset();
+  if (messages.empty()) return {};
+  return Error{ErrorCode::kNoDevice, "Vulkan's validation: " + one_line(messages.front())};
 }
 
 void WindowLoop::sleep() {
@@ -164,10 +170,10 @@ Result<void> WindowLoop::frame() {
   const ui::FrameOutput out = lay_out_panels();
   if (out.cancel) session_->cancel();
   session_->set_dragging(out.dragging);
-  if (!out.commands.empty() || out.animating || out.dragging != fast_) {
-    clock_.something_happened();
-  }
-  fast_ = out.dragging || out.animating;
+  const bool moves = out.dragging || session_->state().rotating;
+  const bool fast = moves || (out.animating && full_frame_ms_ > kSlowFrame);
+  if (!out.commands.empty() || out.animating || fast != fast_) clock_.something_happened();
+  fast_ = fast;
   // The frame that was laid out shows what commands change at once, but for the panels.
   for (const Command& command : out.commands) {
     [[maybe_unused]] const auto done = session_->submit(command);  // failures are in the log
@@ -177,7 +183,10 @@ Result<void> WindowLoop::frame() {
 
 Result<void> WindowLoop::draw_frame(bool fast) {
   if (auto updated = screen_->update(*session_, area()); !updated) return updated;
-  return screen_->draw(panel_draw(), fast);
+  const Stopwatch watch;
+  auto drawn = screen_->draw(panel_draw(), fast);
+  if (!fast) full_frame_ms_ = watch.milliseconds();
+  return drawn;
 }
 
 Result<void> WindowLoop::after_failure(const Error& error) {

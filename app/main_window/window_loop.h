@@ -69,7 +69,8 @@ class WindowLoop {
   float base_scale_ = 1;  ///< of the monitor or the command line
   FrameClock clock_;
   std::optional<std::chrono::steady_clock::time_point> last_loss_;
-  bool fast_ = false;
+  bool fast_ = false;         ///< the last frame was drawn with fewer samples
+  double full_frame_ms_ = 0;  ///< of the last frame that was not
 };
 
 }  // namespace geotherm::app

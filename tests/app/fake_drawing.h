@@ -7,6 +7,7 @@
 
 #include "app/drawing.h"
 #include "app/picture/turntable.h"
+#include "app/viewer_window.h"
 
 namespace geotherm::test {
 
@@ -60,6 +61,19 @@ class FakeDrawing final : public app::Drawing {
                             255);
       if (auto taken = frame(i, picture); !taken) return taken;
     }
+    return {};
+  }
+};
+
+/// A window that notes what it was to begin with.
+class FakeWindow final : public app::ViewerWindow {
+ public:
+  std::optional<app::ViewerStart> started;
+  std::optional<Error> failure;
+
+  Result<void> run(const app::ViewerStart& start) override {
+    started = start;
+    if (failure) return *failure;
     return {};
   }
 };

@@ -40,8 +40,16 @@ const std::vector<Failure>& failures() {
   static const std::vector<Failure> kFailures = {
       // The command line.
       {"NoCommand", {}, 2, {"no command", "solve, info, compare, render"}},
-      {"ModelAlone", {"bunny"}, 2, {"no viewer", "there are solve", "solve bunny"}},
-      {"FileAlone", {"triangle.obj"}, 2, {"no viewer"}},
+      {"NeitherCommandNorModel",
+       {"rabbit"},
+       2,
+       {"no command and no model 'rabbit'", "view, solve"}},
+      {"ViewOfNothing", {"view", "--headless"}, 2, {"nothing to do without a window", "--script"}},
+      {"ViewScriptAndReplay", {"view", "--script", "a", "--replay", "b"}, 2, {"one of them"}},
+      {"ViewTurntable", {"view", "bunny", "--turntable", "3"}, 2, {"geotherm render"}},
+      {"ViewScale", {"view", "bunny", "--scale", "9"}, 2, {"--scale", "0.5 to 4"}},
+      {"ViewOutput", {"view", "bunny", "-o", "a.jpg"}, 2, {".png"}},
+      {"ViewMissingScript", {"view", "--replay", "none.log"}, 1, {"none.log", "No such file"}},
       {"CommandToCome", {"sample", "bunny"}, 2, {"no command 'sample'", "there are solve"}},
       {"CommandToComePath", {"path", "bunny"}, 2, {"no command 'path'"}},
       {"UnknownCommand", {"frobnicate"}, 2, {"'frobnicate'", "there are solve"}},

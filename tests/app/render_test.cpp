@@ -26,11 +26,13 @@ class Render : public testing::Test {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     Run result;
-    result.code = app::run_command_line(arguments, drawing);
+    result.code = app::run_command_line(arguments, drawing, window);
     result.out = testing::internal::GetCapturedStdout();
     result.err = testing::internal::GetCapturedStderr();
     return result;
   }
+
+  FakeWindow window;
 
   void expect_done(const Run& result) { EXPECT_EQ(result.code, 0) << result.err; }
 

@@ -40,6 +40,7 @@ const std::vector<Permission>& permissions() {
   static const std::vector<Permission> kPermissions = {
       {"app/main.cpp", {"solver", "engine", "shaders", "app", "ui"}, {"any"}, {}},
       {"app/main_drawing", {"solver", "engine", "app"}, {"std", "glm"}, {}},
+      {"app/main_window", {"solver", "engine", "app", "ui"}, {"std", "glm", "imgui"}, {}},
       {"solver/core", {"solver/core"}, {"std", "eigen"}, {"posix"}},
       {"solver/mesh", {"solver/core", "solver/mesh"}, {"std", "eigen"}, {"posix"}},
       {"solver/linear", {"solver/core", "solver/linear"}, {"std", "eigen"}, {"posix", "algebra"}},
@@ -84,6 +85,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"pthread.h", "posix"},
     {"sched.h", "posix"},
     {"signal.h", "posix"},
+    {"time.h", "posix"},
     {"termios.h", "posix"},
     {"cholmod", "algebra"},
     {"amd.h", "algebra"},

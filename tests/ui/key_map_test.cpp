@@ -96,9 +96,14 @@ TEST_F(KeyMap, TurnsTheModelByTheTimeThatPasses) {
 
 TEST_F(KeyMap, LeavesTypingInAFieldAlone) {
   open_square();
+  run("keep");
+  run("source set 3");
   click_item("Sources/ids");
   type("1");
   type("7");
+  hold(true, false, false);
+  key('Z');
+  hold(false, false, false);
   key(kKeyTab);
   EXPECT_EQ(sent(), Texts{});
   EXPECT_EQ(session_.state().picture.view, app::View::kContours);

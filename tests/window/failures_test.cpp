@@ -45,7 +45,6 @@ TEST_F(Trouble, WindowMayBeTinyAndHuge) {
   resize(300, 90);
   resize(2600, 1700);
   resize(1280, 800);
-  move_to(kPanel);
   EXPECT_LE(share_that_differs(canvas_on_screen(), before), kSamePicture);
   expect_life("p.png");
   quit();
@@ -59,7 +58,6 @@ TEST_F(Trouble, WindowMayDisappearAndComeBack) {
   const long used = program_->ticks();
   xdotool("windowmap --sync " + window());
   EXPECT_TRUE(program_->notice(used));
-  move_to(kPanel);
   EXPECT_LE(share_that_differs(canvas_on_screen(), before), kSamePicture);
   expect_life("p.png");
   quit();

@@ -1,70 +1,75 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <sstream>
+#include <tuple>
 
 #include "tests/window/played_window.h"
 
 namespace geotherm::test {
 namespace {
 
+constexpr double kRounding = 1e-9;
+
 /// A camera as the log names it.
 struct Place {
   double azimuth = 0, elevation = 0, zoom = 1, right = 0, up = 0;
 };
 
-class Mouse : public PlayedWindow {
- protected:
-  /// A command that says where the camera is now: of two movements the log keeps the end.
-  Place camera() {
-    run({"camera orbit 0 0", "camera orbit 0 0"});
-    const std::string line = log().back();
+using Mouse = PlayedWindow;
+
+/// Of lines of the log, those that say where the camera is.
+std::vector<Place> places_in(const std::vector<std::string>& lines) {
+  std::vector<Place> places;
+  for (const std::string& line : lines) {
     std::istringstream words(line);
-    std::string camera, place;
-    Place found;
-    words >> camera >> place >> found.azimuth >> found.elevation >> found.zoom >> found.right >>
-        found.up;
-    EXPECT_TRUE(words && place == "place") << line;
-    return found;
+    std::string camera, what;
+    Place p;
+    words >> camera >> what >> p.azimuth >> p.elevation >> p.zoom >> p.right >> p.up;
+    if (words && what == "place") places.push_back(p);
   }
-};
+  return places;
+}
 
 TEST_F(Mouse, MovesTheCameraAsTheTableOfKeysSays) {
-  start({"bunny"});
-  const Place first = camera();
-
+  start({"bunny", "--azimuth", "20", "--elevation", "10"});
+  // Of movements in a row the log keeps the end: another command stands between each two.
   drag(kBody, {kBody.x + 60, kBody.y + 30});
-  const Place turned = camera();
-  EXPECT_LT(turned.azimuth, first.azimuth);
-  EXPECT_GT(turned.elevation, first.elevation);
-  EXPECT_EQ(turned.zoom, first.zoom);
-  EXPECT_EQ(turned.right, first.right);
-
+  press("2");
   drag(kBody, {kBody.x, kBody.y - 40}, "ctrl");
-  const Place zoomed = camera();
+  press("3");
+  drag(kBody, {kBody.x + 30, kBody.y}, "shift");
+  press("2");
+  drag(kBody, {kBody.x - 30, kBody.y + 20}, "", 2);
+  press("3");
+  turn_wheel(kHead, true, 2);
+  press("2");
+  turn_wheel(kHead, false, 2);
+  const std::vector<Place> places = places_in(log());
+  ASSERT_EQ(places.size(), 6U);
+  const auto& [turned, zoomed, shifted, moved, closer, farther] =
+      std::tie(places[0], places[1], places[2], places[3], places[4], places[5]);
+
+  EXPECT_LT(turned.azimuth, 20);
+  EXPECT_GT(turned.elevation, 10);
+  EXPECT_EQ(turned.zoom, 1);
+  EXPECT_EQ(turned.right, 0);
+
   EXPECT_EQ(zoomed.azimuth, turned.azimuth);
   EXPECT_EQ(zoomed.elevation, turned.elevation);
   EXPECT_GT(zoomed.zoom, turned.zoom);
 
-  drag(kBody, {kBody.x + 30, kBody.y}, "shift");
-  const Place shifted = camera();
   EXPECT_EQ(shifted.azimuth, zoomed.azimuth);
   EXPECT_EQ(shifted.zoom, zoomed.zoom);
   EXPECT_GT(shifted.right, zoomed.right);
 
-  drag(kBody, {kBody.x - 30, kBody.y + 20}, "", 2);
-  const Place moved = camera();
   EXPECT_EQ(moved.azimuth, zoomed.azimuth);
   EXPECT_LT(moved.right, shifted.right);
   EXPECT_LT(moved.up, shifted.up);
 
-  turn_wheel(kHead, true);
-  const Place closer = camera();
   EXPECT_GT(closer.zoom, moved.zoom);
   EXPECT_EQ(closer.azimuth, moved.azimuth);
-  turn_wheel(kHead, false);
-  const Place farther = camera();
-  EXPECT_NEAR(farther.zoom, moved.zoom, 1e-9 * moved.zoom);
-  EXPECT_NEAR(farther.right, moved.right, 1e-9);
+  EXPECT_NEAR(farther.zoom, moved.zoom, kRounding * moved.zoom);
+  EXPECT_NEAR(farther.right, moved.right, kRounding);
+  EXPECT_NEAR(farther.up, moved.up, kRounding);
   quit();
 }
 

@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLook{10};     ///< between two looks
-constexpr std::chrono::milliseconds kAsleep{120};  ///< without work: longer than between frames
+constexpr std::chrono::milliseconds kAsleep{100};  ///< without work: longer than between frames
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace geotherm::test {
 namespace {
@@ -32,6 +33,12 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
+/// Modifier keys before and after what they go with.
+std::string down(const std::string& modifier) {
+  return modifier.empty() ? "" : "keydown " + modifier + " ";
+}
+std::string up(const std::string& modifier) { return modifier.empty() ? "" : " keyup " + modifier; }
+
 std::string at(Spot spot) { return std::to_string(spot.x) + " " + std::to_string(spot.y) + " "; }
 
 }  // namespace
@@ -43,7 +50,7 @@ void PlayedWindow::give_up(const std::string& why) {
 }
 
 void PlayedWindow::SetUp() {
-  if (std::system("xdotool version > /dev/null 2>&1") != 0) {
+  if (std::system("command -v xdotool > /dev/null") != 0) {
     return give_up("xdotool is not installed (Debian: xdotool)");
   }
   try {
@@ -88,83 +95,84 @@ void PlayedWindow::quit() {
 
 void PlayedWindow::settle() { EXPECT_TRUE(program_->rest()) << "the program does not rest"; }
 
-void PlayedWindow::hold(const std::string& down, const std::string& up) {
+void PlayedWindow::play(const std::string& words) {
   const long before = program_->ticks();
-  xdotool(down);
-  EXPECT_TRUE(program_->notice(before)) << down << ": the program takes no notice";
-  xdotool(up);
-  settle();
+  xdotool(words);
+  EXPECT_TRUE(program_->notice(before)) << words << ": the program takes no notice";
+}
+
+void PlayedWindow::point_at(Spot spot) {
+  play("mousemove " + at({spot.x, spot.y + 2}) + "mousemove " + at(spot));
 }
 
 void PlayedWindow::move_to(Spot spot) {
-  const long before = program_->ticks();
-  xdotool("mousemove " + at({spot.x, spot.y + 2}) + "mousemove " + at(spot));
-  EXPECT_TRUE(program_->notice(before)) << "the program does not see the mouse";
+  point_at(spot);
   settle();
 }
 
 void PlayedWindow::click(Spot spot, const std::string& modifier, int button) {
-  move_to(spot);
+  in_field_ = false;
+  point_at(spot);
   const std::string number = std::to_string(button);
-  if (modifier.empty()) return hold("mousedown " + number, "mouseup " + number);
-  hold("keydown " + modifier + " mousedown " + number, "mouseup " + number + " keyup " + modifier);
-}
-
-void PlayedWindow::drag(Spot from, Spot to, const std::string& modifier, int button) {
-  move_to(from);
-  const std::string number = std::to_string(button);
-  long before = program_->ticks();
-  xdotool((modifier.empty() ? "" : "keydown " + modifier + " ") + "mousedown " + number);
-  program_->notice(before);
-  for (int step = 1; step <= kSteps; ++step) {
-    before = program_->ticks();
-    xdotool("mousemove " + at({from.x + (to.x - from.x) * step / kSteps,
-                               from.y + (to.y - from.y) * step / kSteps}));
-    program_->notice(before);
-  }
-  xdotool("mouseup " + number + (modifier.empty() ? "" : " keyup " + modifier));
+  play(down(modifier) + "mousedown " + number);
+  play("mouseup " + number + up(modifier));
   settle();
 }
 
-void PlayedWindow::turn_wheel(Spot spot, bool up) {
-  move_to(spot);
-  const long before = program_->ticks();
-  xdotool(up ? "click 4" : "click 5");
-  EXPECT_TRUE(program_->notice(before));
+void PlayedWindow::drag(Spot from, Spot to, const std::string& modifier, int button) {
+  in_field_ = false;
+  point_at(from);
+  const std::string number = std::to_string(button);
+  play(down(modifier) + "mousedown " + number);
+  for (int step = 1; step <= kSteps; ++step) {
+    play("mousemove " +
+         at({from.x + (to.x - from.x) * step / kSteps, from.y + (to.y - from.y) * step / kSteps}));
+  }
+  play("mouseup " + number + up(modifier));
+  settle();
+}
+
+void PlayedWindow::turn_wheel(Spot spot, bool up, int notches) {
+  point_at(spot);
+  for (int i = 0; i < notches; ++i) play(up ? "click 4" : "click 5");
   settle();
 }
 
 void PlayedWindow::press(const std::string& key) {
-  const std::size_t plus = key.find('+', 1);
-  if (plus == std::string::npos) return hold("keydown " + key, "keyup " + key);
-  const std::string modifier = key.substr(0, plus), rest = key.substr(plus + 1);
-  hold("keydown " + modifier + " keydown " + rest, "keyup " + rest + " keyup " + modifier);
+  leave_field();
+  const std::size_t plus = key.find('+');
+  const std::string modifier = plus == std::string::npos ? "" : key.substr(0, plus);
+  const std::string rest = plus == std::string::npos ? key : key.substr(plus + 1);
+  play(down(modifier) + "keydown " + rest);
+  play("keyup " + rest + up(modifier));
+  settle();
 }
 
-void PlayedWindow::type(const std::string& text) {
-  const long before = program_->ticks();
-  xdotool("type --delay 2 '" + text + "'");
-  EXPECT_TRUE(program_->notice(before));
+void PlayedWindow::enter(const std::string& text) {
+  // Down and up within one frame would be lost.
+  play("type --delay 2 '" + text + "' keydown Return");
+  play("keyup Return");
   settle();
 }
 
 void PlayedWindow::resize(int width, int height) {
   width_ = width;
   height_ = height;
-  const long before = program_->ticks();
-  xdotool("windowsize " + window_ + " " + at({width, height}));
-  EXPECT_TRUE(program_->notice(before));
+  play("windowsize " + window_ + " " + at({width, height}));
   settle();
 }
 
 void PlayedWindow::run(const std::vector<std::string>& commands) {
-  click({width_ / 2, height_ - kFieldAbove});
-  for (const std::string& command : commands) {
-    type(command);
-    press("Return");
-  }
-  press("Escape");
-  move_to(kPanel);
+  if (!in_field_) click({width_ / 2, height_ - kFieldAbove});
+  in_field_ = true;  // the field waits for the next one
+  for (const std::string& command : commands) enter(command);
+}
+
+void PlayedWindow::leave_field() {
+  if (!std::exchange(in_field_, false)) return;
+  play("keydown Escape");
+  play("keyup Escape");
+  settle();
 }
 
 std::vector<std::string> PlayedWindow::log() {
@@ -186,6 +194,7 @@ std::vector<std::string> PlayedWindow::lines_of(const std::string& path) const {
 }
 
 Picture PlayedWindow::canvas_on_screen() {
+  move_to(kPanel);                  // the pointer is seen
   constexpr int kTop = kLine & ~1;  // pictures begin at even pixels
   const int bottom = height_ - kLine - kLogHeight;
   return part_of(display_->screen(), kBarWidth, kTop, width_ - 2 * kBarWidth, bottom - kTop);

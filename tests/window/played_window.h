@@ -35,20 +35,21 @@ class PlayedWindow : public testing::Test {
   void click(Spot spot, const std::string& modifier = "", int button = 1);
   /// Step by step, as a hand does.
   void drag(Spot from, Spot to, const std::string& modifier = "", int button = 1);
-  void turn_wheel(Spot spot, bool up);
+  void turn_wheel(Spot spot, bool up, int notches);
   /// A key by its name of X, such as Tab, or with a modifier: ctrl+s.
   void press(const std::string& key);
-  void type(const std::string& text);
+  /// Types, and Enter at the end.
+  void enter(const std::string& text);
   void resize(int width, int height);
 
-  /// Types commands into the field under the log and leaves it.
+  /// Types commands into the field under the log.
   void run(const std::vector<std::string>& commands);
   /// The commands so far, of a log that is saved for that. Without those that saved logs.
   std::vector<std::string> log();
   /// The commands of a file of commands.
   std::vector<std::string> lines_of(const std::string& path) const;
 
-  /// What is between the panels: its place in the window.
+  /// What is between the panels.
   Picture canvas_on_screen();
   std::string path(const std::string& name) const { return folder_.path(name); }
   bool is_there(const std::string& name) const;
@@ -61,16 +62,20 @@ class PlayedWindow : public testing::Test {
 
  private:
   void give_up(const std::string& why);
-  /// Holds keys or buttons until the program has seen them.
-  void hold(const std::string& down, const std::string& up);
+  /// Until it has drawn all that follows from what was done.
   void settle();
+  /// What xdotool does, and a frame that has seen it.
+  void play(const std::string& words);
+  void point_at(Spot spot);
+  void leave_field();
 
   std::string window_;  ///< its number
   int logs_ = 0;
+  bool in_field_ = false;  ///< letters go to the field under the log
 };
 
 // Where things are in a window of 1280 x 800 with the log shown.
-inline constexpr Spot kEar{650, 150}, kHead{490, 400}, kBody{600, 400}, kBack{680, 430};
+inline constexpr Spot kEar{640, 150}, kHead{530, 340}, kBody{600, 420};
 inline constexpr Spot kConstraintChoice{195, 534}, kTimeFactorField{248, 468};
 inline constexpr Spot kPanel{150, 208};  ///< nothing that could be hit
 

@@ -50,20 +50,18 @@ class Tour : public PlayedWindow {
     run({"open bunny", "backend eigen-ldlt"});
     click(kBody);
     click(kTimeFactorField);
-    type("2.5");
-    press("Return");
+    enter("2.5");
     click(kConstraintChoice);
     click({kConstraintChoice.x, kConstraintChoice.y + 86});  // the fourth of the list
   }
   void paint() {
     press("b");
-    drag(kHead, {kHead.x + 40, kHead.y + 40});
+    drag(kHead, {kHead.x + 20, kHead.y - 60});
     press("b");
   }
   void save() {
     press("ctrl+s");
-    type("tour.geotherm");
-    press("Return");
+    enter("tour.geotherm");
     run({"save distances d.csv", "save picture p.png"});
     commands_ = log();  // log1
   }

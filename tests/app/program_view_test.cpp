@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Sessions of the built program without a window, on whatever device there is.
+#include <algorithm>
+#include <cstdlib>
+
+#include "tests/app/png_reader.h"
+#include "tests/app/program_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+class ProgramView : public Program {
+ protected:
+  void SetUp() override {
+    if (run_program(folder.path("."), {"devices"}).code != 0) {
+      const char* const required = std::getenv("GEOTHERM_REQUIRE_VULKAN");
+      ASSERT_FALSE(required && std::string(required) == "1") << "there is no Vulkan device";
+      GTEST_SKIP() << "there is no Vulkan device; the software one of Mesa is enough";
+    }
+  }
+
+  std::vector<std::uint8_t> pixels(const std::string& name) {
+    const PngContent content = read_png(bytes_of(folder.path(name)));
+    EXPECT_TRUE(content.valid) << name;
+    return content.pixels;
+  }
+};
+
+TEST_F(ProgramView, AReplayEqualsThePictureOfRender) {
+  folder.write("log.geotherm",
+               "open terrain\nsource set 17\ncamera orbit 10 5\ntime-factor 3\nview flat\n"
+               "backend eigen-ldlt\nsource set 40 300\nview contours\nsize 320x200\n"
+               "camera place 50 35 1.5 0.1 -0.05\nundo\nredo\n");
+  run({"view", "--replay", "log.geotherm", "-o", "replay.png"});
+  run({"render",      "terrain",    "-s",     "40,300",    "--time-factor", "3",
+       "--backend",   "eigen-ldlt", "--size", "320x200",   "--azimuth",     "50",
+       "--elevation", "35",         "--zoom", "1.5",       "--pan",         "0.1:-0.05",
+       "--fit",       "sphere",     "-o",     "direct.png"});
+  EXPECT_EQ(pixels("replay.png"), pixels("direct.png"));
+}
+
+TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
+  folder.write("s.geotherm",
+               "open bunny\nsource set random:3:4\nkeep\ntime-factor 9\nview gradient-error\n"
+               "camera orbit 100 -10\ncamera zoom 1.3 0.1 0.2\nshow b\nsize 320x200\n"
+               "background dark\nsave session saved.geotherm\nsave log log.geotherm\n"
+               "save picture first.png\n");
+  run({"view", "--headless", "--script", "s.geotherm"});
+  run({"view", "--replay", "saved.geotherm", "-o", "saved.png"});
+  run({"view", "--replay", "log.geotherm", "-o", "log.png"});
+  const auto first = pixels("first.png");
+  EXPECT_EQ(pixels("saved.png"), first);
+  EXPECT_EQ(pixels("log.png"), first);
+}
+
+TEST_F(ProgramView, TheCentreIsInTheMiddleOfThePicture) {
+  // The lower left of the terrain fills the picture that is centred there and zoomed into.
+  run({"view", "terrain", "--no-bar", "--no-caption", "--centre", "0:0:0", "--zoom", "4", "--size",
+       "200x200", "-o", "middle.png"});
+  run({"view", "terrain", "--no-bar", "--no-caption", "--centre", "50:0:0", "--zoom", "4", "--size",
+       "200x200", "-o", "beside.png"});
+  const auto white = [](const std::vector<std::uint8_t>& all) {
+    return std::ranges::count(all, 255) == static_cast<std::ptrdiff_t>(all.size());
+  };
+  EXPECT_FALSE(white(pixels("middle.png")));
+  EXPECT_TRUE(white(pixels("beside.png")));
+}
+
+TEST_F(ProgramView, ThePictureSaysHowItWasMade) {
+  run({"view", "bunny", "-s", "17", "-o", "a.png", "--size", "200x150"});
+  const PngContent content = read_png(bytes_of(folder.path("a.png")));
+  const auto text = [&content](const std::string& name) {
+    const auto found = content.texts.find(name);
+    return found == content.texts.end() ? std::string("none") : found->second;
+  };
+  EXPECT_EQ(text("geotherm:command"), "geotherm view bunny -s 17 -o a.png --size 200x150");
+  EXPECT_EQ(text("geotherm:sources"), "17");
+  EXPECT_EQ(text("geotherm:view"), "contours");
+}
+
+TEST_F(ProgramView, FiguresAreThoseOfSolve) {
+  folder.write("s.geotherm", "open bunny\nsource set 17\nsave figures f.json\n");
+  run({"view", "--headless", "--script", "s.geotherm"});
+  const std::string bytes = bytes_of(folder.path("f.json"));
+  const Json saved = Json::parse(bytes, nullptr, false);
+  const Json solved = json({"solve", "bunny", "-s", "17", "--json", "-"});
+  EXPECT_EQ(saved["distance"], solved["distance"]);
+  EXPECT_EQ(saved["model"], solved["model"]);
+  EXPECT_EQ(saved["options"], solved["options"]);
+}
+
+TEST_F(ProgramView, WithoutADisplayTheWindowNamesTheOtherWays) {
+  ::unsetenv("DISPLAY");
+  ::unsetenv("WAYLAND_DISPLAY");
+  const ProgramRun result = run_program(folder.path("."), {"bunny"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err.find("geotherm: error: no window can be opened"), 0U) << result.err;
+  EXPECT_NE(result.err.find("geotherm render"), std::string::npos);
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1);
+}
+
+}  // namespace
+}  // namespace geotherm::test
