@@ -31,6 +31,8 @@ struct Session::State {
   void refresh();
   void start(const ExploreRequest& request);
   bool take();
+  void say_failure(const Error& error);
+  bool close_opening();
   void take_answer(const ExploreRequest& request, Result<Explored> answer);
   Result<void> start_compare(const command::Compare& command);
   bool works();
@@ -65,6 +67,7 @@ struct Session::State {
 
   // From the workers. Each message is taken by take().
   struct Early {
+    std::uint64_t opening;
     Explored explored;
   };
   struct Answered {

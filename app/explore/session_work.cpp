@@ -64,8 +64,9 @@ void Session::State::start(const ExploreRequest& request) {
   requested = request;
   failure.clear();
   const auto job = [this, request](const Progress& progress) {
-    Result<Explored> answer = explorer.explore(
-        request, progress, [this](Explored early) { post(Early{std::move(early)}); });
+    Result<Explored> answer = explorer.explore(request, progress, [&](Explored early) {
+      post(Early{request.opening, std::move(early)});
+    });
     post(Answered{request, std::move(answer)});
   };
   if (worker) {
@@ -92,6 +93,7 @@ bool Session::State::take() {
   }
   for (auto& message : messages) {
     if (auto* early = std::get_if<Early>(&message)) {
+      if (early->opening != opening) continue;  // of a model that is no longer wanted
       const std::uint64_t version = explored.version;
       explored = std::move(early->explored);
       explored.version = version + 1;
@@ -118,20 +120,29 @@ bool Session::State::take() {
   return !messages.empty();
 }
 
+void Session::State::say_failure(const Error& error) {
+  failure = error.message;
+  if (!first_error) first_error = error;
+  note(LogLine::Kind::kError, failure);
+}
+
+/// The model does not open: the one before it is still there. False: none was being opened.
+bool Session::State::close_opening() {
+  if (!before_opening) return false;
+  state = std::move(before_opening->state);
+  opening = before_opening->opening;
+  before_opening.reset();
+  requested = answered;
+  return true;
+}
+
 void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer) {
   const bool is_last = requested && requested->covers(request) && request.covers(*requested);
   if (!answer) {
     if (!is_last) return;  // replaced, or the failure of what nobody wants any more
-    failure = answer.error().message;
-    if (!first_error) first_error = answer.error();
-    note(LogLine::Kind::kError, failure);
-    if (!before_opening) return;
-    // The model did not open: the one before it is still there.
-    state = std::move(before_opening->state);
-    opening = before_opening->opening;
-    before_opening.reset();
-    requested = answered;
-    if (explored.model) refresh();
+    const bool said = answer.error().code == ErrorCode::kCancelled && !failure.empty();
+    if (!said) say_failure(answer.error());
+    if (close_opening() && explored.model) refresh();
     return;
   }
   if (request.opening != opening) return;  // of a model that is no longer wanted
@@ -210,8 +221,15 @@ SessionWork Session::work() const {
 }
 
 void Session::cancel() {
-  if (state_->worker) state_->worker->cancel();
-  if (state_->compare_worker) state_->compare_worker->cancel();
+  State& s = *state_;
+  if (s.compare_worker) s.compare_worker->cancel();
+  if (!s.worker || !s.worker->status().busy) return;
+  s.worker->cancel();
+  s.close_opening();
+  // What waited says nothing any more, so it is said here.
+  s.failure = "the work was cancelled; change something to start it again";
+  s.first_error = Error{ErrorCode::kCancelled, s.failure};
+  s.note(LogLine::Kind::kError, s.failure);
 }
 
 }  // namespace geotherm::app

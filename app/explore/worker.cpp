@@ -10,7 +10,7 @@ namespace {
 
 /// Frames come first. On Linux this is for the calling thread and those that it starts.
 void give_way() {
-  constexpr int kNice = 10;
+  constexpr int kNice = 3;  // half the share of a thread that is not nice
   [[maybe_unused]] const int done = ::setpriority(PRIO_PROCESS, 0, kNice);
 }
 

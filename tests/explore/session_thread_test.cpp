@@ -118,11 +118,27 @@ TEST_F(SessionThread, EndsWhileWorkGoesOn) {
 
 TEST_F(SessionThread, CancelEndsTheWorkAndTheNextCommandStartsItAgain) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  ASSERT_TRUE(threaded.submit(command::Set{"time-factor", "2"}));
   threaded.cancel();
-  [[maybe_unused]] const auto ended = threaded.finish();
-  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  EXPECT_FALSE(threaded.finish()) << "a script that runs would end";
+  EXPECT_NE(threaded.failure(), "");
+  EXPECT_TRUE(threaded.stale());
+  // The same again is a wish to have it tried again.
+  ASSERT_TRUE(threaded.submit(command::Set{"time-factor", "2"}));
   ASSERT_TRUE(threaded.finish());
   EXPECT_FALSE(threaded.stale());
+  EXPECT_EQ(threaded.failure(), "");
+}
+
+TEST_F(SessionThread, CancelWhileAModelOpensLeavesNoneOpen) {
+  ASSERT_TRUE(threaded.submit(command::Open{"gargoyle"}));
+  threaded.cancel();
+  EXPECT_FALSE(threaded.finish());
+  EXPECT_FALSE(threaded.explored().model);
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_TRUE(threaded.explored().a);
 }
 
 TEST_F(SessionThread, ComparesBesideTheOtherWork) {

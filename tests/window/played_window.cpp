@@ -18,6 +18,7 @@ namespace {
 constexpr int kBarWidth = 310, kLogHeight = 190;
 constexpr int kLine = 21;        ///< height of the menu bar, and of the status bar
 constexpr int kFieldAbove = 41;  ///< the command field, above the window's lower edge
+constexpr long kFrame = 15;      ///< clock ticks, more than one frame takes
 constexpr int kSteps = 6;        ///< of a drag
 
 /// A number out of a command that prints some.
@@ -101,6 +102,12 @@ void PlayedWindow::play(const std::string& words) {
   EXPECT_TRUE(program_->notice(before)) << words << ": the program takes no notice";
 }
 
+void PlayedWindow::hold(const std::string& words) {
+  xdotool(words);
+  EXPECT_TRUE(program_->notice(program_->ticks(), kFrame))
+      << words << ": the program takes no notice";
+}
+
 void PlayedWindow::point_at(Spot spot) {
   play("mousemove " + at({spot.x, spot.y + 2}) + "mousemove " + at(spot));
 }
@@ -114,7 +121,7 @@ void PlayedWindow::click(Spot spot, const std::string& modifier, int button) {
   in_field_ = false;
   point_at(spot);
   const std::string number = std::to_string(button);
-  play(down(modifier) + "mousedown " + number);
+  hold(down(modifier) + "mousedown " + number);
   play("mouseup " + number + up(modifier));
   settle();
 }
@@ -123,7 +130,7 @@ void PlayedWindow::drag(Spot from, Spot to, const std::string& modifier, int but
   in_field_ = false;
   point_at(from);
   const std::string number = std::to_string(button);
-  play(down(modifier) + "mousedown " + number);
+  hold(down(modifier) + "mousedown " + number);
   for (int step = 1; step <= kSteps; ++step) {
     play("mousemove " +
          at({from.x + (to.x - from.x) * step / kSteps, from.y + (to.y - from.y) * step / kSteps}));
@@ -143,14 +150,13 @@ void PlayedWindow::press(const std::string& key) {
   const std::size_t plus = key.find('+');
   const std::string modifier = plus == std::string::npos ? "" : key.substr(0, plus);
   const std::string rest = plus == std::string::npos ? key : key.substr(plus + 1);
-  play(down(modifier) + "keydown " + rest);
+  hold(down(modifier) + "keydown " + rest);
   play("keyup " + rest + up(modifier));
   settle();
 }
 
 void PlayedWindow::enter(const std::string& text) {
-  // Down and up within one frame would be lost.
-  play("type --delay 2 '" + text + "' keydown Return");
+  hold("type --delay 2 --args 1 '" + text + "' keydown Return");
   play("keyup Return");
   settle();
 }
@@ -170,7 +176,7 @@ void PlayedWindow::run(const std::vector<std::string>& commands) {
 
 void PlayedWindow::leave_field() {
   if (!std::exchange(in_field_, false)) return;
-  play("keydown Escape");
+  hold("keydown Escape");
   play("keyup Escape");
   settle();
 }
@@ -178,7 +184,7 @@ void PlayedWindow::leave_field() {
 std::vector<std::string> PlayedWindow::log() {
   const std::string name = "log" + std::to_string(++logs_);
   run({"save log " + name});
-  EXPECT_TRUE(is_there(name));
+  EXPECT_TRUE(eventually([&] { return is_there(name); }));
   std::vector<std::string> commands = lines_of(path(name));
   std::erase_if(commands, [](const auto& line) { return line.starts_with("save log"); });
   return commands;

@@ -66,6 +66,9 @@ class PlayedWindow : public testing::Test {
   void settle();
   /// What xdotool does, and a frame that has seen it.
   void play(const std::string& words);
+  /// The same where it holds something down; then frames follow each other. What goes down and up
+  /// within one frame would be lost.
+  void hold(const std::string& words);
   void point_at(Spot spot);
   void leave_field();
 
