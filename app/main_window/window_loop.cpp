@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/main_window/window_loop.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/main_window/panel_pixels.h"
@@ -21,6 +22,10 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kLossPause{10};
 /// Fields that are typed in have a cursor that blinks.
 constexpr double kBlink = 0.3;
+/// While work runs, its progress is shown so often: seconds, and not more than one frame in so
+/// many.
+constexpr double kBusy = 0.2;
+constexpr double kBusyFrames = 6;
 /// Milliseconds; above, panels that are only pointed at would lag behind the pointer.
 constexpr double kSlowFrame = 120;
 
@@ -105,7 +110,9 @@ void WindowLoop::sleep() {
     window_->wait(0);
     return;
   }
-  const double seconds = ImGui::GetIO().WantTextInput ? kBlink : -1;
+  double seconds = ImGui::GetIO().WantTextInput ? kBlink : -1;
+  // A bar that moves must not take the cores from the work it stands for.
+  if (session_->work().busy) seconds = std::max(kBusy, kBusyFrames * full_frame_ms_ / 1e3);
   window_->wait(seconds);
   clock_.something_happened();
 }

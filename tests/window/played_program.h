@@ -37,14 +37,11 @@ class PlayedProgram {
   /// Processor time used so far, clock ticks.
   long ticks() const;
   /// Until it has used so much more than `before`: it has taken notice of what came then.
-  bool notice(long before, long more = kNotice);
+  bool notice(long before, long more);
   /// Until it sleeps.
   bool rest();
 
  private:
-  /// More than waking up takes, so that what came is taken in and drawn.
-  static constexpr long kNotice = 4;
-
   TemporaryDirectory streams_;
   pid_t process_ = 0;
   bool ended_ = false;

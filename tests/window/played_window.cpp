@@ -40,6 +40,10 @@ std::string down(const std::string& modifier) {
 }
 std::string up(const std::string& modifier) { return modifier.empty() ? "" : " keyup " + modifier; }
 
+/// Such keys are read as what is typed. They are not lost when they are short, and held down they
+/// are typed again and again.
+bool is_typed(const std::string& key) { return key.size() == 1 || key == "plus" || key == "minus"; }
+
 std::string at(Spot spot) { return std::to_string(spot.x) + " " + std::to_string(spot.y) + " "; }
 
 }  // namespace
@@ -96,10 +100,10 @@ void PlayedWindow::quit() {
 
 void PlayedWindow::settle() { EXPECT_TRUE(program_->rest()) << "the program does not rest"; }
 
-void PlayedWindow::play(const std::string& words) {
+void PlayedWindow::play(const std::string& words, long ticks) {
   const long before = program_->ticks();
   xdotool(words);
-  EXPECT_TRUE(program_->notice(before)) << words << ": the program takes no notice";
+  EXPECT_TRUE(program_->notice(before, ticks)) << words << ": the program takes no notice";
 }
 
 void PlayedWindow::hold(const std::string& words) {
@@ -150,6 +154,10 @@ void PlayedWindow::press(const std::string& key) {
   const std::size_t plus = key.find('+');
   const std::string modifier = plus == std::string::npos ? "" : key.substr(0, plus);
   const std::string rest = plus == std::string::npos ? key : key.substr(plus + 1);
+  if (is_typed(key)) {
+    play("key " + key);
+    return settle();
+  }
   hold(down(modifier) + "keydown " + rest);
   play("keyup " + rest + up(modifier));
   settle();
@@ -164,7 +172,8 @@ void PlayedWindow::enter(const std::string& text) {
 void PlayedWindow::resize(int width, int height) {
   width_ = width;
   height_ = height;
-  play("windowsize " + window_ + " " + at({width, height}));
+  play("windowsize " + window_ + " " + at({width, height}),
+       1);  // a tiny picture is drawn in no time
   settle();
 }
 

@@ -65,12 +65,15 @@ class PlayedWindow : public testing::Test {
   /// Until it has drawn all that follows from what was done.
   void settle();
   /// What xdotool does, and a frame that has seen it.
-  void play(const std::string& words);
+  void play(const std::string& words, long ticks = kNotice);
   /// The same where it holds something down; then frames follow each other. What goes down and up
   /// within one frame would be lost.
   void hold(const std::string& words);
   void point_at(Spot spot);
   void leave_field();
+
+  /// Clock ticks: more than waking up takes, so that what came is taken in and drawn.
+  static constexpr long kNotice = 4;
 
   std::string window_;  ///< its number
   int logs_ = 0;
