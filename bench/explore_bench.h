@@ -8,7 +8,8 @@
 
 namespace geotherm::bench {
 
-/// What the viewer does while somebody's hand is on the mouse, at 1280x800 in memory. Medians.
+/// What the viewer does while somebody's hand is on the mouse, at 1280x800 in memory and without
+/// the panels. Medians, but for the longest frame of three switches.
 struct ExploreRow {
   std::string mesh;
   Index faces = 0;

@@ -183,14 +183,27 @@ void CanvasInput::end(Frame& frame) {
 void CanvasInput::click(Frame& frame) {
   const std::string button = kButtons[button_];
   auto action = mouse_action(modifiers_, button + " click");
-  // The first click of a double click has done its work already.
   if (double_click_) {
     if (const auto twice = mouse_action(modifiers_, button + " double click")) action = twice;
   }
   if (!action || !frame.model()) return;
   const auto point = surface_at(frame, press_.x, press_.y);
   if (*action == MouseAction::kMenu) return open_canvas_menu(frame, point);
-  if (point) send_point_command(frame, *action, *point);
+  if (!point) return;
+  if (*action == MouseAction::kCentre) give_back_sources(frame);
+  before_click_.reset();
+  if (*action == MouseAction::kSetSource) before_click_ = frame.state().sources;
+  send_point_command(frame, *action, *point);
+}
+
+/// The first click of a double click has set a source that nobody wanted.
+void CanvasInput::give_back_sources(Frame& frame) {
+  if (!before_click_ || *before_click_ == frame.state().sources) return;
+  if (before_click_->empty()) {
+    frame.send(app::command::ClearSources{});
+  } else {
+    frame.send(app::command::SetSources{*before_click_});
+  }
 }
 
 void CanvasInput::zoom_with_wheel(Frame& frame) {

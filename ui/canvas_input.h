@@ -37,6 +37,7 @@ class CanvasInput {
   void move_source(Frame& frame, Mouse to);
   void paint(Frame& frame, Mouse to);
   void click(Frame& frame);
+  void give_back_sources(Frame& frame);
   void zoom_with_wheel(Frame& frame);
   void draw_marks(Frame& frame) const;
 
@@ -50,6 +51,8 @@ class CanvasInput {
   std::string moved_to_;
   Index painted_ = kNoIndex;  ///< the curve's last vertex
   std::optional<SurfacePoint> hovered_;
+  /// The sources before the last click set another one, for a double click.
+  std::optional<std::vector<std::string>> before_click_;
 };
 
 /// Whether the surface hides a place from the eye. Precondition: a model is shown.

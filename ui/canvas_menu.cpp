@@ -36,6 +36,8 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
     case MouseAction::kAddSource:
       return frame.send(app::command::AddSources{{point_text(point)}});
     case MouseAction::kRemoveSource:
+      // Places belong to what is shown: while other sources are on their way, none can be named.
+      if (frame.explored().sources != frame.state().sources) return;
       if (const auto place = nearest_place(frame.explored(), position_of(mesh, point))) {
         frame.send(removal(frame.explored(), *place));
       }

@@ -82,7 +82,7 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
       break;
     case FilePurpose::kSavePicture:
       frame.send(as_shown_ ? command::SavePicture{path, 0, 0, panels_}
-                           : command::SavePicture{path, width_, height_, false});
+                           : command::SavePicture{path, width_, height_, panels_});
       break;
     case FilePurpose::kSaveDistances:
       frame.send(command::SaveDistances{path});

@@ -139,9 +139,7 @@ void FileDialog::draw_picture_options(Frame& frame) {
   ImGui::SameLine();
   draw_side("height", height_);
   ImGui::SameLine(0, frame.px(16));
-  ImGui::BeginDisabled(!as_shown_);
   draw_checkbox(frame, "panels", "with the panels", panels_);
-  ImGui::EndDisabled();
 }
 
 void FileDialog::draw_buttons(Frame& frame) {

@@ -84,10 +84,11 @@ void rotate(Frame& frame) {
 }
 
 void take_keys(Frame& frame) {
-  if (ImGui::GetIO().WantTextInput || ImGui::GetTopMostPopupModal()) return;
+  if (ImGui::GetTopMostPopupModal()) return;
+  const bool typing = ImGui::GetIO().WantTextInput;
   const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-  if (popup && is_escape_pressed()) return ImGui::ClosePopupToLevel(0, true);
-  for (const Action action : pressed_actions()) perform(frame, action);
+  if (popup && !typing && is_escape_pressed()) return ImGui::ClosePopupToLevel(0, true);
+  for (const Action action : pressed_actions(typing)) perform(frame, action);
 }
 
 /// The window that popups belong to; nothing of it is seen.
@@ -112,6 +113,7 @@ Interface::Interface(Layout layout, std::span<const std::byte> font, float scale
   io.IniFilename = nullptr;  // what is remembered is the layout
   io.LogFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigInputTextCursorBlink = false;  // a window that nobody touches draws nothing
   for (const KeyPlace& place : kEditing) {
     // A window system has said so before; without one these numbers hold as well.
     if (io.KeyMap[place.key] < 0) io.KeyMap[place.key] = place.code;

@@ -109,6 +109,14 @@ bool is_typed(std::string_view character) {
                      [&](ImWchar typed) { return small(typed) == wanted; });
 }
 
+/// Whether a field that is typed in wants the keys for itself.
+bool is_for_typing(const KeyBinding& key) {
+  const bool function_key =
+      key.keys.size() > 1 && key.keys[0] == 'F' && key.keys[1] >= '1' && key.keys[1] <= '9';
+  const bool edits = key.action == Action::kUndo || key.action == Action::kRedo;
+  return edits || !(function_key || key.keys.starts_with("Ctrl+"));
+}
+
 bool is_pressed(std::string_view keys) {
   const auto [modifiers, key] = without_modifiers(keys);
   const bool plain = !modifiers.ctrl && !modifiers.alt && !modifiers.shift;
@@ -128,9 +136,10 @@ std::string_view shortcut(Action action) {
   return found == std::end(kKeys) ? std::string_view() : found->keys;
 }
 
-std::vector<Action> pressed_actions() {
+std::vector<Action> pressed_actions(bool typing) {
   std::vector<Action> actions;
   for (const KeyBinding& key : kKeys) {
+    if (typing && is_for_typing(key)) continue;
     if (is_pressed(key.keys)) actions.push_back(key.action);
   }
   return actions;

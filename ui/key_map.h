@@ -26,7 +26,8 @@ std::string_view shortcut(Action action);
 
 /// What the keys of this frame ask for, out of the current ImGui context. Keys that print a
 /// character count as that character, so that they are where the user's keyboard has them.
-std::vector<Action> pressed_actions();
+/// `typing`: a field has the keyboard, and leaves only function keys and what is pressed with Ctrl.
+std::vector<Action> pressed_actions(bool typing);
 
 /// What a stroke of the mouse over the picture does.
 enum class MouseAction {

@@ -26,7 +26,7 @@ void draw_stage(Frame& frame, const Stage& stage, double whole) {
 }
 
 void draw_setup(Frame& frame, const app::Answer& answer) {
-  const SetupTiming& setup = answer.method.timing();
+  const SetupTiming& setup = answer.setup;
   draw_heading(frame, "Set-up");
   const double whole = std::max(setup.setup, 1e-9);
   draw_stage(frame,

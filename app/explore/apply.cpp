@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/explore/settings.h"
 #include "app/picture/picture_values.h"
@@ -14,6 +15,7 @@ namespace geotherm::app {
 namespace {
 
 constexpr const char* kFirstSource = "random:1";
+constexpr Index kMostRandom = std::numeric_limits<Index>::max();
 
 Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
@@ -58,6 +60,13 @@ class Applier {
     // Lengths of the old model say nothing on the new one.
     s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
     return (*this)(command::Frame{});
+  }
+
+  Result<void> operator()(const command::Reset& /*c*/) {
+    std::string model = std::move(s_.model);
+    s_ = initial_state();
+    s_.model = std::move(model);
+    return {};
   }
 
   Result<void> operator()(const command::Set& c) {
@@ -115,6 +124,7 @@ class Applier {
   Result<void> operator()(const command::MoreSources& /*c*/) {
     if (const auto at = last_random(); at != s_.sources.rend()) {
       const RandomVertices random = *random_in(*at);
+      if (random.count == kMostRandom) return bad("there are as many random sources as can be");
       *at = random_text(random.count + 1, random.seed);
     } else {
       s_.sources.push_back(kFirstSource);
@@ -143,7 +153,7 @@ class Applier {
     std::uint64_t seed = 0;
     for (const std::string& text : s_.sources) {
       const auto random = random_in(text);
-      count += random ? random->count : 0;
+      if (random) count = std::min<Index>(kMostRandom - count, random->count) + count;
       if (random) seed = std::max(seed, random->seed);
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));

@@ -22,6 +22,11 @@ struct Open {  // open MODEL
   std::string model;
   bool operator==(const Open&) const = default;
 };
+/// Back to what the program starts with: the first line of a saved session. A model stays open
+/// until another is.
+struct Reset {  // reset
+  bool operator==(const Reset&) const = default;
+};
 /// Runs the commands of a file.
 struct Run {  // run FILE
   std::string path;
@@ -177,14 +182,16 @@ struct Quit {  // quit
 
 }  // namespace command
 
-using Command = std::variant<
-    command::Open, command::Run, command::Set, command::SetSources, command::AddSources,
-    command::MoveSource, command::RemoveSource, command::ExtendCurve, command::ClearSources,
-    command::MoreSources, command::FewerSources, command::ShuffleSources, command::Orbit,
-    command::Zoom, command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
-    command::Keep, command::Forget, command::Swap, command::Show, command::Flip, command::Pick,
-    command::Compare, command::SavePicture, command::SaveDistances, command::SaveSession,
-    command::SaveLog, command::SaveFigures, command::Undo, command::Redo, command::Quit>;
+using Command =
+    std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
+                 command::AddSources, command::MoveSource, command::RemoveSource,
+                 command::ExtendCurve, command::ClearSources, command::MoreSources,
+                 command::FewerSources, command::ShuffleSources, command::Orbit, command::Zoom,
+                 command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
+                 command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
+                 command::Pick, command::Compare, command::SavePicture, command::SaveDistances,
+                 command::SaveSession, command::SaveLog, command::SaveFigures, command::Undo,
+                 command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);

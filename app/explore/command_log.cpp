@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/explore/command_log.h"
 
+#include <algorithm>
+
 #include "app/explore/apply.h"
 
 namespace geotherm::app {
@@ -56,6 +58,15 @@ bool CommandLog::add(const Command& command, const ViewerState& after) {
   }
   lines_.push_back({command, {}});
   return false;
+}
+
+void CommandLog::fail_last_open() {
+  const auto line = std::find_if(lines_.rbegin(), lines_.rend(), [](const Line& l) {
+    return l.command && std::holds_alternative<command::Open>(*l.command);
+  });
+  if (line == lines_.rend()) return;
+  line->comment = "did not open: " + to_text(*line->command);
+  line->command.reset();
 }
 
 void CommandLog::add_comment(const std::string& text) { lines_.push_back({std::nullopt, text}); }

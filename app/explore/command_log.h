@@ -15,6 +15,8 @@ class CommandLog {
  public:
   /// `after`: the state that the command led to. True when it took the place of the last one.
   bool add(const Command& command, const ViewerState& after);
+  /// The last `open` did not open anything: it becomes a comment, so that the log can be replayed.
+  void fail_last_open();
   /// A line that is no command.
   void add_comment(const std::string& text);
 

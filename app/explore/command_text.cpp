@@ -27,6 +27,7 @@ std::string numbers(std::string text, std::initializer_list<double> more) {
 
 struct Printer {
   std::string operator()(const command::Open& c) const { return words("open", {c.model}); }
+  std::string operator()(const command::Reset&) const { return "reset"; }
   std::string operator()(const command::Run& c) const { return words("run", {c.path}); }
   std::string operator()(const command::Set& c) const { return words(c.name, {c.value}); }
   std::string operator()(const command::SetSources& c) const {
@@ -241,6 +242,7 @@ constexpr std::size_t kAny = 1'000'000;
 
 const Form kForms[] = {
     {"open", "MODEL", 1, 1, with_text<command::Open>},
+    {"reset", "", 0, 0, plain<command::Reset>},
     {"run", "FILE", 1, 1, with_text<command::Run>},
     {"source set", "SOURCE...", 1, kAny, with_list<command::SetSources>},
     {"source add", "SOURCE...", 1, kAny, with_list<command::AddSources>},

@@ -2,8 +2,10 @@
 #include "app/explore/explorer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <new>
+#include <set>
 
 #include "app/mesh_words.h"
 #include "app/resolve_sources.h"
@@ -14,34 +16,6 @@ namespace geotherm::app {
 namespace {
 
 Error cancelled() { return {ErrorCode::kCancelled, "the work was cancelled"}; }
-
-/// All entries as one set, and the places of each.
-Result<std::vector<std::string>> place_sources(const ExploreRequest& request, Explored& explored) {
-  const TriangleMesh& mesh = *explored.model->model.mesh;
-  std::vector<Source> sources;
-  for (const std::string& text : request.sources) {
-    auto spec = parse_source(text);
-    if (!spec) return spec.error();
-    sources.push_back({*std::move(spec), "source " + text.substr(0, 60), ErrorCode::kBadInput});
-  }
-  auto all = resolve_sources(sources, mesh);
-  if (!all) return all.error();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    const auto one = sources.size() == 1 ? *all : *resolve_sources({&sources[i], 1}, mesh);
-    const auto entry = static_cast<int>(i);
-    const bool alone = one.set.points.size() == 1 && one.set.edges.empty();
-    for (const SurfacePoint& point : one.set.points) {
-      explored.places.push_back({entry, point, position_of(mesh, point), alone});
-    }
-    for (const auto& edge : one.set.edges) {
-      for (const Index v : edge) {
-        explored.places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
-      }
-    }
-  }
-  explored.set = std::move(all->set);
-  return std::move(all->warnings);
-}
 
 std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const Answer& b) {
   auto difference = std::make_shared<Explored::Difference>();
@@ -61,7 +35,77 @@ std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const
   return difference;
 }
 
+/// Adds the places of one entry.
+void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& mesh,
+                std::vector<SourcePlace>& places) {
+  const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
+  for (const SurfacePoint& point : placed.set.points) {
+    places.push_back({entry, point, position_of(mesh, point), alone});
+  }
+  for (const auto& edge : placed.set.edges) {
+    for (const Index v : edge) {
+      places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
+    }
+  }
+}
+
+/// Puts sets together: no vertex and no edge twice.
+class SetUnion {
+ public:
+  void add(const SourceSet& more) {
+    for (const SurfacePoint& point : more.points) {
+      if (point.is_vertex() && !vertices_.insert(point.vertex).second) continue;
+      set_.points.push_back(point);
+    }
+    edges_.insert(more.edges.begin(), more.edges.end());
+  }
+  SourceSet take() {
+    set_.edges.assign(edges_.begin(), edges_.end());
+    return std::move(set_);
+  }
+
+ private:
+  SourceSet set_;
+  std::set<Index> vertices_;
+  std::set<std::array<Index, 2>> edges_;
+};
+
 }  // namespace
+
+/// All entries as one set, and the places of each. What stood in the last request is not placed
+/// anew: a curve is a walk over the mesh.
+Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
+                                                         Explored& explored) {
+  const TriangleMesh& mesh = *model_->model.mesh;
+  std::map<std::string, ResolvedSources> placed;
+  SetUnion all;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < request.sources.size(); ++i) {
+    const std::string& text = request.sources[i];
+    auto known = placed.find(text);
+    if (known == placed.end()) {
+      auto last = placed_.extract(text);
+      if (last.empty()) {
+        auto spec = parse_source(text);
+        if (!spec) return spec.error();
+        constexpr std::size_t kShown = 60;
+        const Source source{*std::move(spec), "source " + text.substr(0, kShown),
+                            ErrorCode::kBadInput};
+        auto resolved = resolve_sources({&source, 1}, mesh);
+        if (!resolved) return resolved.error();
+        known = placed.emplace(text, *std::move(resolved)).first;
+      } else {
+        known = placed.insert(std::move(last)).position;
+      }
+      warnings.insert(warnings.end(), known->second.warnings.begin(), known->second.warnings.end());
+    }
+    add_places(known->second, static_cast<int>(i), mesh, explored.places);
+    all.add(known->second.set);
+  }
+  placed_ = std::move(placed);
+  explored.set = all.take();
+  return warnings;
+}
 
 Result<void> Explorer::load(const ExploreRequest& request, const Progress& progress,
                             const Early& early) {
@@ -71,6 +115,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   // What belonged to the old model goes before the new one needs the room.
   a_.reset();
   b_.reset();
+  placed_.clear();
   model_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
@@ -100,6 +145,14 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
 Result<void> Explorer::prepare(const HeatOptions& options, std::optional<Method>& kept,
                                const std::optional<Method>& other, const Progress& progress) {
   if (kept && kept->method.options() == options) return {};
+  if (other && other->method.options() == options) {
+    if (kept) {
+      std::swap(a_, b_);  // A and B have changed places
+    } else {
+      kept = other;
+    }
+    return {};
+  }
   if (auto pin = check_pin(options.constraint, *model_->model.mesh); !pin) return pin;
   const std::optional<Method>& near = kept ? kept : other;
   const Stopwatch watch;
@@ -156,7 +209,12 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
     return explored;
   }
   auto b = answer(request, *request.kept, true, explored, *warnings, progress);
-  if (!b) return Error{b.error().code, "B: " + b.error().message};
+  if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
+  if (!b) {  // A is good all the same
+    b_.reset();
+    explored.b_failure = "B: " + b.error().message;
+    return explored;
+  }
   explored.b = *std::move(b);
   explored.difference = difference_of(*explored.a, *explored.b);
   return explored;

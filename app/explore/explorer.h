@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/explore/explored.h"
+#include "app/resolve_sources.h"
 #include "solver/core/progress.h"
 
 namespace geotherm::app {
@@ -51,6 +53,8 @@ class Explorer {
                                                const std::vector<std::string>& source_warnings,
                                                const Progress& progress);
 
+  Result<std::vector<std::string>> place_sources(const ExploreRequest& request, Explored& explored);
+
   struct Method {
     HeatMethod method;
     SetupTiming setup;
@@ -63,6 +67,7 @@ class Explorer {
   std::string model_text_;
   std::uint64_t opening_ = 0;
   std::optional<Method> a_, b_;
+  std::map<std::string, ResolvedSources> placed_;  ///< of the last request, by entry
 };
 
 }  // namespace geotherm::app

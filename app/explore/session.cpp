@@ -31,6 +31,13 @@ bool needs_answers(const Command& command) {
                    command::Compare, command::Quit>(command);
 }
 
+bool same_but_camera(const ViewerState& a, ViewerState b) {
+  b.picture.camera = a.picture.camera;
+  b.rotating = a.rotating;
+  b.picked = a.picked;
+  return a == b;
+}
+
 /// Not mapped: a script may be rewritten while it runs.
 Result<std::string> read_text(const std::string& path) {
   std::error_code unknown;
@@ -110,7 +117,7 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   auto next = app::apply(state, command);
   if (!next) return next.error();
   if (std::holds_alternative<command::Open>(command)) {
-    if (!before_opening) before_opening = Before{state, opening};
+    if (!before_opening) before_opening = Before{state, opening, undo, redo};
     opening = ++last_opening;
     undo.clear();
     redo.clear();
@@ -121,6 +128,11 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
     if (undo.size() > kMostUndo) undo.erase(undo.begin());
     redo.clear();
     last_undoable = command;
+    if (!undo.empty() && same_but_camera(undo.back(), *next)) {
+      // Dragged back to where it began: there is nothing to take back, as when it is replayed.
+      undo.pop_back();
+      last_undoable.reset();
+    }
   }
   // Whoever asks again after a failure or a cancellation wants it tried again.
   if (undo_rule(command).undoable && !failure.empty()) requested.reset();

@@ -65,7 +65,7 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
 }
 
 std::string session_text(const ViewerState& state) {
-  std::string text = kScriptHead;
+  std::string text = std::string(kScriptHead) + to_text(command::Reset{}) + '\n';
   for (const Command& command : commands_to(state)) text += to_text(command) + '\n';
   return text;
 }

@@ -58,6 +58,7 @@ struct Session::State {
   struct Before {
     ViewerState state;
     std::uint64_t opening;
+    std::vector<ViewerState> undo, redo;
   };
   std::optional<Before> before_opening;  ///< while it is not known whether the model opens
   bool dragging = false, quits = false;

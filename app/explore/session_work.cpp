@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a session has worked out, on its worker's thread or at once.
 #include <algorithm>
+#include <new>
 #include <utility>
 
 #include "app/explore/explored_picture.h"
@@ -131,8 +132,11 @@ bool Session::State::close_opening() {
   if (!before_opening) return false;
   state = std::move(before_opening->state);
   opening = before_opening->opening;
+  undo = std::move(before_opening->undo);
+  redo = std::move(before_opening->redo);
   before_opening.reset();
   requested = answered;
+  commands.fail_last_open();
   return true;
 }
 
@@ -151,6 +155,9 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   explored.version = version + 1;
   answered = request;
   if (is_last) failure.clear();
+  if (is_last && !explored.b_failure.empty()) {
+    say_failure({ErrorCode::kNumericalFailure, explored.b_failure});
+  }
   if (!explored.a) return;
   if (queries.size() >= kMostQueries) queries.erase(queries.begin());
   queries.push_back({explored.a->method.options().backend, explored.a->result.timing});
@@ -192,7 +199,11 @@ Result<void> Session::State::start_compare(const command::Compare& command) {
   compare.rows.clear();
   compare.reference = task.reference;
   const auto job = [this, task, model = explored.model](const Progress& progress) {
-    post(Compared{compare_backends(model->model, task, progress)});
+    try {
+      post(Compared{compare_backends(model->model, task, progress)});
+    } catch (const std::bad_alloc&) {
+      post(Compared{Error{ErrorCode::kOutOfMemory, "the memory ended while comparing backends"}});
+    }
   };
   if (compare_worker) {
     compare_worker->start(job, true);

@@ -83,7 +83,6 @@ class SceneScreen {
   std::optional<Uploaded> uploaded_;
 
   std::optional<PictureSettings> laid_out_;  ///< what the legend was made for
-  std::uint64_t laid_out_version_ = 0;
   engine::LegendLayout legend_;
   engine::Scene scene_;
   PictureArea area_;

@@ -20,8 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 /// A device that is lost again within this time does not come back.
 constexpr std::chrono::seconds kLossPause{10};
-/// Fields that are typed in have a cursor that blinks.
-constexpr double kBlink = 0.3;
 /// While work runs, its progress is shown so often: seconds, and not more than one frame in so
 /// many.
 constexpr double kBusy = 0.2;
@@ -110,7 +108,7 @@ void WindowLoop::sleep() {
     window_->wait(0);
     return;
   }
-  double seconds = ImGui::GetIO().WantTextInput ? kBlink : -1;
+  double seconds = -1;
   // A bar that moves must not take the cores from the work it stands for.
   if (session_->work().busy) seconds = std::max(kBusy, kBusyFrames * full_frame_ms_ / 1e3);
   window_->wait(seconds);
@@ -174,6 +172,7 @@ Result<void> WindowLoop::frame() {
   if (!*visible) return {};
   if (auto ready = follow_scale(); !ready) return ready;
   window_->begin_panels();
+  if (window_->has_more_input()) clock_.something_happened();
   const ui::FrameOutput out = lay_out_panels();
   if (out.cancel) session_->cancel();
   session_->set_dragging(out.dragging);

@@ -52,22 +52,42 @@ void take_drop(GLFWwindow* window, int count, const char** paths) {
   state.happened = true;
 }
 
-/// ImGui's back end calls what was there before it, so these stay.
+void take_event(GLFWwindow* window, const PanelEvent& event) {
+  Window::State& state = state_of(window);
+  state.happened = true;
+  if (state.panels) state.panels->add(event);
+}
+
 void watch(GLFWwindow* window) {
+  using Kind = PanelEvent::Kind;
   constexpr auto kNote = [](GLFWwindow* on, auto...) { state_of(on).happened = true; };
   glfwSetWindowSizeCallback(window, kNote);
   glfwSetFramebufferSizeCallback(window, kNote);
   glfwSetWindowContentScaleCallback(window, kNote);
   glfwSetWindowRefreshCallback(window, kNote);
   glfwSetWindowIconifyCallback(window, kNote);
-  glfwSetWindowFocusCallback(window, kNote);
   glfwSetWindowCloseCallback(window, kNote);
-  glfwSetKeyCallback(window, kNote);
-  glfwSetCharCallback(window, kNote);
-  glfwSetMouseButtonCallback(window, kNote);
-  glfwSetCursorPosCallback(window, kNote);
-  glfwSetCursorEnterCallback(window, kNote);
-  glfwSetScrollCallback(window, kNote);
+  glfwSetWindowFocusCallback(window, [](GLFWwindow* on, int focused) {
+    take_event(on, {.kind = Kind::kFocus, .code = focused});
+  });
+  glfwSetKeyCallback(window, [](GLFWwindow* on, int key, int scan, int action, int modifiers) {
+    take_event(on, {Kind::kKey, key, scan, action, modifiers});
+  });
+  glfwSetCharCallback(window, [](GLFWwindow* on, unsigned character) {
+    take_event(on, {.kind = Kind::kCharacter, .code = static_cast<int>(character)});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* on, int button, int action, int modifiers) {
+    take_event(on, {Kind::kButton, button, 0, action, modifiers});
+  });
+  glfwSetCursorPosCallback(window, [](GLFWwindow* on, double x, double y) {
+    take_event(on, {.kind = Kind::kCursor, .x = x, .y = y});
+  });
+  glfwSetCursorEnterCallback(window, [](GLFWwindow* on, int entered) {
+    take_event(on, {.kind = Kind::kCursorEnter, .code = entered});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* on, double x, double y) {
+    take_event(on, {.kind = Kind::kScroll, .x = x, .y = y});
+  });
   glfwSetDropCallback(window, take_drop);
 }
 
@@ -136,6 +156,8 @@ void Window::begin_panels() {
   assert(state_->panels);
   state_->panels->begin();
 }
+
+bool Window::has_more_input() const { return state_->panels && state_->panels->has_more(); }
 
 bool Window::wait(double seconds) {
   State& s = *state_;

@@ -30,6 +30,9 @@ class Window {
   /// Sizes, time and mouse for the next ImGui frame. ImGui counts in the desktop's units; its
   /// DisplayFramebufferScale turns them into pixels (X11: 1).
   void begin_panels();
+  /// The next ImGui frame has something to see: what happened within one frame is seen in several,
+  /// so that no key or click is lost and each is where it was.
+  bool has_more_input() const;
 
   /// Takes in what has happened; waits for it first, for `seconds` at most (negative: without end;
   /// 0: not at all). False when nothing happened but the time ran out.

@@ -64,6 +64,20 @@ TEST(Apply, ShuffleKeepsTheNumberAndChangesThePlaces) {
             std::vector<std::string>{"random:2"});
 }
 
+TEST(Apply, RandomSourcesStopAtTheLargestNumber) {
+  const ViewerState state = after({"open a", "source set random:2147483647"});
+  EXPECT_NE(refusal(state, "source more"), "");
+  EXPECT_EQ(after({"source add random:5:9", "source shuffle"}, state).sources,
+            std::vector<std::string>{"random:2147483647:10"});
+}
+
+TEST(Apply, ResetLeavesTheModelAlone) {
+  const ViewerState state = after({"open a", "keep", "view flat", "rotate on", "reset"});
+  ViewerState fresh = initial_state();
+  fresh.model = "a";
+  EXPECT_EQ(state, fresh);
+}
+
 TEST(Apply, ABrushBeginsACurveAndExtendsIt) {
   const ViewerState state = after(
       {"open a", "source set 9", "source add curve:1", "source extend 2,3", "source extend 4"});

@@ -81,13 +81,13 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"SaveSession", SaveSession{"s.geotherm"}, "save session s.geotherm"},
         TextCase{"SaveLog", SaveLog{"l.geotherm"}, "save log l.geotherm"},
         TextCase{"SaveFigures", SaveFigures{"f.json"}, "save figures f.json"},
-        TextCase{"Undo", Undo{}, "undo"}, TextCase{"Redo", Redo{}, "redo"},
-        TextCase{"Quit", Quit{}, "quit"}),
+        TextCase{"Reset", Reset{}, "reset"}, TextCase{"Undo", Undo{}, "undo"},
+        TextCase{"Redo", Redo{}, "redo"}, TextCase{"Quit", Quit{}, "quit"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Command, EveryKindHasATextCase) {
-  // The list above must grow with the variant: 34 kinds.
-  EXPECT_EQ(std::variant_size_v<Command>, 34U);
+  // The list above must grow with the variant: 35 kinds.
+  EXPECT_EQ(std::variant_size_v<Command>, 35U);
 }
 
 class SettingText : public testing::TestWithParam<std::string> {};

@@ -165,6 +165,66 @@ TEST_F(SessionTest, ASavedSessionLeadsToTheSameState) {
   EXPECT_EQ(again.state(), session.state());
 }
 
+TEST_F(SessionTest, ASavedSessionLeadsThereFromAnyState) {
+  run({"open " + small_model(), "source set 5", "save session " + folder() + "s.geotherm"});
+  const ViewerState saved = session.state();
+  run({"view flat", "backend eigen-ldlt", "keep", "background dark", "camera orbit 5 5",
+       "source set 9 10", "run " + folder() + "s.geotherm"});
+  EXPECT_EQ(session.state(), saved);
+}
+
+TEST_F(SessionTest, ALogWithAModelThatDidNotOpenReplays) {
+  run({"open " + small_model(), "source set 5", "view smooth"});
+  EXPECT_FALSE(session.submit(command::Open{folder() + "none.obj"}));
+  EXPECT_TRUE(session.can_undo()) << "what was done before can still be taken back";
+  run({"view flat"});
+  write(folder() + "log.geotherm", session.script());
+  Session again;
+  const auto ran = again.submit(command::Run{folder() + "log.geotherm"});
+  ASSERT_TRUE(ran) << ran.error().message;
+  EXPECT_EQ(again.state(), session.state());
+}
+
+TEST_F(SessionTest, ADragBackToWhereItBeganIsNothingToUndo) {
+  run({"open " + small_model(), "view flat", "time-factor 2", "time-factor 1", "undo"});
+  EXPECT_EQ(session.state().picture.view, View::kContours);
+  write(folder() + "log.geotherm", session.script());
+  Session again;
+  ASSERT_TRUE(again.submit(command::Run{folder() + "log.geotherm"}));
+  EXPECT_EQ(again.state(), session.state());
+}
+
+TEST_F(SessionTest, ABThatFailsLeavesTheGoodA) {
+  run({"open bunny", "source set 5", "constraint pin-vertex:1500", "keep",
+       "constraint pin-sources"});
+  EXPECT_TRUE(session.explored().b);
+  EXPECT_FALSE(session.submit(command::Open{small_model()}));  // has no vertex 1500
+  EXPECT_EQ(session.failure().find("B: "), 0U) << session.failure();
+  EXPECT_TRUE(session.explored().a);
+  EXPECT_FALSE(session.explored().b);
+  EXPECT_EQ(session.state().model, small_model());
+}
+
+TEST_F(SessionTest, SwappingAAndBFactorsNothing) {
+  run({"open " + small_model(), "source set 5", "keep", "time-factor 3"});
+  const Answer a = *session.explored().a;
+  const Answer b = *session.explored().b;
+  run({"swap"});
+  EXPECT_EQ(session.explored().a->setup_ms, b.setup_ms) << "the same factors, not new ones";
+  EXPECT_EQ(session.explored().b->setup_ms, a.setup_ms);
+  EXPECT_EQ(session.explored().a->result.distances, b.result.distances);
+}
+
+TEST_F(SessionTest, SourcesTogetherAreThoseOfTheirEntries) {
+  run({"open " + small_model(), "source set 5 boundary curve:40,60 5"});
+  const std::size_t places = session.explored().places.size();
+  const SourceSet first = session.explored().set;
+  run({"source add 90", "source remove 4"});
+  EXPECT_EQ(session.explored().places.size(), places);
+  EXPECT_EQ(session.explored().set.edges, first.edges);
+  EXPECT_EQ(session.explored().set.points.size(), first.points.size());
+}
+
 TEST_F(SessionTest, ScriptsSayTheirLineAndStopWhereTheyFail) {
   const std::string path = folder() + "bad.geotherm";
   write(path, "open " + small_model() + "\nsource set 99999999\nsave log " + folder() + "x.log\n");

@@ -143,7 +143,9 @@ TEST_F(CanvasMouse, ControlAndClickPicksAPoint) {
   EXPECT_TRUE(only<app::command::Pick>().point);
 }
 
-TEST_F(CanvasMouse, DoubleClickSetsOneSourceAndThenTheCentre) {
+TEST_F(CanvasMouse, DoubleClickSetsTheCentreAndGivesTheSourcesBack) {
+  run("source set 3 5");
+  sent();
   const ImVec2 at = seen(0.25, 0.6);
   wait();
   move(at.x, at.y);
@@ -152,9 +154,10 @@ TEST_F(CanvasMouse, DoubleClickSetsOneSourceAndThenTheCentre) {
   press();
   release();
   const Texts texts = sent();
-  ASSERT_EQ(texts.size(), 2U) << ::testing::PrintToString(texts);
-  EXPECT_EQ(texts[0].rfind("source set", 0), 0U);
-  const auto command = app::parse_command(texts[1]);
+  ASSERT_EQ(texts.size(), 3U) << ::testing::PrintToString(texts);
+  EXPECT_EQ(texts[0].rfind("source set face:", 0), 0U);
+  EXPECT_EQ(texts[1], "source set 3 5");
+  const auto command = app::parse_command(texts[2]);
   const auto* centre = std::get_if<app::command::Centre>(&*command);
   ASSERT_TRUE(centre);
   EXPECT_NEAR(centre->x, 0.25, 1e-3);

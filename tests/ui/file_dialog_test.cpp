@@ -175,8 +175,10 @@ TEST_F(FileDialogTest, SavesThePictureInItsSize) {
   click_item("Files/as shown");
   fill("Files/width", "640");
   fill("Files/height", "480");
+  click_item("Files/panels");
   click_item("Files/accept");
-  EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.png").string() + " 640x480"});
+  EXPECT_EQ(sent(),
+            Texts{"save picture " + (folder() / "square.png").string() + " 640x480 panels"});
 }
 
 TEST_F(FileDialogTest, SavesThePictureAsShownWithPanels) {

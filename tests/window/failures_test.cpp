@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -21,7 +22,9 @@ TEST_F(Trouble, FileThatCannotBeOpenedLeavesTheModel) {
   start({"bunny"});
   run({"save picture before.png", "open missing.obj", "save picture after.png",
        "save session s.geotherm"});
-  EXPECT_EQ(lines_of(path("s.geotherm")), std::vector<std::string>{"open bunny"});
+  const std::vector<std::string> session = lines_of(path("s.geotherm"));
+  EXPECT_EQ(std::count(session.begin(), session.end(), "open bunny"), 1);
+  EXPECT_EQ(std::count(session.begin(), session.end(), "open missing.obj"), 0);
   EXPECT_EQ(share_that_differs(picture_in(path("before.png")), picture_in(path("after.png"))), 0);
   quit();
 }

@@ -30,7 +30,7 @@ std::vector<Place> places_in(const std::vector<std::string>& lines) {
 }
 
 TEST_F(Mouse, MovesTheCameraAsTheTableOfKeysSays) {
-  start({"bunny", "--azimuth", "20", "--elevation", "10"});
+  start({"bunny", "--azimuth", "100", "--elevation", "10"});
   // Of movements in a row the log keeps the end: another command stands between each two.
   drag(kBody, {kBody.x + 60, kBody.y + 30});
   press("2");
@@ -48,7 +48,7 @@ TEST_F(Mouse, MovesTheCameraAsTheTableOfKeysSays) {
   const auto& [turned, zoomed, shifted, moved, closer, farther] =
       std::tie(places[0], places[1], places[2], places[3], places[4], places[5]);
 
-  EXPECT_LT(turned.azimuth, 20);
+  EXPECT_LT(turned.azimuth, 100);
   EXPECT_GT(turned.elevation, 10);
   EXPECT_EQ(turned.zoom, 1);
   EXPECT_EQ(turned.right, 0);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/window/played_window.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -75,9 +73,12 @@ void PlayedWindow::SetUp() {
   }
 }
 
-void PlayedWindow::start(std::vector<std::string> arguments) {
+void PlayedWindow::start(std::vector<std::string> arguments, int samples) {
   arguments.insert(arguments.begin(), "view");
-  arguments.emplace_back("--validation");
+  for (const std::string& word :
+       {std::string("--validation"), std::string("--samples"), std::to_string(samples)}) {
+    arguments.push_back(word);
+  }
   program_.emplace(path("."), arguments);
   const bool seen = eventually([this] {
     window_ = output_of("xdotool search --onlyvisible --class geotherm 2> /dev/null");
@@ -85,8 +86,8 @@ void PlayedWindow::start(std::vector<std::string> arguments) {
   });
   ASSERT_TRUE(seen) << "no window";
   ASSERT_TRUE(program_->runs()) << program_->end().err;
-  // The start uses much more than this.
-  program_->notice(0, ::sysconf(_SC_CLK_TCK) / 4);
+  EXPECT_TRUE(eventually([this] { return *display_->screen().at(kPanel.x, kPanel.y) > 0; }))
+      << "nothing is drawn";
   settle();
 }
 

@@ -26,8 +26,9 @@ class PlayedWindow : public testing::Test {
  protected:
   void SetUp() override;
 
-  /// Starts the program, with validation, and waits until it has drawn its first picture.
-  void start(std::vector<std::string> arguments);
+  /// Starts the program, with validation, and waits until it has drawn its first picture. One
+  /// sample a pixel is drawn fastest.
+  void start(std::vector<std::string> arguments, int samples = 1);
   /// Ctrl+Q: it ends without a word.
   void quit();
 

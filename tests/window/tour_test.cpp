@@ -108,7 +108,7 @@ class Tour : public PlayedWindow {
 };
 
 TEST_F(Tour, LeadsToTheSamePictureOnScreenInAFileAndReplayed) {
-  start({});
+  start({}, 4);
   explore();
   paint();
   for (const auto& [width, height] : {std::pair(900, 700), {1001, 563}, {1280, 800}, {1160, 770}}) {

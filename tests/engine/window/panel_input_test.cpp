@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
 
+#include <chrono>
+#include <thread>
+#include <utility>
+#include <vector>
+
 #include "tests/engine/window/window_fixture.h"
 
 namespace geotherm::test {
@@ -60,7 +65,61 @@ TEST_F(PanelInputs, FollowTheMouse) {
   xdotool("mouseup 1");
   EXPECT_TRUE(eventually_in_a_frame([&] { return !io().MouseDown[0]; }));
   xdotool("click 4");
-  EXPECT_TRUE(eventually([&] { return io().MouseWheel > 0; }));  // the frame's end clears it
+  EXPECT_TRUE(eventually([&] {
+    window_->begin_panels();
+    const bool turned = io().MouseWheel > 0;  // the frame's end clears it
+    ImGui::NewFrame();
+    ImGui::EndFrame();
+    return turned;
+  }));
+}
+
+/// What happens while a slow frame is drawn is seen in the frames that follow.
+TEST_F(PanelInputs, LoseNoKeyAndNoClickBetweenFrames) {
+  xdotool("mousemove 100 100 search --class geotherm windowfocus --sync");
+  while (window_->wait(0.2)) {
+  }
+  frame();
+  xdotool("mousemove 120 110 click 1 mousemove 300 200 key F5 click 1");
+  ASSERT_TRUE(eventually([&] {
+    window_->wait(0.05);
+    return window_->has_more_input();
+  }));
+  while (window_->wait(0.2)) {
+  }
+  constexpr int kF5 = 294;
+  std::vector<std::pair<float, float>> clicks;
+  int presses = 0;
+  for (int i = 0; i < 20; ++i) {
+    frame();
+    if (io().MouseClicked[0]) clicks.emplace_back(io().MousePos.x, io().MousePos.y);
+    presses += ImGui::IsKeyPressed(kF5, false) ? 1 : 0;
+  }
+  EXPECT_EQ(clicks, (std::vector<std::pair<float, float>>{{120, 110}, {300, 200}}));
+  EXPECT_EQ(presses, 1);
+  EXPECT_FALSE(io().MouseDown[0]);
+  EXPECT_FALSE(window_->has_more_input());
+}
+
+TEST_F(PanelInputs, KnowADoubleClickHoweverSlowTheFramesAre) {
+  xdotool("mousemove 100 100");
+  while (window_->wait(0.2)) {
+  }
+  frame();
+  xdotool("click --repeat 2 --delay 60 1");
+  ASSERT_TRUE(eventually([&] {
+    window_->wait(0.05);
+    return window_->has_more_input();
+  }));
+  while (window_->wait(0.2)) {
+  }
+  bool twice = false;
+  for (int i = 0; i < 6; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(250));  // a slow frame
+    frame();
+    twice |= io().MouseDoubleClicked[0];
+  }
+  EXPECT_TRUE(twice);
 }
 
 TEST_F(PanelInputs, ReadTheKeyboard) {
