@@ -79,6 +79,9 @@ void take_drop(Frame& frame) {
 
 void rotate(Frame& frame) {
   if (!frame.state().rotating || frame.ui.input.is_dragging()) return;
+  for (const app::Command& command : frame.out.commands) {
+    if (std::holds_alternative<app::command::Rotate>(command)) return;  // it ends in this frame
+  }
   const double seconds = std::min<double>(ImGui::GetIO().DeltaTime, kLongestFrame);
   frame.send(app::command::Orbit{kTurnPerSecond * seconds, 0});
 }

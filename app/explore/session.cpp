@@ -69,6 +69,7 @@ Session::~Session() = default;
 void Session::State::note(LogLine::Kind kind, std::string text) {
   if (log.size() >= kMostLogLines) log.erase(log.begin(), log.begin() + kMostLogLines / 4);
   log.push_back({kind, std::move(text)});
+  last_logged_merges = kind == LogLine::Kind::kCommand;
 }
 
 void Session::State::step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to) {
@@ -145,11 +146,12 @@ Result<void> Session::State::submit(const Command& command, const Session& sessi
     note(LogLine::Kind::kNote, "not written: " + to_text(command));
     return {};
   }
+  const bool said = writes(command) || std::holds_alternative<command::Compare>(command);
+  if (said) note(LogLine::Kind::kCommand, to_text(command));  // before what it has to say
   auto done = perform(command, session);
   if (!done) {
-    note(LogLine::Kind::kCommand, to_text(command));
+    if (!said) note(LogLine::Kind::kCommand, to_text(command));
     note(LogLine::Kind::kError, done.error().message);
-    last_logged_merges = false;
     return done;
   }
   if (const auto* run = std::get_if<command::Run>(&command)) {
@@ -160,10 +162,9 @@ Result<void> Session::State::submit(const Command& command, const Session& sessi
     const bool merged = commands.add(command, state);
     if (merged && last_logged_merges) {
       log.back().text = commands.last_line();
-    } else {
+    } else if (!said) {
       note(LogLine::Kind::kCommand, commands.last_line());
     }
-    last_logged_merges = true;
   }
   return {};
 }
@@ -252,10 +253,7 @@ void Session::set_dragging(bool dragging) {
   state_->refresh();
 }
 
-void Session::say(LogLine::Kind kind, std::string text) {
-  state_->note(kind, std::move(text));
-  state_->last_logged_merges = false;
-}
+void Session::say(LogLine::Kind kind, std::string text) { state_->note(kind, std::move(text)); }
 
 const ViewerState& Session::state() const { return state_->state; }
 const Explored& Session::explored() const { return state_->explored; }

@@ -57,7 +57,6 @@ void Session::State::refresh() {
   const ExploreRequest request = wanted();
   if (requested && requested->covers(request)) return;
   start(request);
-  last_logged_merges = false;  // answers stand between this command and the next
 }
 
 void Session::State::start(const ExploreRequest& request) {

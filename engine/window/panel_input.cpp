@@ -10,6 +10,7 @@ namespace {
 
 using Kind = PanelEvent::Kind;
 
+constexpr int kRepeat = 2;  // GLFW's action of a key that is held
 /// Between the presses of a double click.
 constexpr std::chrono::milliseconds kDoubleClick{400};
 
@@ -18,6 +19,11 @@ bool is_typed(const PanelEvent& event) {
   constexpr int kFirst = 32, kLast = 126;
   const ImGuiIO& io = ImGui::GetIO();
   return event.code >= kFirst && event.code <= kLast && !io.KeyCtrl && !io.KeyAlt && !io.KeySuper;
+}
+
+bool is_modifier(const PanelEvent& event) {
+  constexpr int kLeftShift = 340, kRightSuper = 347;  // GLFW's numbers, all modifiers between them
+  return event.code >= kLeftShift && event.code <= kRightSuper;
 }
 
 }  // namespace
@@ -43,16 +49,22 @@ PanelInput::~PanelInput() {
 bool PanelInput::take(const PanelEvent& event) {
   switch (event.kind) {
     case Kind::kKey: {
+      // What follows a key may change what it means: Ctrl that is let go.
+      if (key_changed_) return false;
       const bool known = event.code >= 0 && event.code < kKeys;
       if (known && !is_typed(event)) {
         if (keys_changed_[static_cast<std::size_t>(event.code)]) return false;
         keys_changed_.set(static_cast<std::size_t>(event.code));
+        key_changed_ = !is_modifier(event);
       }
+      repeats_ = event.action == kRepeat;
       ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scan_code, event.action,
                                  event.modifiers);
       return true;
     }
     case Kind::kCharacter:
+      // A key that is held writes on in a field; what it switches is switched once.
+      if (repeats_ && !ImGui::GetIO().WantTextInput) return true;
       ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned>(event.code));
       return true;
     case Kind::kButton: {
@@ -93,6 +105,7 @@ bool PanelInput::take(const PanelEvent& event) {
 void PanelInput::begin() {
   ImGui_ImplGlfw_NewFrame();
   button_changed_ = false;
+  key_changed_ = false;
   keys_changed_.reset();
   while (!events_.empty() && take(events_.front())) events_.pop_front();
   ImGuiIO& io = ImGui::GetIO();

@@ -52,7 +52,9 @@ class PanelInput {
   std::array<std::chrono::steady_clock::time_point, kButtons> pressed_{};
   double x_ = 0, y_ = 0;
   bool inside_ = false;
+  bool repeats_ = false;               // the last key event was of a key that is held
   bool button_changed_ = false;        // in this frame
+  bool key_changed_ = false;           // in this frame, other than modifiers
   std::bitset<kKeys> keys_changed_{};  // in this frame
 };
 

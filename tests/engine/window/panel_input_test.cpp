@@ -101,6 +101,24 @@ TEST_F(PanelInputs, LoseNoKeyAndNoClickBetweenFrames) {
   EXPECT_FALSE(window_->has_more_input());
 }
 
+TEST_F(PanelInputs, SeeAKeyTogetherWithItsModifier) {
+  xdotool("mousemove 100 100 search --class geotherm windowfocus --sync");
+  while (window_->wait(0.2)) {
+  }
+  frame();
+  for (const char* delay : {"0", "15", "60"}) {
+    xdotool(std::string("key --delay ") + delay + " ctrl+q");
+    int seen = 0;
+    for (int i = 0; i < 40; ++i) {
+      window_->wait(0.01);
+      frame();
+      seen += io().KeyCtrl && ImGui::IsKeyPressed('Q', false) ? 1 : 0;
+    }
+    EXPECT_EQ(seen, 1) << delay;
+    EXPECT_FALSE(io().KeyCtrl);
+  }
+}
+
 TEST_F(PanelInputs, KnowADoubleClickHoweverSlowTheFramesAre) {
   xdotool("mousemove 100 100");
   while (window_->wait(0.2)) {
