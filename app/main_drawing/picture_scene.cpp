@@ -151,8 +151,7 @@ engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
 
 glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets) {
   const engine::Insets padded = with_margin(extent, insets);
-  return {(padded.left + extent.x - padded.right) / 2,
-          (padded.top + extent.y - padded.bottom) / 2};
+  return {(padded.left + extent.x - padded.right) / 2, (padded.top + extent.y - padded.bottom) / 2};
 }
 
 engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
