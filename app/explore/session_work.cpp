@@ -55,7 +55,11 @@ bool Session::State::works() {
 void Session::State::refresh() {
   if (state.model.empty()) return;
   const ExploreRequest request = wanted();
-  if (requested && requested->covers(request)) return;
+  if (requested && requested->covers(request)) {
+    // What is shown belongs to the state: a model that did not open is a matter of the log.
+    if (answered && answered->covers(request) && explored.b_failure.empty()) failure.clear();
+    return;
+  }
   start(request);
 }
 

@@ -25,19 +25,6 @@ std::vector<std::uint32_t> packed(const ColourTable& table) {
   return texels;
 }
 
-vk::raii::DescriptorPool make_pool(const vk::raii::Device& device) {
-  const std::array sizes = {vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
-                            vk::DescriptorPoolSize(vk::DescriptorType::eUniformTexelBuffer, 1),
-                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
-  return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
-}
-
-vk::raii::DescriptorSet make_set(const vk::raii::Device& device, const vk::DescriptorPool& pool,
-                                 const vk::DescriptorSetLayout& layout) {
-  vk::raii::DescriptorSets sets(device, {pool, layout});
-  return std::move(sets.front());
-}
-
 vk::SampleCountFlagBits sample_count(int samples) {
   assert(samples == 1 || samples == 4);
   return samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1;
@@ -63,8 +50,7 @@ FrameRecorder::FrameRecorder(std::shared_ptr<Device::State> device, int samples)
       colours_view_(device_->device,
                     {{}, *colours_.buffer, vk::Format::eR8G8B8A8Unorm, 0, VK_WHOLE_SIZE}),
       sampler_(make_sampler(device_->device, vk::Filter::eNearest)),
-      pool_(make_pool(device_->device)),
-      set_(make_set(device_->device, *pool_, pipelines_.set_layout())),
+      descriptors_(device_->device, pipelines_.set_layout()),
       panels_(device_, pipelines_.set_layout()) {
   set_atlas({});
 }
@@ -111,11 +97,12 @@ void FrameRecorder::write_descriptors() {
   const vk::DescriptorImageInfo atlas(*sampler_, *atlas_.view,
                                       vk::ImageLayout::eShaderReadOnlyOptimal);
   using Kind = vk::DescriptorType;
-  const std::array writes = {
-      vk::WriteDescriptorSet(*set_, shared::kFrameBinding, 0, Kind::eUniformBuffer, {}, frame),
-      vk::WriteDescriptorSet(*set_, shared::kColoursBinding, 0, Kind::eUniformTexelBuffer, {}, {},
-                             colours),
-      vk::WriteDescriptorSet(*set_, shared::kAtlasBinding, 0, Kind::eCombinedImageSampler, atlas)};
+  const std::array writes = {vk::WriteDescriptorSet(*descriptors_.set, shared::kFrameBinding, 0,
+                                                    Kind::eUniformBuffer, {}, frame),
+                             vk::WriteDescriptorSet(*descriptors_.set, shared::kColoursBinding, 0,
+                                                    Kind::eUniformTexelBuffer, {}, {}, colours),
+                             vk::WriteDescriptorSet(*descriptors_.set, shared::kAtlasBinding, 0,
+                                                    Kind::eCombinedImageSampler, atlas)};
   device_->device.updateDescriptorSets(writes, {});
 }
 
@@ -159,7 +146,8 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
   commands.setViewport(
       0, vk::Viewport(0, 0, static_cast<float>(extent.x), static_cast<float>(extent.y), 0, 1));
   commands.setScissor(0, picture_in(extent, frame.origin, scene.camera));
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0, *set_, {});
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0,
+                              *descriptors_.set, {});
 
   const glm::vec4& b = scene.background;
   const std::array<float, 4> background = {b.r * b.a, b.g * b.a, b.b * b.a, b.a};

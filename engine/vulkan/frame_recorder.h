@@ -9,6 +9,7 @@
 #include "engine/scene/colour_map.h"
 #include "engine/scene/draw_mesh.h"
 #include "engine/vulkan/attachments.h"
+#include "engine/vulkan/descriptors.h"
 #include "engine/vulkan/device_state.h"
 #include "engine/vulkan/panel_layer.h"
 #include "engine/vulkan/pipelines.h"
@@ -60,8 +61,7 @@ class FrameRecorder {
   std::vector<std::uint8_t> atlas_pixels_;  ///< what is in atlas_
   std::uint32_t index_count_ = 0, marker_count_ = 0, overlay_count_ = 0;
   std::uint32_t primary_count_ = 0, secondary_count_ = 0;
-  vk::raii::DescriptorPool pool_ = nullptr;
-  vk::raii::DescriptorSet set_ = nullptr;
+  Descriptors descriptors_;
   PanelLayer panels_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/vulkan/panel_layer.h"
 
-#include <array>
 #include <cassert>
 
 #include "engine/vulkan/upload.h"
@@ -9,20 +8,6 @@
 
 namespace geotherm::engine {
 namespace {
-
-vk::raii::DescriptorPool make_pool(const vk::raii::Device& device) {
-  // The layout is that of all pipelines; panels read the image alone.
-  const std::array sizes = {vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, 1),
-                            vk::DescriptorPoolSize(vk::DescriptorType::eUniformTexelBuffer, 1),
-                            vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, 1)};
-  return {device, {vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes}};
-}
-
-vk::raii::DescriptorSet make_set(const vk::raii::Device& device, const vk::DescriptorPool& pool,
-                                 const vk::DescriptorSetLayout& layout) {
-  vk::raii::DescriptorSets sets(device, {pool, layout});
-  return std::move(sets.front());
-}
 
 /// The pixels of the target whose centres lie in the rectangle.
 vk::Rect2D scissor_of(const glm::vec4& clip, glm::vec2 extent) {
@@ -39,8 +24,7 @@ PanelLayer::PanelLayer(std::shared_ptr<Device::State> device, vk::DescriptorSetL
     : device_(std::move(device)),
       // Thin lines are drawn as quads over a ramp in the image, between whole pixels.
       sampler_(make_sampler(device_->device, vk::Filter::eLinear)),
-      pool_(make_pool(device_->device)),
-      set_(make_set(device_->device, *pool_, layout)) {}
+      descriptors_(device_->device, layout) {}
 
 void PanelLayer::set_font(const PanelFont& font) {
   if (*font_.image && font.version == version_) return;
@@ -50,7 +34,7 @@ void PanelLayer::set_font(const PanelFont& font) {
   version_ = font.version;
   const vk::DescriptorImageInfo image(*sampler_, *font_.view,
                                       vk::ImageLayout::eShaderReadOnlyOptimal);
-  const vk::WriteDescriptorSet write(*set_, shared::kAtlasBinding, 0,
+  const vk::WriteDescriptorSet write(*descriptors_.set, shared::kAtlasBinding, 0,
                                      vk::DescriptorType::eCombinedImageSampler, image);
   device_->device.updateDescriptorSets(write, {});
 }
@@ -73,7 +57,8 @@ void PanelLayer::record(const vk::raii::CommandBuffer& commands, Pipelines& pipe
                         glm::ivec2 extent) {
   if (empty()) return;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines.panels());
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0, *set_, {});
+  commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines.layout(), 0,
+                              *descriptors_.set, {});
   commands.bindVertexBuffers(0, *vertices_.buffer, {0});
   commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint16);
   commands.pushConstants<shared::PanelPush>(pipelines.layout(), Pipelines::kPushStages, 0,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/overlay/panel_draw.h"
+#include "engine/vulkan/descriptors.h"
 #include "engine/vulkan/device_state.h"
 #include "engine/vulkan/pipelines.h"
 
@@ -14,7 +15,7 @@ class PanelLayer {
   PanelLayer(std::shared_ptr<Device::State> device, vk::DescriptorSetLayout layout);
 
   void set_font(const PanelFont& font);
-  /// What the next frame shows; null: nothing. Precondition: set_font() where there is something.
+  /// What the next frame shows; null: nothing. Without a font nothing is shown.
   void prepare(const PanelDraw* panels);
   bool empty() const { return commands_.empty(); }
   /// Within a rendering to the target; leaves the scissor changed.
@@ -28,8 +29,7 @@ class PanelLayer {
   std::uint64_t version_ = 0;  ///< of font_, where there is one
   Buffer vertices_, indices_;
   std::vector<PanelDraw::Command> commands_;
-  vk::raii::DescriptorPool pool_;
-  vk::raii::DescriptorSet set_;
+  Descriptors descriptors_;
 };
 
 }  // namespace geotherm::engine
