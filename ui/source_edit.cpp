@@ -5,15 +5,12 @@
 #include <limits>
 
 #include "app/source_spec.h"
-#include "ui/number.h"
 
 namespace geotherm::ui {
 
 std::string point_text(const SurfacePoint& point) {
-  if (point.is_vertex()) return exact(point.vertex);
-  std::string text = "face:" + exact(point.face);
-  for (const double weight : point.weights) text += ":" + exact(weight);
-  return text;
+  if (point.is_vertex()) return app::to_text(app::SourceSpec(app::VertexList{{point.vertex}}));
+  return app::to_text(app::SourceSpec(app::FacePoint{point.face, point.weights}));
 }
 
 std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces) {
@@ -28,14 +25,6 @@ std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, In
   const auto* point = std::get_if<app::FacePoint>(&*spec);
   if (!point || point->face < 0 || point->face >= faces) return std::nullopt;
   return SurfacePoint::in_face(point->face, point->weights);
-}
-
-Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
-  if (point.is_vertex()) return mesh.positions()[point.vertex];
-  Vec3 position = Vec3::Zero();
-  const Face& face = mesh.faces()[point.face];
-  for (std::size_t k = 0; k < 3; ++k) position += point.weights[k] * mesh.positions()[face[k]];
-  return position;
 }
 
 Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {

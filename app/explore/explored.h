@@ -57,7 +57,6 @@ struct Explored {
   };
   std::shared_ptr<const Difference> difference;
   std::string b_failure;      ///< why there is no B although settings are kept; empty: none
-  bool has_fields = false;    ///< the answers hold u
   std::uint64_t version = 0;  ///< another one with every change
 };
 

@@ -15,8 +15,6 @@
 namespace geotherm::app {
 namespace {
 
-Error cancelled() { return {ErrorCode::kCancelled, "the work was cancelled"}; }
-
 std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const Answer& b) {
   auto difference = std::make_shared<Explored::Difference>();
   difference->largest = a.distance.max;
@@ -120,7 +118,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
-  if (!report(progress, "inspecting", -1)) return cancelled();
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
   model->warnings = model->model.notes;
   for (std::string& warning : mesh_warnings(model->mesh)) {
@@ -173,7 +171,7 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(
     const std::vector<std::string>& source_warnings, const Progress& progress) {
   std::optional<Method>& mine = is_b ? b_ : a_;
   if (auto ready = prepare(options, mine, is_b ? a_ : b_, progress); !ready) return ready.error();
-  if (!report(progress, "solve", -1)) return cancelled();
+  if (!report(progress, "solve", -1)) return cancelled_error();
   QueryOptions query;
   query.fields = request.fields;
   query.quality = request.quality;
@@ -197,7 +195,6 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;
-  explored.has_fields = request.fields;
   if (request.sources.empty()) return explored;
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();

@@ -19,26 +19,24 @@ Error not_yet(const char* what) {
                                     " yet; open a model, give it a source and wait for the answer"};
 }
 
-/// Writes beside and renames; never over the model.
-Result<void> write_beside(const std::string& model, const std::string& path, const char* command,
-                          const std::function<Result<void>()>& write) {
+/// The file of a command, never standard output and never the model.
+Result<Outputs> output_file(const std::string& model, const std::string& path,
+                            const char* command) {
   if (path == "-") {
     return Error{ErrorCode::kBadInput, std::string(command) + ": give the name of a file, not -"};
   }
   Outputs outputs;
   if (!is_bundled(model)) outputs.protect(model, "the model itself");
-  if (auto expected = outputs.expect(path, command); !expected) return expected;
-  return outputs.write(path, write);
+  if (auto expected = outputs.expect(path, command); !expected) return expected.error();
+  return outputs;
 }
 
 Result<void> write_text(const std::string& model, const std::string& path, const char* command,
                         const std::string& text) {
+  auto outputs = output_file(model, path, command);
+  if (!outputs) return outputs.error();
   std::string unused;
-  if (path == "-") return write_beside(model, path, command, {});
-  Outputs outputs;
-  if (!is_bundled(model)) outputs.protect(model, "the model itself");
-  if (auto expected = outputs.expect(path, command); !expected) return expected;
-  return outputs.write_text(path, text, unused);
+  return outputs->write_text(path, text, unused);
 }
 
 Result<void> save_distances(const command::SaveDistances& save, const Session& session) {
@@ -49,9 +47,10 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
   const bool difference = session.state().shown == Shown::kDifference && explored.difference;
   const std::vector<double>& values =
       difference ? explored.difference->values : answer->result.distances;
-  return write_beside(session.state().model, save.path, "save distances", [&] {
-    return write_distances(save.path, *explored.model->model.mesh, values);
-  });
+  auto outputs = output_file(session.state().model, save.path, "save distances");
+  if (!outputs) return outputs.error();
+  return outputs->write(
+      save.path, [&] { return write_distances(save.path, *explored.model->model.mesh, values); });
 }
 
 Result<void> save_figures(const command::SaveFigures& save, const Session& session) {

@@ -30,13 +30,6 @@ Names none() { return {}; }
 Names switches() { return {"on", "off"}; }
 Text switch_text(bool on) { return on ? "on" : "off"; }
 
-Text range_text(const PictureSettings& s) {
-  const auto end = [](const std::optional<double>& value) {
-    return value ? number_text(*value) : Text();
-  };
-  return s.range_min || s.range_max ? end(s.range_min) + ":" + end(s.range_max) : "auto";
-}
-
 Result<void> set_range(State& s, const Text& text) {
   Range range;
   if (auto stored = store(parse_range(text), range); !stored) return stored;

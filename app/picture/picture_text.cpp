@@ -59,13 +59,6 @@ Result<Value> value_of(const Named<Value> (&all)[N], std::string_view text, cons
 
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
 
-std::string range_in_words(const PictureSettings& s) {
-  const auto end = [](const std::optional<double>& value) {
-    return value ? number_text(*value) : std::string();
-  };
-  return s.range_min || s.range_max ? end(s.range_min) + ":" + end(s.range_max) : "auto";
-}
-
 }  // namespace
 
 std::string to_text(View view) { return name_of(kViews, view); }
@@ -85,6 +78,13 @@ std::vector<std::string> light_names() { return names_of(kLights); }
 std::vector<std::string> background_names() { return names_of(kBackgrounds); }
 std::vector<std::string> fit_names() { return names_of(kFits); }
 
+std::string range_text(const PictureSettings& s) {
+  const auto end = [](const std::optional<double>& value) {
+    return value ? number_text(*value) : std::string();
+  };
+  return s.range_min || s.range_max ? end(s.range_min) + ":" + end(s.range_max) : "auto";
+}
+
 std::string centre_text(const CameraSettings& camera) {
   if (!camera.centre) return "auto";
   const auto& [x, y, z] = *camera.centre;
@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, std::string>> settings_in_words(const Picture
           {"samples", std::to_string(s.samples)},
           {"colour-map", s.colour_map},
           {"reverse", yes_or_no(s.reverse)},
-          {"range", range_in_words(s)},
+          {"range", range_text(s)},
           {"spacing", s.line_spacing ? number_text(*s.line_spacing) : "auto"},
           {"light", to_text(s.light)},
           {"background", to_text(s.background)},

@@ -29,6 +29,9 @@ std::vector<std::string> light_names();
 std::vector<std::string> background_names();
 std::vector<std::string> fit_names();
 
+/// "0:2.5", one end left out where the data decide it, or "auto" where they decide both.
+std::string range_text(const PictureSettings& settings);
+
 /// "0:1.5:-2", or "auto" where the middle of the model is the centre.
 std::string centre_text(const CameraSettings& camera);
 
