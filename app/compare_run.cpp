@@ -84,7 +84,7 @@ class Runner {
     iterative_ = backend && (*backend)->iterative();
     Answers answers = ask_each(*method, row);
     if (row.status == "ok") ask_batch(*method, row);
-    row.factor_mb = method->factor_mb();
+    row.factor_mb = method->memory_mb();
     row.peak_rss_mb = peak_rss_mb();
     return answers;
   }

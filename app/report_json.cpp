@@ -135,7 +135,7 @@ Json solve_json(const SolveFigures& f) {
                  {"gradient", query.gradient},
                  {"poisson", query.poisson},
                  {"query", query.query}}},
-               {"memory_mb", {{"factor", f.method.factor_mb()}, {"peak_rss", f.peak_rss_mb}}},
+               {"memory_mb", {{"factor", f.method.memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
                {"quality", quality_json(f.result.quality)},
                {"warnings", f.warnings}});
   return json;

@@ -104,7 +104,7 @@ std::string solve_table(const SolveFigures& f) {
   table.add_row({"query", ms(query.query) + " = heat " + milliseconds(query.diffuse) +
                               " + gradient " + milliseconds(query.gradient) + " + Poisson " +
                               milliseconds(query.poisson)});
-  table.add_row({"memory", mb(f.method.factor_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
+  table.add_row({"memory", mb(f.method.memory_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
   table.add_row({"distance", distance_in_words(f.distance, f.mesh.vertices)});
   table.add_row({"gradient", "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) +
                                  " on average, " + counted(q.zero_gradient_faces, "face", "faces") +

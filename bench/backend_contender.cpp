@@ -41,7 +41,7 @@ class BackendContender final : public Contender {
     return {};
   }
 
-  double factor_mb() const override { return method_->factor_mb(); }
+  double memory_mb() const override { return method_->memory_mb(); }
 
  private:
   /// Other libraries compute no quality figures.

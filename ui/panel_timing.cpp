@@ -80,7 +80,7 @@ void draw_timing_panel(Frame& frame) {
   draw_query(frame, answer->result.timing);
   draw_query_plot(frame);
   draw_heading(frame, "Memory");
-  draw_value(frame, "factors", app::significant(answer->method.factor_mb(), 3), "MB",
+  draw_value(frame, "factors", app::significant(answer->method.memory_mb(), 3), "MB",
              "Of all factors of the answer that is shown.");
   draw_value(frame, "program, peak", app::grouped(static_cast<std::int64_t>(peak_mb(frame))), "MB",
              "The most that the program has held so far.");

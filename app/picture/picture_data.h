@@ -10,7 +10,7 @@
 
 #include "solver/core/types.h"
 #include "solver/geometry/mesh_report.h"
-#include "solver/heat/distance_result.h"
+#include "solver/method/distance_result.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -42,6 +42,15 @@ struct PictureData {
     Vector from, to;
   };
   std::vector<Segment> sources;  ///< points (both ends the same) and pieces of curves
+
+  std::vector<Index> nearest;  ///< V: group of the nearest source, or kNoIndex; empty: not known
+  /// A line on the surface.
+  struct Line {
+    std::vector<Vector> points;
+    std::array<float, 3> colour{};  ///< sRGB
+    std::string name;               ///< in the legend; the same name stands there once
+  };
+  std::vector<Line> lines;
 
   std::string caption;      ///< model, faces, t, backend
   std::string value_title;  ///< over the colour bar

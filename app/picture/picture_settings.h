@@ -7,7 +7,7 @@
 
 namespace geotherm::app {
 
-/// The report's seven views, in the order of their keys 1 to 7.
+/// The report's seven views, in the order of their keys 1 to 7, and those beyond them.
 enum class View {
   kWireframe,
   kFlat,
@@ -16,6 +16,8 @@ enum class View {
   kHeatGradient,   ///< X in black
   kGradientError,  ///< X in black, grad phi in blue, scaled by the angle between both
   kContours,
+  kExactError,  ///< d - d_exact with a diverging map
+  kRegions,     ///< a colour for each source, where it is the nearest (geodesic Voronoi cells)
 };
 
 enum class PictureLight { kThreePoint, kHeadlight, kNone };

@@ -182,13 +182,6 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   return out_of_memory("factorisation", state_->surface->mesh->face_count(), backend_name(options));
 }
 
-Result<DistanceResult> HeatMethod::solve(const SourceSet& sources, const QueryOptions& query,
-                                         const Progress& progress) const {
-  auto results = solve_each({&sources, 1}, query, progress);
-  if (!results) return results.error();
-  return std::move(results->front());
-}
-
 Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
                                                            const QueryOptions& query,
                                                            const Progress& progress) const try {
@@ -208,7 +201,7 @@ double HeatMethod::t() const { return state_->t; }
 LaplacianKind HeatMethod::laplacian() const { return state_->surface->laplacian; }
 Index HeatMethod::flips() const { return static_cast<Index>(state_->surface->flips.size()); }
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }
-double HeatMethod::factor_mb() const {
+double HeatMethod::memory_mb() const {
   const std::int64_t bytes = state_->heat->stats().bytes + state_->poisson->stats().bytes;
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
 }

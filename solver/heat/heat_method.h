@@ -8,18 +8,12 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-#include "solver/heat/distance_result.h"
 #include "solver/heat/heat_options.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
+#include "solver/method/distance_method.h"
 
 namespace geotherm {
-
-/// What a query computes beside the distances.
-struct QueryOptions {
-  bool quality = true;  ///< the quality figures: two matrix products and a pass over the faces
-  bool fields = false;  ///< u (DistanceResult::heat and log_heat)
-};
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013): solve
 /// (A + t L) u = u0, take X = -grad u / |grad u| on each face, solve L phi = div-form of X.
@@ -35,7 +29,7 @@ struct QueryOptions {
 /// faces. A query asks between its steps, and within an iterative backend every few milliseconds.
 /// Calls come from any thread of the work, one at a time, and none after the first that returned
 /// false. What was cancelled leaves no trace: the method answers as before.
-class HeatMethod {
+class HeatMethod final : public DistanceMethod {
  public:
   /// Errors: kNotAvailable (backend), kBadInput (options, a mesh without area), kNumericalFailure
   /// (with the column or residual), kOutOfMemory, kCancelled.
@@ -45,23 +39,22 @@ class HeatMethod {
   /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake.
   Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
 
-  /// Distance to the nearest source. Errors: kBadInput (no source, a vertex or face out of range,
-  /// weights that are negative or do not sum to 1), kBudgetEnded, kNumericalFailure, kCancelled.
-  Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query = {},
-                               const Progress& progress = {}) const;
+  MethodKind kind() const override { return MethodKind::kHeat; }
 
-  /// One result per source set, as one blocked solve.
+  /// As one blocked solve. Quality costs two matrix products and a pass over the faces. Offsets of
+  /// sources are refused (kBadInput).
   Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
                                                  const QueryOptions& query = {},
-                                                 const Progress& progress = {}) const;
+                                                 const Progress& progress = {}) const override;
 
   const HeatOptions& options() const;
   double t() const;                                  ///< diffusion time, model units squared
   LaplacianKind laplacian() const;                   ///< what kAuto became
   Index flips() const;                               ///< Delaunay edge flips made
-  const SetupTiming& timing() const;                 ///< of build() or of the with() that made this
-  double factor_mb() const;                          ///< memory of all factors, in 2^20 bytes
-  const std::vector<std::string>& warnings() const;  ///< about mesh and options, one sentence each
+  const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
+  double memory_mb() const override;           ///< of all factors
+  const std::vector<std::string>& warnings() const override;
+  const HeatMethod* heat() const override { return this; }
 
  private:
   struct State;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/core/result.h"
-#include "solver/heat/distance_result.h"
+#include "solver/method/distance_result.h"
 #include "solver/heat/heat_options.h"
 #include "solver/heat/quality.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solver/heat/diffuse.h"
-#include "solver/heat/distance_result.h"
+#include "solver/method/distance_result.h"
 #include "solver/heat/source_anchors.h"
 
 namespace geotherm {

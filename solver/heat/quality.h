@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/heat/diffuse.h"
-#include "solver/heat/distance_result.h"
+#include "solver/method/distance_result.h"
 #include "solver/heat/source_anchors.h"
 #include "solver/heat/unit_field.h"
 

@@ -25,6 +25,7 @@ struct SurfacePoint {
 struct SourceSet {
   std::vector<SurfacePoint> points;
   std::vector<std::array<Index, 2>> edges;
+  std::vector<double> offsets;  ///< of the points: distance there, >= 0, model units; empty: all 0
 
   static SourceSet of_vertices(const std::vector<Index>& vertices) {
     SourceSet set;
@@ -33,5 +34,14 @@ struct SourceSet {
   }
   bool empty() const { return points.empty() && edges.empty(); }
 };
+
+/// Numbers the sources for labels: points first, then edges, each as in the set. A point has a
+/// group of its own; edges that touch, and points that are their ends, are one group. Groups are
+/// numbered 0, 1, ... in the order in which they first stand.
+struct SourceGroups {
+  std::vector<Index> of_point, of_edge;
+  Index count = 0;
+};
+SourceGroups source_groups(const SourceSet& sources);
 
 }  // namespace geotherm

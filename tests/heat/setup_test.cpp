@@ -73,10 +73,10 @@ INSTANTIATE_TEST_SUITE_P(Zoo, SetupOfRegularMeshes, testing::ValuesIn(zoo(kRegul
 TEST(SetupMemory, IsReportedWhereThereIsAFactor) {
   const MeshPtr mesh = finish(sphere(3));
   for (const std::string& name : direct_backends()) {
-    EXPECT_GT(method_of(mesh, with_backend(name)).factor_mb(), 0) << name;
+    EXPECT_GT(method_of(mesh, with_backend(name)).memory_mb(), 0) << name;
   }
   for (const std::string& name : iterative_backends()) {
-    EXPECT_EQ(method_of(mesh, with_backend(name)).factor_mb(), 0) << name;
+    EXPECT_EQ(method_of(mesh, with_backend(name)).memory_mb(), 0) << name;
   }
 }
 

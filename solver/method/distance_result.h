@@ -44,7 +44,11 @@ struct DistanceResult {
   QueryTiming timing;
   std::vector<std::string> warnings;  ///< one sentence each
 
-  /// Only when asked for (QueryOptions::fields).
+  /// V: the group (source_groups) of the nearest source, kNoIndex where none can be; only when asked
+  /// for (QueryOptions::nearest) and from methods that carry it along: all but heat.
+  std::vector<Index> nearest_source;
+
+  /// Only when asked for (QueryOptions::fields), and only by the heat method.
   std::vector<double> heat;      ///< V: u, scaled so that its largest value is 1
   std::vector<double> log_heat;  ///< V: ln of that, right where `heat` underflows; -inf: u <= 0
 };

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "solver/method/method_kind.h"
+
+#include <array>
+#include <utility>
+
+namespace geotherm {
+namespace {
+
+constexpr std::array<std::pair<MethodKind, std::string_view>, 5> kMethods = {{
+    {MethodKind::kHeat, "heat"},
+    {MethodKind::kWavefront, "wavefront"},
+    {MethodKind::kWavefrontFine, "wavefront-fine"},
+    {MethodKind::kFastMarching, "fast-marching"},
+    {MethodKind::kExact, "exact"},
+}};
+
+}  // namespace
+
+std::string to_text(MethodKind kind) {
+  for (const auto& [value, name] : kMethods) {
+    if (value == kind) return std::string(name);
+  }
+  return {};
+}
+
+Result<MethodKind> parse_method(std::string_view text) {
+  std::string names;
+  for (const auto& [value, name] : kMethods) {
+    if (name == text) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return Error{ErrorCode::kNotAvailable,
+               "there is no method '" + std::string(text) + "'; there are " + names};
+}
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& [value, name] : kMethods) names.emplace_back(name);
+  return names;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "solver/core/types.h"
+#include "solver/mesh/surface_point.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// A polyline on the surface. Two points that follow each other lie in a common face.
+struct SurfacePath {
+  std::vector<SurfacePoint> points;  ///< n, of the mesh of the file; a closed path repeats its first
+  std::vector<Index> faces;          ///< n - 1: the face (of the file) that holds each piece
+  double length = 0;                 ///< model units
+  bool closed = false;
+};
+
+/// Positions of the points, model units.
+std::vector<Vec3> positions_of(const TriangleMesh& mesh, const SurfacePath& path);
+
+/// Sum of the lengths of the pieces, model units.
+double length_of(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points);
+
+}  // namespace geotherm
