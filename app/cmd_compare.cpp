@@ -7,8 +7,10 @@
 #include <algorithm>
 
 #include "app/compare_report.h"
+#include "app/method_words.h"
 #include "app/outputs.h"
 #include "app/resolve_sources.h"
+#include "app/solver_names.h"
 #include "app/text.h"
 #include "solver/linear/backend.h"
 
@@ -25,38 +27,39 @@ struct Plan {
   Index queries = 0;
 };
 
-Result<std::vector<std::string>> backends_in(const std::string& text) {
-  if (text == "all") return backend_names();
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string name(trimmed(std::string_view(text).substr(begin, end - begin)));
-    if (const auto backend = find_backend(name); !backend) {
-      return Error{ErrorCode::kNotAvailable, "--backends: " + backend.error().message};
-    }
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    begin = end + 1;
+bool is_in(const std::vector<MethodOptions>& solvers, const std::string& name) {
+  return std::ranges::any_of(
+      solvers, [&](const MethodOptions& solver) { return solver_name(solver) == name; });
+}
+
+/// The solvers that were asked for, the reference among them.
+Result<void> choose_solvers(const CompareArguments& arguments, const MethodOptions& options,
+                            CompareTask& task) {
+  const bool other = options.method != MethodKind::kHeat;
+  std::string names = arguments.backends;
+  if (other) names = to_text(options.method) + (names == "all" ? "" : "," + names);
+  auto solvers = solvers_named(names, options);
+  if (!solvers) {
+    return Error{ErrorCode::kNotAvailable, "--backends: " + solvers.error().message};
   }
-  return names;
+  task.solvers = *std::move(solvers);
+  task.reference =
+      arguments.reference.empty() ? solver_name(task.solvers.front()) : arguments.reference;
+  if (is_in(task.solvers, task.reference)) return {};
+  const auto reference = solvers_named(task.reference, options);
+  if (!reference) {
+    return Error{ErrorCode::kNotAvailable, "--reference: " + reference.error().message};
+  }
+  task.solvers.insert(task.solvers.begin(), reference->front());
+  return {};
 }
 
 /// Finds what is wrong with the command line before any work is done.
 Result<Plan> plan_of(const CompareArguments& arguments) {
   Plan plan;
-  const auto options = heat_options(arguments.heat);
+  const auto options = method_options(arguments.method);
   if (!options) return options.error();
-  plan.task.options = *options;
-  auto names = backends_in(arguments.backends);
-  if (!names) return names.error();
-  plan.task.backends = *std::move(names);
-  std::vector<std::string>& backends = plan.task.backends;
-  plan.task.reference = arguments.reference.empty() ? backends.front() : arguments.reference;
-  if (const auto found = find_backend(plan.task.reference); !found) {
-    return Error{ErrorCode::kNotAvailable, "--reference: " + found.error().message};
-  }
-  if (std::find(backends.begin(), backends.end(), plan.task.reference) == backends.end()) {
-    backends.insert(backends.begin(), plan.task.reference);
-  }
+  if (auto chosen = choose_solvers(arguments, *options, plan.task); !chosen) return chosen.error();
   const auto queries = number_in<Index>(arguments.queries);
   if (!queries || *queries < 1 || *queries > kMostQueries) {
     return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
@@ -140,7 +143,8 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
       ->required()
       ->type_name("");
   add("--backends,--backend", arguments.backends, "A,B",
-      "all (default), or some of " + joined(backend_names()));
+      "all (default: " + joined(backend_names()) +
+          "), or some of them and of wavefront, wavefront-fine, fast-marching, exact");
   add("--queries", arguments.queries, "N",
       "queries a backend, default 10; iterative backends stop after about 5 s");
   add("--reference", arguments.reference, "NAME",
@@ -150,11 +154,13 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   add("--html", arguments.html, "FILE", "table and chart as a page of its own");
   add_quiet_option(command, arguments.quiet);
   add_source_options(command, arguments.sources);
-  add_heat_options(command, arguments.heat);
+  add_method_options(command, arguments.method);
   command.footer(
       "Without sources each query starts at another vertex, chosen at random, the same in each "
       "run.\n"
-      "Example:\n  geotherm compare bunny terrain --backends all --csv table.csv");
+      "Errors are those against exact distances, or wavefront-fine on large meshes.\n"
+      "Examples:\n  geotherm compare bunny terrain --backends all --csv table.csv\n"
+      "  geotherm compare bunny --backends all,wavefront,fast-marching,exact");
 }
 
 Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progress& progress) {
@@ -176,7 +182,7 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
     if (!some) return some.error();
     rows.insert(rows.end(), some->begin(), some->end());
   }
-  note_unused_options(arguments.heat, plan->task.options, out.warnings);
+  note_unused_options(arguments.method, plan->task.solvers.front(), out.warnings);
   if (auto done = write_reports(arguments, rows, outputs, out); !done) return done.error();
   out.made = outputs.made();
   return out;

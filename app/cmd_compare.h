@@ -16,7 +16,7 @@ struct CompareArguments {
   std::string queries = "10";
   std::string reference;  ///< empty: the first of the backends
   SourceArguments sources;
-  HeatArguments heat;
+  MethodArguments method;
   std::string json, csv, html;
   bool quiet = false;
 };

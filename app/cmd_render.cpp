@@ -3,10 +3,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/error_check.h"
+#include "app/explore/explored_picture.h"
 #include "app/outputs.h"
 #include "app/picture/picture_text.h"
+#include "app/picture/target_paths.h"
 #include "app/picture/turntable.h"
 #include "app/picture_report.h"
+#include "app/progress_bar.h"
+#include "app/resolve_sources.h"
 #include "app/solve_model.h"
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
@@ -55,8 +60,34 @@ Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View v
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
+/// Adds the paths to one target; gives what is to be said about them.
+Result<std::vector<std::string>> draw_paths(const std::string& text, const SolveFigures& solved,
+                                            PictureData& data, const Progress& progress) {
+  auto spec = parse_source(text);
+  if (!spec) return Error{ErrorCode::kBadInput, "--path: " + spec.error().message};
+  if (!is_single_point(*spec)) {
+    return Error{ErrorCode::kBadInput, "--path: '" + one_line(text) +
+                                           "' is not one point; write a vertex id, "
+                                           "face:ID:b0:b1:b2 or xyz:x:y:z"};
+  }
+  const Source target{*std::move(spec), "--path " + one_line(text), ErrorCode::kBadInput};
+  const TriangleMesh& mesh = *solved.model.mesh;
+  auto placed = resolve_sources({&target, 1}, mesh);
+  if (!placed) return placed.error();
+  MethodOptions waves;
+  waves.method = MethodKind::kWavefront;
+  auto near_exact = build_method(solved.model.mesh, waves, progress);
+  if (!near_exact) return near_exact.error();
+  const TargetPathFinder finder(solved.model.mesh, *std::move(near_exact), solved.method);
+  auto found = finder.find(solved.sources, placed->set.points.front(), progress);
+  if (!found) return Error{found.error().code, target.where + ": " + found.error().message};
+  add_paths(data, mesh, found->paths);
+  placed->warnings.insert(placed->warnings.end(), found->warnings.begin(), found->warnings.end());
+  return placed->warnings;
+}
+
 /// Solves where sources are given, and fills the data.
-Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions& options,
+Result<PictureData> prepare(const RenderArguments& arguments, const MethodOptions& options,
                             const std::vector<Source>& sources, const Progress& progress,
                             PictureFigures& figures, std::vector<std::string>& warnings) {
   auto model = load_model(arguments.model, progress);
@@ -71,7 +102,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions&
 
   const View view = figures.settings.view;
   QueryOptions query;
-  query.fields = view == View::kHeatGradient || view == View::kGradientError;
+  query.fields = needs_fields(view);
+  query.nearest = view == View::kRegions;
   auto solved = solve_model(*std::move(model), options, sources, query, progress);
   if (!solved && (solved.error().code != ErrorCode::kBadFile || has_area(*mesh))) {
     return solved.error();
@@ -83,9 +115,22 @@ Result<PictureData> prepare(const RenderArguments& arguments, const HeatOptions&
                   std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
   }
-  warnings = solved->warnings;
   add_sources(data, *mesh, solved->sources);
   add_distances(data, solved->result.distances);
+  data.nearest = solved->result.nearest_source;
+  if (view == View::kExactError) {
+    auto report = check_error(mesh, options.method, solved->result.distances, solved->sources,
+                              options.threads, with_prefix(progress, "checking: "));
+    if (!report) return report.error();
+    add_error(data, report->values, error_title(*report));
+    solved->error = *std::move(report);
+  }
+  for (const std::string& target : arguments.targets) {
+    auto warned = draw_paths(target, *solved, data, progress);
+    if (!warned) return warned.error();
+    solved->warnings.insert(solved->warnings.end(), warned->begin(), warned->end());
+  }
+  warnings = solved->warnings;
   if (query.fields) {
     add_fields(data, *mesh, solved->result);
     data.solid = is_solid(*mesh, solved->mesh);
@@ -100,7 +145,7 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
   const int frames = frame_count(figures.settings);
   const auto announce = [&](int frame) -> Result<void> {
     if (report(progress, "drawing", static_cast<double>(frame) / frames)) return {};
-    return Error{ErrorCode::kCancelled, "the work was cancelled"};
+    return cancelled_error();
   };
   Stopwatch watch;
   const auto take_frame = [&](int frame, const DrawnPicture& picture) -> Result<void> {
@@ -150,14 +195,23 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
+  command
+      .add_option("--path", arguments.targets,
+                  "draws the paths from the nearest source to this point (17, face:ID:b0:b1:b2, "
+                  "xyz:x:y:z): geodesic, and the streamlines of distance and heat; may be repeated")
+      ->type_name("POINT")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.picture);
   add_source_options(command, arguments.sources);
-  add_backend_option(command, arguments.heat);
-  add_heat_options(command, arguments.heat);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
   command.footer(
       "Examples:\n"
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
+      "  geotherm render bunny -s 0 --path 2000 -o path.png\n"
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png");
 }
@@ -167,14 +221,23 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   const std::vector<std::string> colour_maps = drawing.colour_maps();
   const auto settings = picture_settings(arguments.picture, colour_maps);
   if (!settings) return settings.error();
-  const auto options = heat_options(arguments.heat);
+  const auto options = method_options(arguments.method);
   if (!options) return options.error();
+  if (needs_fields(settings->view) && options->method != MethodKind::kHeat) {
+    return Error{ErrorCode::kBadInput,
+                 "--view " + to_text(settings->view) + " shows the heat u, which --method " +
+                     to_text(options->method) + " has not; use --method heat or another view"};
+  }
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, *settings, outputs); !expected) {
     return expected.error();
   }
   const auto sources = sources_for(arguments, settings->view);
   if (!sources) return sources.error();
+  if (!arguments.targets.empty() && sources->empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--path: no source was given, so that no path leads there; add -s"};
+  }
   auto device = drawing.open(*settings);
   if (!device) return device.error();
 
@@ -189,7 +252,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   auto data = prepare(arguments, *options, *sources, progress, figures, out.warnings);
   if (!data) return data.error();
   if (figures.solve) {
-    note_unused_options(arguments.heat, *options, figures.solve->warnings);
+    note_unused_options(arguments.method, *options, figures.solve->warnings);
     out.warnings = figures.solve->warnings;
   }
   figures.scale = picture_scale(*data, *settings);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/command_output.h"
 #include "app/drawing.h"
@@ -14,8 +15,9 @@ namespace geotherm::app {
 struct RenderArguments {
   std::string model;
   SourceArguments sources;
-  HeatArguments heat;
+  MethodArguments method;
   PictureArguments picture;
+  std::vector<std::string> targets;  ///< paths lead there from the sources
   std::string output;
   std::string json;
   bool quiet = false;

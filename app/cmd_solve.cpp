@@ -2,11 +2,15 @@
 #include "app/cmd_solve.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
+#include "app/error_check.h"
 #include "app/outputs.h"
+#include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/report_table.h"
 #include "app/solve_model.h"
+#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
 
@@ -21,6 +25,20 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
+}
+
+/// Files with the mesh, to which a property can be added without harm.
+bool holds_mesh(const std::string& path) {
+  const std::string extension = io::file_extension(path);
+  return extension == ".ply" || extension == ".vtp";
+}
+
+bool needs_nearest(const std::vector<std::string>& paths) {
+  return std::ranges::any_of(paths, holds_mesh);
+}
+
+bool has_several_sources(const SolveFigures& figures) {
+  return source_groups(figures.sources).count > 1;
 }
 
 }  // namespace
@@ -42,17 +60,24 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
+  command.add_flag("--check", arguments.check,
+                   "how wrong the distances are: held against a more accurate method");
+  command.add_flag("--labels", arguments.labels,
+                   "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
+                   "wherever there are several sources");
   add_quiet_option(command, arguments.quiet);
-  add_backend_option(command, arguments.heat);
-  add_heat_options(command, arguments.heat);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
   command.footer(
       "Examples:\n"
       "  geotherm solve model.obj -s 17 -o distances.ply --json figures.json\n"
-      "  geotherm solve terrain -s boundary --time-factor 2 -o - | head");
+      "  geotherm solve terrain -s boundary --time-factor 2 -o - | head\n"
+      "  geotherm solve bunny -s 0 --check\n"
+      "  geotherm solve bunny -s 0@0.5,1200 --method wavefront --labels -o regions.csv");
 }
 
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress) {
-  const auto options = heat_options(arguments.heat);
+  const auto options = method_options(arguments.method);
   if (!options) return options.error();
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
@@ -64,20 +89,32 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   }
   auto model = load_model(arguments.model, progress);
   if (!model) return model.error();
-  auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
+  QueryOptions query;
+  query.nearest = arguments.labels || needs_nearest(arguments.outputs);
+  auto figures = solve_model(*std::move(model), *options, *named, query, progress);
   if (!figures) return figures.error();
-  note_unused_options(arguments.heat, *options, figures->warnings);
+  note_unused_options(arguments.method, *options, figures->warnings);
+  if (arguments.check) {
+    auto report =
+        check_error(figures->model.mesh, options->method, figures->result.distances,
+                    figures->sources, options->threads, with_prefix(progress, "checking: "));
+    if (!report) return report.error();
+    figures->error = *std::move(report);
+  }
 
   CommandOutput out{"", figures->warnings, {}};
   const std::vector<double>& distances = figures->result.distances;
   for (const std::string& path : arguments.outputs) {
     if (!report(progress, "writing " + path, 1.0)) {
       outputs.remove_written();
-      return Error{ErrorCode::kCancelled, "the work was cancelled"};
+      return cancelled_error();
     }
+    const bool labels = arguments.labels || (holds_mesh(path) && has_several_sources(*figures));
+    const std::vector<Index> nearest =
+        labels ? figures->result.nearest_source : std::vector<Index>();
     const auto written = outputs.write(path, [&]() -> Result<void> {
-      if (path != "-") return write_distances(path, *figures->model.mesh, distances);
-      out.text = io::csv_bytes(distances);
+      if (path != "-") return write_distances(path, *figures->model.mesh, distances, nearest);
+      out.text = io::csv_bytes(distances, nearest);
       return {};
     });
     if (!written) return written.error();

@@ -13,9 +13,11 @@ namespace geotherm::app {
 struct SolveArguments {
   std::string model;
   SourceArguments sources;
-  HeatArguments heat;
+  MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
+  bool check = false;   ///< against a more accurate method
+  bool labels = false;  ///< nearest sources in .csv and .npy, too
   bool quiet = false;
 };
 

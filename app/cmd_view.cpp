@@ -162,8 +162,8 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.picture);
   add_source_options(command, arguments.sources);
-  add_backend_option(command, arguments.heat);
-  add_heat_options(command, arguments.heat);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
   command.footer(
       "Examples:\n"
       "  geotherm model.obj\n"
@@ -173,14 +173,14 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
 
 Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
                                          std::span<const std::string> colour_maps) {
-  const auto heat = heat_options(arguments.heat);
+  const auto heat = method_options(arguments.method);
   if (!heat) return heat.error();
   const auto picture = picture_settings(arguments.picture, colour_maps);
   if (!picture) return picture.error();
   const auto sources = source_texts(arguments.sources);
   if (!sources) return sources.error();
   ViewerState state = initial_state();
-  state.heat = *heat;
+  state.options = *heat;
   state.picture = *picture;
   state.picture.device.clear();
   if (arguments.picture.fit.empty()) state.picture.camera.fit = PictureFit::kSphere;

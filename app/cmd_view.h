@@ -15,7 +15,7 @@ namespace geotherm::app {
 struct ViewArguments {
   std::string model;
   SourceArguments sources;
-  HeatArguments heat;
+  MethodArguments method;
   PictureArguments picture;
   std::string script;  ///< commands to run, in the window or without
   std::string replay;  ///< commands to run without a window and without writing files

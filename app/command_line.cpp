@@ -20,17 +20,21 @@
 #include "app/cmd_render.h"
 #include "app/cmd_solve.h"
 #include "app/cmd_view.h"
+#include "app/lines/cmd_isolines.h"
+#include "app/lines/cmd_path.h"
 #include "app/load_model.h"
 #include "app/progress_bar.h"
 #include "app/shell_command.h"
+#include "app/study/cmd_study.h"
 #include "app/text.h"
 
 namespace geotherm::app {
 namespace {
 
-constexpr std::array kCommands = {"view",     "solve",    "info",    "compare", "render",
+constexpr std::array kCommands = {"view",     "solve",    "info",    "compare",
+                                  "render",   "path",     "isolines", "study",
                                   "generate", "backends", "devices", "models"};
-constexpr std::array kCommandsToCome = {"path", "study", "isolines", "sample"};
+constexpr std::array kCommandsToCome = {"sample"};
 
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
@@ -148,6 +152,9 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   InfoArguments info;
   CompareArguments compare;
   RenderArguments render;
+  PathArguments path;
+  IsolinesArguments isolines;
+  StudyArguments study;
   GenerateArguments generate;
   DevicesArguments devices;
   ListArguments backends, models;
@@ -161,6 +168,11 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
       root.add_subcommand("compare", "The same work through several backends, side by side.");
   CLI::App* const render_app =
       root.add_subcommand("render", "Pictures, without a display and without a window.");
+  CLI::App* const path_app = root.add_subcommand("path", "Geodesic paths and streamlines.");
+  CLI::App* const isolines_app =
+      root.add_subcommand("isolines", "Lines of equal distance, closed or open.");
+  CLI::App* const study_app = root.add_subcommand(
+      "study", "The error of the heat method over time factors, rules and modes.");
   CLI::App* const generate_app = root.add_subcommand("generate", "Writes a bundled model.");
   CLI::App* const backends_app =
       root.add_subcommand("backends", "The linear solvers of this build, the default first.");
@@ -172,6 +184,9 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   add_info_options(*info_app, info);
   add_compare_options(*compare_app, compare);
   add_render_options(*render_app, render);
+  add_path_options(*path_app, path);
+  add_isolines_options(*isolines_app, isolines);
+  add_study_options(*study_app, study);
   add_generate_options(*generate_app, generate);
   add_devices_options(*devices_app, devices);
   add_backends_options(*backends_app, backends);
@@ -211,6 +226,9 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
       return run_render(a, drawing, progress);
     });
   }
+  if (path_app->parsed()) return run_with_bar(path, run_path);
+  if (isolines_app->parsed()) return run_with_bar(isolines, run_isolines);
+  if (study_app->parsed()) return run_with_bar(study, run_study);
   if (devices_app->parsed()) return finish(run_devices(devices, drawing));
   if (generate_app->parsed()) return run_with_bar(generate, run_generate);
   if (backends_app->parsed()) return finish(run_backends(backends));

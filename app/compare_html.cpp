@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/compare_report.h"
+#include "app/error_check.h"
 #include "app/text.h"
 
 namespace geotherm::app {
@@ -57,7 +58,7 @@ std::string cell(const std::optional<double>& value) {
 std::string table_row(const CompareRow& row) {
   const bool ok = row.status == "ok";
   std::string out = "<tr><td class=name>" + escaped(one_line(row.model)) + "</td><td>" +
-                    grouped(row.faces) + "</td><td class=name>" + escaped(row.backend) + "</td>";
+                    grouped(row.faces) + "</td><td class=name>" + escaped(row.name()) + "</td>";
   for (const auto* value : {&row.setup_ms, &row.query_ms_median, &row.batch_query_ms,
                             &row.factor_mb, &row.peak_rss_mb}) {
     out += cell(*value);
@@ -65,9 +66,12 @@ std::string table_row(const CompareRow& row) {
   const std::string difference =
       row.max_difference ? significant(*row.max_difference, 2) : std::string("&ndash;");
   out += ok ? "<td>" + difference + "</td>" : "<td class=bad>" + escaped(row.status) + "</td>";
+  for (const auto* error : {&row.mean_error, &row.max_error}) {
+    out += "<td>" + (*error ? percent(**error) : std::string("&ndash;")) + "</td>";
+  }
   out += "</tr>\n";
   if (!row.message.empty()) {
-    out += "<tr><td></td><td></td><td class=message colspan=7>" + escaped(one_line(row.message)) +
+    out += "<tr><td></td><td></td><td class=message colspan=9>" + escaped(one_line(row.message)) +
            "</td></tr>\n";
   }
   return out;
@@ -130,7 +134,7 @@ std::string chart(std::span<const CompareRow> rows) {
   double y = kTop;
   for (const CompareRow& row : rows) {
     out += "<text text-anchor=end x=" + number(Scale::kLeft - 10) + " y=" + number(y + 14) + ">" +
-           escaped(one_line(row.model)) + " <tspan class=soft>" + escaped(row.backend) +
+           escaped(one_line(row.model)) + " <tspan class=soft>" + escaped(row.name()) +
            "</tspan></text>\n" + bar(scale, row.setup_ms, y, "setup") +
            bar(scale, row.query_ms_median, y + 11, "query");
     y += kRow;
@@ -151,10 +155,12 @@ std::string compare_html(const Machine& machine, std::span<const CompareRow> row
       "scale.</p>\n" +
       chart(rows);
   out +=
-      "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance.</p>\n"
+      "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance; "
+      "errors are held against a more accurate method.</p>\n"
       "<div class=scroll><table><thead><tr><th class=name>model</th><th>faces</th>"
-      "<th class=name>backend</th><th>pre-factorisation ms</th><th>solve ms</th>"
-      "<th>batch ms/source</th><th>factor MB</th><th>peak MB</th><th>max difference</th></tr>"
+      "<th class=name>solver</th><th>pre-factorisation ms</th><th>solve ms</th>"
+      "<th>batch ms/source</th><th>factor MB</th><th>peak MB</th><th>max difference</th>"
+      "<th>mean error</th><th>max error</th></tr>"
       "</thead><tbody>\n";
   for (const CompareRow& row : rows) out += table_row(row);
   return out + "</tbody></table></div>\n</body></html>\n";

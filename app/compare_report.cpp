@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_report.h"
 
+#include "app/error_check.h"
 #include "app/report_json.h"
 #include "app/text.h"
 #include "app/text_table.h"
@@ -14,7 +15,7 @@ Json row_json(const CompareRow& row) {
   return {{"model", row.model},
           {"vertices", row.vertices},
           {"faces", row.faces},
-          {"backend", row.backend},
+          {"backend", row.backend.empty() ? Json(nullptr) : Json(row.backend)},
           {"setup_ms", figure(row.setup_ms)},
           {"query_ms_median", figure(row.query_ms_median)},
           {"query_ms_min", figure(row.query_ms_min)},
@@ -24,6 +25,10 @@ Json row_json(const CompareRow& row) {
           {"peak_rss_mb", figure(row.peak_rss_mb)},
           {"max_difference", figure(row.max_difference)},
           {"mean_difference", figure(row.mean_difference)},
+          {"method", to_text(row.method)},
+          {"mean_error", figure(row.mean_error)},
+          {"max_error", figure(row.max_error)},
+          {"error_reference", to_text(row.error_reference)},
           {"status", row.status},
           {"message", row.message}};
 }
@@ -44,13 +49,15 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
   using Align = TextTable::Align;
   TextTable table({{"model", Align::kLeft},
                    {"faces", Align::kRight},
-                   {"backend", Align::kLeft},
+                   {"solver", Align::kLeft},
                    {"pre-factorisation ms", Align::kRight},
                    {"solve ms", Align::kRight},
                    {"min - max", Align::kRight},
                    {"batch ms/source", Align::kRight},
                    {"factor MB", Align::kRight},
-                   {"max difference", Align::kRight}});
+                   {"max difference", Align::kRight},
+                   {"mean error", Align::kRight},
+                   {"max error", Align::kRight}});
   std::string messages;
   const CompareRow* before = nullptr;
   for (const CompareRow& row : rows) {
@@ -59,13 +66,15 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
                                   ? cell(row.query_ms_min) + " - " + cell(row.query_ms_max)
                                   : std::string("-");
     table.add_row({same_model ? "" : one_line(row.model), same_model ? "" : grouped(row.faces),
-                   row.backend, cell(row.setup_ms), cell(row.query_ms_median), range,
+                   row.name(), cell(row.setup_ms), cell(row.query_ms_median), range,
                    cell(row.batch_query_ms), cell(row.factor_mb),
                    row.status != "ok"   ? row.status
                    : row.max_difference ? significant(*row.max_difference, 2)
-                                        : "-"});
+                                        : "-",
+                   row.mean_error ? percent(*row.mean_error) : "-",
+                   row.max_error ? percent(*row.max_error) : "-"});
     if (!row.message.empty()) {
-      messages += one_line(row.model) + ", " + row.backend + ": " + one_line(row.message) + '\n';
+      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(row.message) + '\n';
     }
     before = &row;
   }

@@ -7,21 +7,26 @@
 #include <utility>
 
 #include "app/machine.h"
+#include "app/method_words.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
-#include "solver/heat/heat_method.h"
 #include "solver/linear/backend.h"
+#include "solver/method/distance_error.h"
 
 namespace geotherm::app {
 namespace {
 
-/// Milliseconds that an iterative backend may spend on queries, and again on the batch.
-constexpr double kIterativeBudget = 5000;
+/// Milliseconds that an iterative backend, or the exact method, may spend on queries, and again on
+/// the batch.
+constexpr double kSlowBudget = 5000;
 
 /// Answers that are kept for the differences; all of them would fill the memory with 20,000
 /// queries.
 constexpr std::size_t kCompared = 10;
+
+/// Answers of which the error is measured.
+constexpr std::size_t kErrorQueries = 3;
 
 using Answers = std::vector<std::vector<double>>;  // one a query, of the first ones
 
@@ -70,32 +75,31 @@ class Runner {
  public:
   Runner(const CompareTask& task, const Progress& progress) : task_(task), progress_(progress) {}
 
-  Answers run(const Model& model, CompareRow& row) {
-    HeatOptions options = task_.options;
-    options.backend = row.backend;
+  Answers run(const Model& model, const MethodOptions& options, CompareRow& row) {
     reset_peak_rss();
-    const auto method = HeatMethod::build(model.mesh, options, progress_);
-    if (!method) {
-      fail(row, method.error());
+    const auto built = build_method(model.mesh, options, progress_);
+    if (!built) {
+      fail(row, built.error());
       return {};
     }
-    row.setup_ms = method->timing().setup;
+    const DistanceMethod& method = **built;
+    row.setup_ms = method.timing().setup;
     const auto backend = find_backend(row.backend);
-    iterative_ = backend && (*backend)->iterative();
-    Answers answers = ask_each(*method, row);
-    if (row.status == "ok") ask_batch(*method, row);
-    row.factor_mb = method->memory_mb();
+    slow_ = (backend && (*backend)->iterative()) || options.method == MethodKind::kExact;
+    Answers answers = ask_each(method, row);
+    if (row.status == "ok") ask_batch(method, row);
+    row.factor_mb = method.memory_mb();
     row.peak_rss_mb = peak_rss_mb();
     return answers;
   }
 
  private:
-  Answers ask_each(const HeatMethod& method, CompareRow& row) {
+  Answers ask_each(const DistanceMethod& method, CompareRow& row) {
     Answers answers;
     std::vector<double> times;
     const Stopwatch watch;
     for (const SourceSet& query : task_.queries) {
-      if (iterative_ && !times.empty() && watch.milliseconds() > kIterativeBudget) break;
+      if (slow_ && !times.empty() && watch.milliseconds() > kSlowBudget) break;
       const double share =
           static_cast<double>(times.size()) / static_cast<double>(task_.queries.size());
       if (!report(progress_, "queries", share)) {
@@ -117,15 +121,14 @@ class Runner {
       add_message(row,
                   std::to_string(times.size()) + " of " +
                       counted(static_cast<std::int64_t>(task_.queries.size()), "query", "queries") +
-                      ": an iterative backend is given " + significant(kIterativeBudget / 1000) +
-                      " s");
+                      ": a slow solver is given " + significant(kSlowBudget / 1000) + " s");
     }
     return answers;
   }
 
-  void ask_batch(const HeatMethod& method, CompareRow& row) {
+  void ask_batch(const DistanceMethod& method, CompareRow& row) {
     const auto count = static_cast<double>(task_.batch.size());
-    if (iterative_ && *row.query_ms_median * count > kIterativeBudget) {
+    if (slow_ && *row.query_ms_median * count > kSlowBudget) {
       add_message(row, "the batch was left out: " + std::to_string(task_.batch.size()) +
                            " queries would take " +
                            milliseconds(*row.query_ms_median * count / 1000) + " s");
@@ -143,7 +146,7 @@ class Runner {
 
   const CompareTask& task_;
   const Progress& progress_;
-  bool iterative_ = false;
+  bool slow_ = false;
 };
 
 void measure_difference(const Answers& answers, const Answers& reference, CompareRow& row) {
@@ -174,38 +177,96 @@ void measure_difference(const Answers& answers, const Answers& reference, Compar
   row.mean_difference = sum / count;
 }
 
+/// Which method is the more accurate, by rank.
+int rank(MethodKind kind) {
+  switch (kind) {
+    case MethodKind::kHeat:
+    case MethodKind::kFastMarching:
+      return 0;
+    case MethodKind::kWavefront:
+      return 1;
+    case MethodKind::kWavefrontFine:
+      return 2;
+    case MethodKind::kExact:
+      break;
+  }
+  return 3;
+}
+
+/// Better distances for the first queries; empty where they could not be had.
+Answers better_answers(const Model& model, const CompareTask& task, MethodKind kind,
+                       const Progress& progress) {
+  Answers answers;
+  MethodOptions options;
+  options.method = kind;
+  const auto method = build_method(model.mesh, options, progress);
+  if (!method) return answers;
+  for (std::size_t q = 0; q < std::min(task.queries.size(), kErrorQueries); ++q) {
+    if (!report(progress, "exact distances", -1)) return {};
+    auto result = (*method)->solve(task.queries[q], {.quality = false});
+    if (!result) return {};
+    answers.push_back(std::move(result->distances));
+  }
+  return answers;
+}
+
+void measure_error(const Answers& answers, const Answers& better, CompareRow& row) {
+  double mean = 0, most = 0, count = 0;
+  for (std::size_t q = 0; q < std::min(answers.size(), better.size()); ++q) {
+    const DistanceError error = distance_error(answers[q], better[q]);
+    if (error.worst == kNoIndex) continue;
+    mean += error.mean_relative;
+    most = std::max(most, error.max_of_range);
+    ++count;
+  }
+  if (count == 0) return;
+  row.mean_error = mean / count;
+  row.max_error = most;
+}
+
+CompareRow empty_row(const Model& model, const MethodOptions& solver) {
+  CompareRow row;
+  row.model = model.name;
+  row.vertices = model.mesh->vertex_count();
+  row.faces = model.mesh->face_count();
+  row.method = solver.method;
+  if (solver.method == MethodKind::kHeat) row.backend = solver.backend;
+  row.status = "ok";
+  return row;
+}
+
 }  // namespace
 
 Result<std::vector<CompareRow>> compare_backends(const Model& model, const CompareTask& task,
                                                  const Progress& progress) {
   std::vector<CompareRow> rows;
-  for (const std::string& name : task.backends) {
-    CompareRow row;
-    row.model = model.name;
-    row.vertices = model.mesh->vertex_count();
-    row.faces = model.mesh->face_count();
-    row.backend = name;
-    row.status = "ok";
-    rows.push_back(std::move(row));
-  }
   // The reference first: only its answers are kept.
-  std::vector<CompareRow*> order;
-  order.reserve(rows.size());
-  for (CompareRow& row : rows) order.push_back(&row);
-  std::stable_partition(order.begin(), order.end(),
-                        [&task](const CompareRow* row) { return row->backend == task.reference; });
+  std::vector<std::size_t> order;
+  for (const MethodOptions& solver : task.solvers) {
+    rows.push_back(empty_row(model, solver));
+    order.push_back(order.size());
+  }
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
+    return solver_name(task.solvers[i]) == task.reference;
+  });
+  const MethodKind best = reference_for(MethodKind::kHeat, model.mesh->face_count());
+  const Answers better =
+      better_answers(model, task, best, with_prefix(progress, model.name + ", errors: "));
   Answers reference;
-  for (CompareRow* row : order) {
-    const Progress named = with_prefix(progress, model.name + ", " + row->backend + ": ");
-    Answers answers = Runner(task, named).run(model, *row);
-    if (row->status == "cancelled") return Error{ErrorCode::kCancelled, "the work was cancelled"};
-    if (row->status != "ok") continue;
-    const bool is_reference = row->backend == task.reference;
+  for (const std::size_t i : order) {
+    CompareRow& row = rows[i];
+    row.error_reference = best;
+    const Progress named = with_prefix(progress, model.name + ", " + row.name() + ": ");
+    Answers answers = Runner(task, named).run(model, task.solvers[i], row);
+    if (row.status == "cancelled") return cancelled_error();
+    if (row.status != "ok") continue;
+    if (rank(row.method) < rank(best)) measure_error(answers, better, row);
+    const bool is_reference = row.name() == task.reference;
     if (is_reference) reference = std::move(answers);
     if (reference.empty()) {
-      add_message(*row, "no difference: the reference " + task.reference + " failed");
+      add_message(row, "no difference: the reference " + task.reference + " failed");
     } else {
-      measure_difference(is_reference ? reference : answers, reference, *row);
+      measure_difference(is_reference ? reference : answers, reference, row);
     }
   }
   return rows;

@@ -39,12 +39,6 @@ Result<std::string> parse_backend(const std::string& text) {
   return text;
 }
 
-Result<std::string> parse_method(const std::string& text) {
-  if (text == "heat") return text;
-  return Error{ErrorCode::kNotAvailable,
-               "there is no method '" + one_line(text) + "' in this version; there is heat"};
-}
-
 Result<LaplacianKind> parse_laplacian_option(const std::string& text) {
   auto kind = parse_laplacian(text);
   if (!kind || *kind != LaplacianKind::kTufted) return kind;

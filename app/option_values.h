@@ -14,7 +14,6 @@ namespace geotherm::app {
 Result<double> parse_time_factor(const std::string& text);   // empty: 1
 Result<int> parse_threads(const std::string& text);          // empty: 0, all cores
 Result<std::string> parse_backend(const std::string& text);  // empty: the default
-Result<std::string> parse_method(const std::string& text);
 Result<LaplacianKind> parse_laplacian_option(const std::string& text);
 Result<Constraint> parse_constraint_option(const std::string& text);
 Result<TimeStep> parse_time_step_option(const std::string& text, double factor);

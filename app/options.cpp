@@ -13,25 +13,39 @@
 
 namespace geotherm::app {
 
-void add_backend_option(CLI::App& command, HeatArguments& arguments) {
+void add_backend_option(CLI::App& command, MethodArguments& arguments) {
   command.add_option("--backend", arguments.backend, "linear solver: " + joined(backend_names()))
       ->type_name("NAME")
       ->group("Method");
 }
 
-void add_heat_options(CLI::App& command, HeatArguments& a) {
+namespace {
+
+void add_word(CLI::App& command, const char* names, std::string& value, const char* type,
+              const char* help) {
+  command.add_option(names, value, help)->type_name(type)->group("Method");
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, MethodArguments& a) {
   const auto add = [&command](const char* names, std::string& value, const char* type,
-                              const char* help) {
-    command.add_option(names, value, help)->type_name(type)->group("Method");
-  };
+                              const char* help) { add_word(command, names, value, type, help); };
   add("--time-step", a.time_step, "RULE",
       "diffusion time: mean-edge (t = m h^2, default), mean-face-area (t = m A/F), absolute:T");
   add("-m,--time-factor", a.time_factor, "M", "m of the time step, default 1");
   add("--constraint", a.constraint, "MODE",
       "pin-sources (default), pin-vertex[:V], penalty[:VALUE], conserve-energy, pseudo-inverse");
-  add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
-  add("--method", a.method, "NAME", "heat");
+  add("--method", a.method, "NAME",
+      "heat (default), wavefront, wavefront-fine (near exact), fast-marching, exact");
   add("--boundary", a.boundary, "RULE", "neumann (default), dirichlet, average");
+  add_study_method_options(command, a);
+}
+
+void add_study_method_options(CLI::App& command, MethodArguments& a) {
+  const auto add = [&command](const char* names, std::string& value, const char* type,
+                              const char* help) { add_word(command, names, value, type, help); };
+  add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
   add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay");
   add("--variant", a.variant, "NAME", "corrected (default), classic: as first published");
   add_threads_option(command, a.threads);
@@ -67,15 +81,14 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
       ->group("Sources");
 }
 
-Result<HeatOptions> heat_options(const HeatArguments& a) {
-  HeatOptions options;
-  std::string method;
+Result<MethodOptions> method_options(const MethodArguments& a) {
+  MethodOptions options;
   double factor = 1;
   if (auto taken = take(parse_time_factor(a.time_factor), "--time-factor", factor); !taken) {
     return taken.error();
   }
   const Result<void> all = first_failure({
-      take(parse_method(a.method), "--method", method),
+      take(parse_method(a.method), "--method", options.method),
       take(parse_backend(a.backend), "--backend", options.backend),
       take(parse_time_step_option(a.time_step, factor), "--time-step", options.time_step),
       take(parse_constraint_option(a.constraint), "--constraint", options.constraint),
@@ -89,7 +102,7 @@ Result<HeatOptions> heat_options(const HeatArguments& a) {
   return options;
 }
 
-void note_unused_options(const HeatArguments& arguments, const HeatOptions& options,
+void note_unused_options(const MethodArguments& arguments, const MethodOptions& options,
                          std::vector<std::string>& warnings) {
   if (options.time_step.rule != TimeRule::kAbsolute || arguments.time_factor.empty()) return;
   warnings.push_back("--time-factor " + arguments.time_factor + " is not used: --time-step " +

@@ -8,12 +8,12 @@
 #include "app/outputs.h"
 #include "app/source_spec.h"
 #include "solver/core/result.h"
-#include "solver/heat/heat_options.h"
+#include "solver/method/build_method.h"
 
 namespace geotherm::app {
 
-/// The options of the heat method as typed; the same in every command that solves.
-struct HeatArguments {
+/// A method and its options as typed; the same in every command that solves.
+struct MethodArguments {
   std::string backend;  ///< empty: the default one
   std::string time_step = "mean-edge";
   std::string time_factor;  ///< empty: 1
@@ -33,17 +33,19 @@ struct SourceArguments {
   bool curve = false;
 };
 
-void add_heat_options(CLI::App& command, HeatArguments& arguments);
-void add_backend_option(CLI::App& command, HeatArguments& arguments);
+void add_method_options(CLI::App& command, MethodArguments& arguments);
+/// Those of the heat method that a study does not sweep.
+void add_study_method_options(CLI::App& command, MethodArguments& arguments);
+void add_backend_option(CLI::App& command, MethodArguments& arguments);
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 void add_threads_option(CLI::App& command, std::string& threads);
 void add_quiet_option(CLI::App& command, bool& quiet);
 
 /// Errors: kBadInput or kNotAvailable, with the option's name and the values there are.
-Result<HeatOptions> heat_options(const HeatArguments& arguments);
+Result<MethodOptions> method_options(const MethodArguments& arguments);
 
 /// Says which of the options have no effect beside the others.
-void note_unused_options(const HeatArguments& arguments, const HeatOptions& options,
+void note_unused_options(const MethodArguments& arguments, const MethodOptions& options,
                          std::vector<std::string>& warnings);
 
 /// The files that these name, which no output may replace.

@@ -9,6 +9,7 @@
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/core/number_text.h"
+#include "solver/heat/heat_method.h"
 #include "solver/heat/option_text.h"
 
 namespace geotherm::app {
@@ -26,20 +27,22 @@ void add(std::vector<PngText>& texts, const std::string& name, const std::string
 }
 
 void add_solve_texts(const SolveFigures& solve, std::vector<PngText>& texts) {
-  const HeatOptions& options = solve.method.options();
-  add(texts, "method", "heat");
+  add(texts, "method", to_text(solve.method->kind()));
+  add(texts, "largest-distance", number_text(solve.distance.max));
+  const HeatMethod* heat = solve.method->heat();
+  if (heat == nullptr) return;
+  const HeatOptions& options = heat->options();
   add(texts, "backend", options.backend);
   add(texts, "time-step", to_text(options.time_step));
   if (options.time_step.rule != TimeRule::kAbsolute) {
     add(texts, "time-factor", number_text(options.time_step.factor));
   }
-  add(texts, "t", number_text(solve.method.t()));
+  add(texts, "t", number_text(heat->t()));
   add(texts, "constraint", to_text(options.constraint));
   add(texts, "heat", to_text(options.heat));
   add(texts, "boundary", to_text(options.boundary));
-  add(texts, "laplacian", to_text(solve.method.laplacian()));
+  add(texts, "laplacian", to_text(heat->laplacian()));
   add(texts, "variant", to_text(options.variant));
-  add(texts, "largest-distance", number_text(solve.distance.max));
 }
 
 Json settings_json(const PictureFigures& f) {
@@ -86,7 +89,7 @@ std::string device_in_words(const DrawingDevice& device) {
 }
 
 std::string caption_of(const PictureFigures& f) {
-  return picture_caption(f.model, f.faces, f.solve ? &f.solve->method : nullptr);
+  return picture_caption(f.model, f.faces, f.solve ? f.solve->method.get() : nullptr);
 }
 
 std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
@@ -139,7 +142,7 @@ std::string picture_table(const PictureFigures& f) {
   table.add_row({"device", device_in_words(f.device)});
   std::string time;
   if (f.solve) {
-    time = "set-up " + milliseconds(f.solve->method.timing().setup) + " ms, query " +
+    time = "set-up " + milliseconds(f.solve->method->timing().setup) + " ms, query " +
            milliseconds(f.solve->result.timing.query) + " ms, ";
   }
   table.add_row({"time", time + "drawing " + milliseconds(f.draw_ms) + " ms, writing " +

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "app/report_json.h"
 
+#include <map>
+
+#include "app/nearest_sources.h"
 #include "app/resolve_sources.h"
 #include "solver/core/parallel.h"
+#include "solver/heat/heat_method.h"
 #include "solver/heat/option_text.h"
 
 namespace geotherm::app {
@@ -39,7 +43,20 @@ void write(const Json& json, int level, std::string& out) {
   out += "\n" + indent + (object ? "}" : "]");
 }
 
-Json options_json(const HeatMethod& method) {
+/// Null where another method than heat has no such thing.
+Json options_json(const SolveFigures& figures) {
+  const HeatMethod* heat = figures.method->heat();
+  if (heat == nullptr) {
+    Json json = {{"method", to_text(figures.method->kind())}};
+    for (const char* key :
+         {"backend", "time_step", "time_factor", "t", "constraint", "heat", "boundary"}) {
+      json[key] = nullptr;
+    }
+    json["laplacian"] = to_text(LaplacianKind::kIntrinsicDelaunay);
+    json["threads"] = thread_count(figures.options.threads);
+    return json;
+  }
+  const HeatMethod& method = *heat;
   const HeatOptions& options = method.options();
   const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
   return {{"method", "heat"},
@@ -56,15 +73,47 @@ Json options_json(const HeatMethod& method) {
           {"flips", method.flips()}};
 }
 
-Json quality_json(const Quality& q) {
-  return {{"heat_residual", q.heat_residual},
-          {"poisson_residual", q.poisson_residual},
+Json quality_json(const Quality& q, bool heat) {
+  const auto of_heat = [heat](auto value) { return heat ? Json(value) : Json(nullptr); };
+  return {{"heat_residual", of_heat(q.heat_residual)},
+          {"poisson_residual", of_heat(q.poisson_residual)},
           {"max_source_distance", q.max_source_distance},
           {"eikonal_error_mean", q.eikonal_error_mean},
-          {"zero_gradient_faces", q.zero_gradient_faces},
-          {"iterations_heat", q.iterations_heat},
-          {"iterations_poisson", q.iterations_poisson},
-          {"clamped_vertices", q.clamped_vertices}};
+          {"zero_gradient_faces", of_heat(q.zero_gradient_faces)},
+          {"iterations_heat", of_heat(q.iterations_heat)},
+          {"iterations_poisson", of_heat(q.iterations_poisson)},
+          {"clamped_vertices", of_heat(q.clamped_vertices)}};
+}
+
+/// Offsets in the order of `sources`: vertices ascending, then points in faces.
+Json offsets_json(const SourceSet& sources) {
+  std::map<Index, double> of_vertex;
+  for (const Index v : vertices_of(sources)) of_vertex[v] = 0;
+  Json in_faces = Json::array();
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    const SurfacePoint& point = sources.points[i];
+    if (point.is_vertex()) {
+      of_vertex[point.vertex] = sources.offsets[i];
+    } else {
+      in_faces.push_back(sources.offsets[i]);
+    }
+  }
+  Json json = Json::array();
+  for (const auto& [vertex, offset] : of_vertex) json.push_back(offset);
+  for (Json& offset : in_faces) json.push_back(std::move(offset));
+  return json;
+}
+
+Json error_json(const ErrorReport& report) {
+  const DistanceError& e = report.figures;
+  return {{"reference", to_text(report.reference)},
+          {"mean_relative", e.mean_relative},
+          {"max_of_range", e.max_of_range},
+          {"verdict", report.verdict},
+          {"max", e.max},
+          {"mean_signed", e.mean_signed},
+          {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
+          {"reference_ms", report.milliseconds}};
 }
 
 }  // namespace
@@ -104,22 +153,40 @@ Json full_model_json(const std::string& name, const MeshReport& mesh) {
   return json;
 }
 
+Json point_json(const SurfacePoint& point) {
+  if (point.is_vertex()) return point.vertex;
+  return {{"face", point.face}, {"weights", point.weights}};
+}
+
 Json sources_json(const SourceSet& sources) {
   Json json = vertices_of(sources);
   for (const SurfacePoint& point : sources.points) {
-    if (point.is_vertex()) continue;
-    json.push_back(Json{{"face", point.face}, {"weights", point.weights}});
+    if (!point.is_vertex()) json.push_back(point_json(point));
+  }
+  return json;
+}
+
+Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
+  Json json = Json::array();
+  for (const Region& region : regions_of(sources, nearest)) {
+    Json one = {{"label", region.label}, {"vertices", region.vertices}};
+    if (region.point) one["source"] = point_json(*region.point);
+    if (region.edges > 0) one["source_edges"] = region.edges;
+    json.push_back(std::move(one));
   }
   return json;
 }
 
 Json solve_json(const SolveFigures& f) {
-  const SetupTiming& setup = f.method.timing();
+  const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
+  const bool heat = f.method->heat() != nullptr;
+  const auto of_heat = [heat](double ms) { return heat ? Json(ms) : Json(nullptr); };
   Json json = {{"model", model_json(f.model.name, f.mesh)},
-               {"options", options_json(f.method)},
+               {"options", options_json(f)},
                {"sources", sources_json(f.sources)}};
   if (!f.sources.edges.empty()) json["source_edges"] = f.sources.edges;
+  if (!f.sources.offsets.empty()) json["source_offsets"] = offsets_json(f.sources);
   json.update({{"distance",
                 {{"min", f.distance.min},
                  {"max", f.distance.max},
@@ -128,16 +195,20 @@ Json solve_json(const SolveFigures& f) {
                {"timing_ms",
                 {{"load", f.model.load_ms},
                  {"operators", setup.operators},
-                 {"analyze", setup.analyze},
-                 {"factorize", setup.factorize},
+                 {"analyze", of_heat(setup.analyze)},
+                 {"factorize", of_heat(setup.factorize)},
                  {"setup", setup.setup},
-                 {"diffuse", query.diffuse},
-                 {"gradient", query.gradient},
-                 {"poisson", query.poisson},
+                 {"diffuse", of_heat(query.diffuse)},
+                 {"gradient", of_heat(query.gradient)},
+                 {"poisson", of_heat(query.poisson)},
                  {"query", query.query}}},
-               {"memory_mb", {{"factor", f.method.memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
-               {"quality", quality_json(f.result.quality)},
+               {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
+               {"quality", quality_json(f.result.quality, heat)},
                {"warnings", f.warnings}});
+  if (!f.result.nearest_source.empty()) {
+    json["regions"] = regions_json(f.sources, f.result.nearest_source);
+  }
+  if (f.error) json["error"] = error_json(*f.error);
   return json;
 }
 

@@ -17,6 +17,9 @@ Json model_json(const std::string& name, const MeshReport& mesh);
 /// Those and all others of the mesh report.
 Json full_model_json(const std::string& name, const MeshReport& mesh);
 
+/// A vertex id, or {"face", "weights"}.
+Json point_json(const SurfacePoint& point);
+
 /// Vertices as ids (ascending, ends of edges included), points in faces as {"face", "weights"}.
 Json sources_json(const SourceSet& sources);
 

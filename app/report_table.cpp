@@ -6,6 +6,7 @@
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/core/parallel.h"
+#include "solver/heat/heat_method.h"
 #include "solver/heat/option_text.h"
 
 namespace geotherm::app {
@@ -80,41 +81,81 @@ std::string residuals_in_words(const Quality& q) {
   return text;
 }
 
-}  // namespace
-
-std::string solve_table(const SolveFigures& f) {
-  const SetupTiming& setup = f.method.timing();
-  const QueryTiming& query = f.result.timing;
-  const Quality& q = f.result.quality;
-  const HeatOptions& options = f.method.options();
-  TextTable table = two_columns();
-  table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
+/// The rows that only the heat method has.
+void add_heat_rows(TextTable& table, const HeatMethod& method, const MeshReport& mesh) {
+  const HeatOptions& options = method.options();
   table.add_row({"backend", options.backend + ", " +
                                 counted(thread_count(options.threads), "thread", "threads")});
-  table.add_row({"t", time_in_words(f.method, f.mesh)});
+  table.add_row({"t", time_in_words(method, mesh)});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
                                ", boundary " + to_text(options.boundary) + ", " +
                                to_text(options.variant)});
-  table.add_row({"laplacian", laplacian_in_words(f.method)});
-  table.add_row({"sources", sources_in_words(f.sources)});
+  table.add_row({"laplacian", laplacian_in_words(method)});
+}
+
+void add_times(TextTable& table, const SolveFigures& f) {
+  const SetupTiming& setup = f.method->timing();
+  const QueryTiming& query = f.result.timing;
   table.add_row({"load", ms(f.model.load_ms)});
+  if (f.method->heat() == nullptr) {
+    table.add_row({"set-up", ms(setup.setup)});
+    table.add_row({"query", ms(query.query)});
+    table.add_row(
+        {"memory", mb(f.method->memory_mb()) + " tables, " + mb(f.peak_rss_mb) + " peak"});
+    return;
+  }
   table.add_row({"set-up", ms(setup.setup) + " = operators " + milliseconds(setup.operators) +
                                " + analysis " + milliseconds(setup.analyze) + " + factors " +
                                milliseconds(setup.factorize)});
   table.add_row({"query", ms(query.query) + " = heat " + milliseconds(query.diffuse) +
                               " + gradient " + milliseconds(query.gradient) + " + Poisson " +
                               milliseconds(query.poisson)});
-  table.add_row({"memory", mb(f.method.memory_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
+  table.add_row({"memory", mb(f.method->memory_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
+}
+
+void add_error_rows(TextTable& table, const ErrorReport& report) {
+  const DistanceError& e = report.figures;
+  if (e.worst == kNoIndex) {
+    table.add_row({"verdict", report.verdict});
+    return;
+  }
+  std::string text = percent(e.mean_relative) + " on average, at most " + percent(e.max_of_range) +
+                     " of the largest distance";
+  text += ", at vertex " + std::to_string(e.worst);
+  table.add_row({"error", text + ", against " + to_text(report.reference) + " (" +
+                              ms(report.milliseconds) + ")"});
+  table.add_row({"verdict", report.verdict});
+}
+
+}  // namespace
+
+std::string solve_table(const SolveFigures& f) {
+  const Quality& q = f.result.quality;
+  const HeatMethod* heat = f.method->heat();
+  TextTable table = two_columns();
+  table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
+  if (heat != nullptr) {
+    add_heat_rows(table, *heat, f.mesh);
+  } else {
+    table.add_row({"method", to_text(f.method->kind()) + ", " +
+                                 counted(thread_count(f.options.threads), "thread", "threads")});
+  }
+  table.add_row({"sources", sources_in_words(f.sources)});
+  add_times(table, f);
   table.add_row({"distance", distance_in_words(f.distance, f.mesh.vertices)});
-  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) +
-                                 " on average, " + counted(q.zero_gradient_faces, "face", "faces") +
-                                 " without direction"});
-  table.add_row({"residuals", residuals_in_words(q)});
+  std::string gradient =
+      "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) + " on average";
+  if (heat != nullptr) {
+    gradient += ", " + counted(q.zero_gradient_faces, "face", "faces") + " without direction";
+  }
+  table.add_row({"gradient", gradient});
+  if (heat != nullptr) table.add_row({"residuals", residuals_in_words(q)});
   constexpr double kRoundOff = 1e-9;
   if (q.max_source_distance > kRoundOff * f.distance.max) {
     table.add_row({"at sources", "|d| was at most " + significant(q.max_source_distance, 2) +
                                      " before it was set to 0"});
   }
+  if (f.error) add_error_rows(table, *f.error);
   return table.text();
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -50,7 +51,7 @@ class Resolver {
 
   Result<void> operator()(const VertexList& list) {
     for (const Index v : list.vertices) {
-      if (auto added = add_vertex(v); !added) return added;
+      if (auto added = add_vertex(v, list.offset); !added) return added;
     }
     return {};
   }
@@ -58,7 +59,7 @@ class Resolver {
   Result<void> operator()(const RandomVertices& random) {
     auto vertices = random_vertices(mesh_, random.count, random.seed);
     if (!vertices) return vertices.error();
-    return (*this)(VertexList{*std::move(vertices)});
+    return (*this)(VertexList{*std::move(vertices), random.offset});
   }
 
   Result<void> operator()(const WholeBoundary&) {
@@ -85,9 +86,9 @@ class Resolver {
                  " repeats a corner and has no inside; choose another");
     }
     for (int k = 0; k < 3; ++k) {
-      if (point.weights[k] == 1.0) return add_vertex(face[k]);
+      if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
     }
-    out_.set.points.push_back(SurfacePoint::in_face(point.face, point.weights));
+    add_point(SurfacePoint::in_face(point.face, point.weights), point.offset);
     return {};
   }
 
@@ -99,14 +100,14 @@ class Resolver {
                               significant(found->distance) + " away (the model's size is " +
                               significant(model_size()) + ")");
     }
-    if (found->point.is_vertex()) return add_vertex(found->point.vertex);
-    out_.set.points.push_back(found->point);
+    if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
+    add_point(found->point, point.offset);
     return {};
   }
 
   Result<void> operator()(const VertexCurve& curve) {
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
-      if (auto added = add_vertex(curve.vertices[i]); !added) {
+      if (auto added = add_vertex(curve.vertices[i], 0); !added) {
         return bad(place(curve, i) + ": " + added.error().message);
       }
     }
@@ -140,11 +141,19 @@ class Resolver {
 
   ResolvedSources finish() {
     out_.set.edges.assign(edges_.begin(), edges_.end());
+    const auto is_zero = [](double offset) { return offset == 0; };
+    if (std::ranges::all_of(out_.set.offsets, is_zero)) out_.set.offsets.clear();
     return std::move(out_);
   }
 
  private:
-  Result<void> add_vertex(Index v) {
+  void add_point(const SurfacePoint& point, double offset) {
+    out_.set.points.push_back(point);
+    out_.set.offsets.push_back(offset);
+  }
+
+  /// One that is there already keeps the smaller offset.
+  Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
       return bad("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
                  std::to_string(mesh_.vertex_count() - 1));
@@ -153,7 +162,13 @@ class Resolver {
       return bad("vertex " + std::to_string(v) +
                  " belongs to no face, so that no distance starts there; choose another");
     }
-    if (vertices_.insert(v).second) out_.set.points.push_back(SurfacePoint::at_vertex(v));
+    const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
+    if (fresh) {
+      add_point(SurfacePoint::at_vertex(v), offset);
+    } else {
+      double& least = out_.set.offsets[known->second];
+      least = std::min(least, offset);
+    }
     return {};
   }
 
@@ -196,7 +211,7 @@ class Resolver {
   std::optional<CleanFaces> clean_;
   double size_ = -1;
   std::string where_;
-  std::set<Index> vertices_;
+  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
   std::set<std::array<Index, 2>> edges_;
   ResolvedSources out_;
 };

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "app/error_check.h"
 #include "app/load_model.h"
 #include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_method.h"
+#include "solver/method/build_method.h"
 
 namespace geotherm::app {
 
@@ -21,12 +24,14 @@ DistanceSummary summarize(std::span<const double> distances);
 struct SolveFigures {
   Model model;
   MeshReport mesh;
-  HeatMethod method;
+  std::shared_ptr<const DistanceMethod> method;
+  MethodOptions options;
   SourceSet sources;
   DistanceResult result;
   DistanceSummary distance;
   double peak_rss_mb = 0;
   std::vector<std::string> warnings;
+  std::optional<ErrorReport> error = {};  ///< where it was asked for
 };
 
 }  // namespace geotherm::app

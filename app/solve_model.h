@@ -11,9 +11,10 @@
 namespace geotherm::app {
 
 /// Distances on a loaded model, and everything there is to say about them. What the library finds
-/// wrong with the mesh is a failure of the work, kBadFile, not of the command line. Errors: those
-/// of resolve_sources and HeatMethod, kCancelled.
-Result<SolveFigures> solve_model(Model model, const HeatOptions& options,
+/// wrong with the mesh is a failure of the work, kBadFile, not of the command line. With
+/// QueryOptions::nearest the nearest sources are there whatever the method. Errors: those
+/// of resolve_sources and build_method, kCancelled.
+Result<SolveFigures> solve_model(Model model, const MethodOptions& options,
                                  const std::vector<Source>& sources, const QueryOptions& query = {},
                                  const Progress& progress = {});
 

@@ -6,8 +6,8 @@
 
 #include "solver/core/result.h"
 #include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_options.h"
 #include "solver/mesh/triangle_mesh.h"
+#include "solver/method/build_method.h"
 
 // What every solve of a model has to see to, in one command or in a session.
 namespace geotherm::app {

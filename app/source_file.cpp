@@ -25,7 +25,8 @@ Result<SourceSpec> parse_words(const std::vector<std::string_view>& words) {
   if (words.size() == 3) return parse_space_point({words[0], words[1], words[2]});
   if (words.size() == 1) {
     const std::string_view word = words[0];
-    if (word.starts_with("face:") || word.starts_with("xyz:")) return parse_source(word);
+    const bool is_point = word.starts_with("face:") || word.starts_with("xyz:");
+    if (is_point || word.find('@') != std::string_view::npos) return parse_source(word);
     const auto vertex = number_in<Index>(word);
     if (vertex && *vertex >= 0) return SourceSpec(VertexList{{*vertex}});
   }

@@ -109,45 +109,7 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   return SourceSpec(FacePoint{*face, *weights});
 }
 
-std::string ids_text(const std::vector<Index>& vertices) {
-  std::string text;
-  for (const Index v : vertices) text += (text.empty() ? "" : ",") + std::to_string(v);
-  return text;
-}
-
-struct Writer {
-  std::string operator()(const VertexList& list) const { return ids_text(list.vertices); }
-  std::string operator()(const VertexCurve& curve) const {
-    return "curve:" + ids_text(curve.vertices);
-  }
-  std::string operator()(const RandomVertices& random) const {
-    const std::string text = "random:" + std::to_string(random.count);
-    return random.seed == RandomVertices{}.seed ? text : text + ':' + std::to_string(random.seed);
-  }
-  std::string operator()(const WholeBoundary&) const { return "boundary"; }
-  std::string operator()(const FacePoint& point) const {
-    std::string text = "face:" + std::to_string(point.face);
-    for (const double w : point.weights) text += ':' + number_text(w);
-    return text;
-  }
-  std::string operator()(const SpacePoint& point) const {
-    std::string text = "xyz";
-    for (const double x : point.position) text += ':' + number_text(x);
-    return text;
-  }
-};
-
-}  // namespace
-
-std::string to_text(const SourceSpec& spec) { return std::visit(Writer{}, spec); }
-
-Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numbers) {
-  const auto values = three_numbers(numbers);
-  if (!values) return values.error();
-  return SourceSpec(SpacePoint{Vec3((*values)[0], (*values)[1], (*values)[2])});
-}
-
-Result<SourceSpec> parse_source(std::string_view text) {
+Result<SourceSpec> parse_plain(std::string_view text) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (text == "boundary") return SourceSpec(WholeBoundary{});
   if (text.starts_with("curve:")) return parse_curve(text.substr(6));
@@ -162,6 +124,85 @@ Result<SourceSpec> parse_source(std::string_view text) {
     return point;
   }
   return parse_vertices(text);
+}
+
+/// The end of a point's text.
+std::string offset_text(double offset) { return offset == 0 ? "" : '@' + number_text(offset); }
+
+std::string ids_text(const std::vector<Index>& vertices) {
+  std::string text;
+  for (const Index v : vertices) text += (text.empty() ? "" : ",") + std::to_string(v);
+  return text;
+}
+
+struct Writer {
+  std::string operator()(const VertexList& list) const {
+    return ids_text(list.vertices) + offset_text(list.offset);
+  }
+  std::string operator()(const VertexCurve& curve) const {
+    return "curve:" + ids_text(curve.vertices);
+  }
+  std::string operator()(const RandomVertices& random) const {
+    std::string text = "random:" + std::to_string(random.count);
+    if (random.seed != RandomVertices{}.seed) text += ':' + std::to_string(random.seed);
+    return text + offset_text(random.offset);
+  }
+  std::string operator()(const WholeBoundary&) const { return "boundary"; }
+  std::string operator()(const FacePoint& point) const {
+    std::string text = "face:" + std::to_string(point.face);
+    for (const double w : point.weights) text += ':' + number_text(w);
+    return text + offset_text(point.offset);
+  }
+  std::string operator()(const SpacePoint& point) const {
+    std::string text = "xyz";
+    for (const double x : point.position) text += ':' + number_text(x);
+    return text + offset_text(point.offset);
+  }
+};
+
+}  // namespace
+
+std::string to_text(const SourceSpec& spec) { return std::visit(Writer{}, spec); }
+
+Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numbers) {
+  const auto values = three_numbers(numbers);
+  if (!values) return values.error();
+  return SourceSpec(SpacePoint{Vec3((*values)[0], (*values)[1], (*values)[2])});
+}
+
+bool is_single_point(const SourceSpec& spec) {
+  const auto* list = std::get_if<VertexList>(&spec);
+  const auto* inside = std::get_if<FacePoint>(&spec);
+  const auto* space = std::get_if<SpacePoint>(&spec);
+  return (list && list->vertices.size() == 1 && list->offset == 0) ||
+         (inside && inside->offset == 0) || (space && space->offset == 0);
+}
+
+double* offset_of(SourceSpec& spec) {
+  return std::visit(
+      [](auto& source) -> double* {
+        if constexpr (requires { source.offset; }) return &source.offset;
+        return nullptr;
+      },
+      spec);
+}
+
+Result<SourceSpec> parse_source(std::string_view text) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string_view::npos) return parse_plain(text);
+  auto spec = parse_plain(text.substr(0, at));
+  if (!spec) return spec;
+  double* offset = offset_of(*spec);
+  if (offset == nullptr) {
+    return bad(quoted(text) + ": a curve has no offset; give the offsets of points, as in 17@0.5");
+  }
+  const auto number = number_in<double>(text.substr(at + 1));
+  if (!number || !std::isfinite(*number) || *number < 0) {
+    return bad(quoted(text) + ": " + quoted(text.substr(at + 1)) +
+               " is no offset; write a distance in model units, 0 or more, as in 17@0.5");
+  }
+  *offset = *number == 0 ? 0.0 : *number;  // no minus zero
+  return spec;
 }
 
 }  // namespace geotherm::app

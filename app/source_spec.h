@@ -14,10 +14,12 @@
 namespace geotherm::app {
 
 // What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
-// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`.
+// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`; those of
+// points may end in `@OFFSET`, the distance there, model units: `17@0.5`.
 
 struct VertexList {
   std::vector<Index> vertices;
+  double offset = 0;
   bool operator==(const VertexList&) const = default;
 };
 
@@ -32,6 +34,7 @@ struct VertexCurve {
 struct RandomVertices {
   Index count = 1;
   std::uint64_t seed = 1;
+  double offset = 0;
   bool operator==(const RandomVertices&) const = default;
 };
 
@@ -42,11 +45,13 @@ struct WholeBoundary {
 struct FacePoint {
   Index face = 0;
   std::array<double, 3> weights{};
+  double offset = 0;
   bool operator==(const FacePoint&) const = default;
 };
 
 struct SpacePoint {
   Vec3 position = Vec3::Zero();
+  double offset = 0;
   bool operator==(const SpacePoint&) const = default;
 };
 
@@ -63,6 +68,12 @@ struct Source {
 /// Errors: kBadInput, one sentence with the text and what is expected. A vertex id must fit the
 /// mesh, which is checked when the source is placed on one.
 Result<SourceSpec> parse_source(std::string_view text);
+
+/// Whether it is one point without an offset: a vertex, a point in a face or in space.
+bool is_single_point(const SourceSpec& spec);
+
+/// The offset of a source; null for one that has none, an edge.
+double* offset_of(SourceSpec& spec);
 
 /// The text that parse_source() reads back as the same value, to the last digit; a curve's `lines`
 /// are not part of it. Preconditions: one vertex at least; finite numbers; weights >= 0 whose sum

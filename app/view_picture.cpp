@@ -21,9 +21,7 @@ PictureFigures figures_of(const Session& session, const PictureSettings& setting
   figures.faces = explored.model->mesh.faces;
   figures.settings = settings;
   if (const Answer* answer = shown_answer(explored, state.shown)) {
-    figures.solve =
-        SolveFigures{explored.model->model, explored.model->mesh, answer->method, explored.set,
-                     answer->result,        answer->distance,     peak_rss_mb(),  answer->warnings};
+    figures.solve = app::figures_of(explored, *answer);
   }
   return figures;
 }

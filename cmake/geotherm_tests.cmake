@@ -25,10 +25,26 @@ elseif("address" IN_LIST GEOTHERM_SANITIZE)
        "UBSAN_OPTIONS=print_stacktrace=1")
 endif()
 
+# Under the address sanitizer a process takes longer to start than most tests take to run.
+set(GEOTHERM_TEST_SHARDS 0)
+if("address" IN_LIST GEOTHERM_SANITIZE)
+  set(GEOTHERM_TEST_SHARDS 8)
+endif()
+
 # geotherm_discover_tests(TARGET [ENVIRONMENT VARIABLE=VALUE...]): every TEST of the executable becomes
-# a test of ctest.
+# a test of ctest; where there are shards, a few processes share them out.
 function(geotherm_discover_tests target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" ENVIRONMENT)
+  if(GEOTHERM_TEST_SHARDS)
+    math(EXPR last "${GEOTHERM_TEST_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+      geotherm_add_test(${target}.${shard} $<TARGET_FILE:${target}> --gtest_brief=1
+        "--gtest_filter=${GEOTHERM_TEST_FILTER}"
+        ENVIRONMENT ${arg_ENVIRONMENT} "GTEST_TOTAL_SHARDS=${GEOTHERM_TEST_SHARDS}"
+                    "GTEST_SHARD_INDEX=${shard}")
+    endforeach()
+    return()
+  endif()
   set(filter)
   if(GEOTHERM_TEST_FILTER)
     set(filter TEST_FILTER "${GEOTHERM_TEST_FILTER}")

@@ -24,8 +24,19 @@ struct Renderer::State {
   bool solid = false;
   std::vector<std::uint32_t> origin;  ///< DrawMesh::origin
   std::vector<float> gathered;        ///< values by drawn vertex
+  std::vector<std::int32_t> regions;  ///< by the model's vertices; empty: none
   std::optional<ArrowPlaces> places;  ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
+
+  /// Values and regions by drawn vertex, as they are drawn together.
+  void upload_regions(std::span<const std::int32_t> from) {
+    std::vector<glm::vec2> both;
+    both.reserve(from.empty() ? 0 : origin.size());
+    for (std::size_t i = 0; i < origin.size() && !from.empty(); ++i) {
+      both.emplace_back(gathered[i], static_cast<float>(from[origin[i]]));
+    }
+    recorder.set_regions(both);
+  }
 };
 
 Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -63,7 +74,7 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     s.places.reset();
     s.primary.clear();
     s.secondary.clear();
-    s.recorder.clear_markers();
+    s.regions.clear();
     return {};
   });
 }
@@ -74,6 +85,17 @@ Result<void> Renderer::set_values(std::span<const float> values) {
     State& s = *state_;
     for (std::size_t i = 0; i < s.origin.size(); ++i) s.gathered[i] = values[s.origin[i]];
     s.recorder.set_values(s.gathered);
+    if (!s.regions.empty()) s.upload_regions(s.regions);
+    return {};
+  });
+}
+
+Result<void> Renderer::set_regions(std::span<const std::int32_t> regions) {
+  assert(regions.empty() || regions.size() == state_->positions.size());
+  return guarded("loading regions", [&]() -> Result<void> {
+    std::vector<std::int32_t> kept(regions.begin(), regions.end());
+    state_->upload_regions(kept);
+    state_->regions = std::move(kept);
     return {};
   });
 }
@@ -96,6 +118,13 @@ Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
     }
     s.primary.assign(primary.begin(), primary.end());
     s.secondary.assign(secondary.begin(), secondary.end());
+    return {};
+  });
+}
+
+Result<void> Renderer::set_lines(std::span<const Polyline> lines) {
+  return guarded("loading lines", [&]() -> Result<void> {
+    state_->recorder.set_lines(lines);
     return {};
   });
 }

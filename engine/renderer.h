@@ -14,9 +14,9 @@
 
 namespace geotherm::engine {
 
-/// Draws one model. Geometry is uploaded once; values, colours, arrows and markers are replaced
-/// without touching it. Every call may fail with kOutOfMemory or kNoDevice (device lost);
-/// after a failure what was there before is still there.
+/// Draws one model. Geometry is uploaded once; values, regions, colours, arrows, lines and markers
+/// are replaced without touching it. Every call may fail with kOutOfMemory or kNoDevice (device
+/// lost); after a failure what was there before is still there.
 class Renderer {
  public:
   /// samples: 1 or 4 a pixel.
@@ -25,15 +25,21 @@ class Renderer {
   Renderer& operator=(Renderer&&) noexcept;
   ~Renderer();
 
-  /// Replaces the model; values, arrows and markers are gone. Cost: normals and creases of all
+  /// Replaces the model; all that was set on it is gone. Cost: normals and creases of all
   /// faces, then the upload.
   Result<void> set_surface(const SurfaceGeometry& geometry);
   /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
   Result<void> set_values(std::span<const float> values);
+  /// One place in the colours a vertex, -1 where there is none (Paint::kRegions); empty: no
+  /// regions.
+  Result<void> set_regions(std::span<const std::int32_t> regions);
   Result<void> set_colours(const ColourTable& table);
   /// One vector a face, each field empty or F long; a zero vector draws no arrow. Lengths are the
   /// arrows' share of full size, 0 to 1.
   Result<void> set_arrows(std::span<const glm::vec3> primary, std::span<const glm::vec3> secondary);
+  /// A later line lies over the earlier ones. Points as of line_pieces(). Cost: O(points); a frame
+  /// with 2,000 of them takes about as long as one without.
+  Result<void> set_lines(std::span<const Polyline> lines);
   Result<void> set_markers(std::span<const Marker> markers);
 
   /// The letters of all panels drawn from now on; nothing happens when the version is the same.

@@ -39,14 +39,6 @@ void main() {
   vec2 p = (second ? pb + along * reach : pa - along * reach) + side * across * reach;
   at = p - pa;
   segment = d;
-  vec4 end = second ? b : a;
-  // Nearer to the eye by some of its radius: it faces the eye, and the surface beside its point may
-  // well be in front of that.
-  mat4 m = frame.clip_from_scene;
-  mat4 e = frame.eye_from_scene;
-  vec4 per_unit = m * vec4(e[0].z, e[1].z, e[2].z, 0.0);  // towards the eye
-  float unit = 0.5 * frame.extent.y * length(vec3(m[0].y, m[1].y, m[2].y)) / end.w;  // pixels
-  float shift = min(frame.near_shift * radius / unit, 0.5 * end.w);
-  float depth = min((end.z + shift * per_unit.z) / (end.w + shift * per_unit.w), 1.0);
+  float depth = nearer_depth(second ? b : a, radius);
   gl_Position = in_tile(vec4(p / frame.extent * 2.0 - 1.0, depth, 1.0));
 }

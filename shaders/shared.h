@@ -31,6 +31,7 @@ SHARED_CONSTANT kIsolines = 4;  // lines at multiples of a value
 SHARED_CONSTANT kWire = 8;      // edges of the triangles
 SHARED_CONSTANT kThreeLights = 16;
 SHARED_CONSTANT kNoLight = 32;
+SHARED_CONSTANT kRegions = 64;  // painted by the nearest region
 
 // RGBA8, evenly over the colour map.
 SHARED_CONSTANT kColourSteps = 1024;
@@ -40,15 +41,17 @@ struct Frame {
   mat4 clip_from_scene;
   mat4 eye_from_scene;
   vec2 extent;         // of the whole picture
-  float near_shift;    // of markers towards the eye, in their radii
+  float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;          // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
+  vec4 range;          // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
+                       // w: scene units of a scaled value of 1
   vec4 plain;          // colour of the surface
   vec4 line;           // colour, width
   vec4 wire;           // colour, width
   vec4 marker;         // colour, radius
   vec4 marker_rim;     // colour, -
+  vec4 polyline;       // half the width, the same with the rim; the tile's first pixel
 };
 
 // Pushed with each draw of arrows.
@@ -63,13 +66,19 @@ struct MarkerPush {
   float inside;   // 1: the inside of markers, 0: their rims
 };
 
+// Pushed with each draw of a polyline.
+struct LinePush {
+  vec4 colour;
+  float half_width;
+};
+
 // Pushed once for all panels.
 struct PanelPush {
   vec2 clip_of_pixel;  // 2 / the target's extent
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 2 * 64 + 16 + 7 * 16);
+static_assert(sizeof(Frame) == 2 * 64 + 16 + 8 * 16);
 static_assert(offsetof(Frame, extent) == 128);
 static_assert(offsetof(Frame, near_shift) == 136);
 static_assert(offsetof(Frame, orthographic) == 140);
@@ -80,7 +89,9 @@ static_assert(offsetof(Frame, line) == 192);
 static_assert(offsetof(Frame, wire) == 208);
 static_assert(offsetof(Frame, marker) == 224);
 static_assert(offsetof(Frame, marker_rim) == 240);
+static_assert(offsetof(Frame, polyline) == 256);
 static_assert(sizeof(ArrowPush) == 20);
+static_assert(sizeof(LinePush) == 20);
 static_assert(sizeof(MarkerPush) == 8);
 static_assert(sizeof(PanelPush) == 8);
 }  // namespace geotherm::engine::shared

@@ -15,15 +15,23 @@ layout(set = 0, binding = kColoursBinding) uniform samplerBuffer colours;
 layout(location = 0) in vec4 eye_and_value;  // see surface.vert
 layout(location = 1) in vec2 corner;
 
+layout(location = 2) in vec3 eye;
+layout(location = 3) in vec3 corner_values;
+layout(location = 4) in vec3 corner_regions;
+
 layout(location = 0) out vec4 colour;
 
 // What is larger, either way, comes from a corner without a value, weighted or extrapolated.
 const float kLargestValue = 1e20;
 const vec3 kNoValueColour = vec3(0.62);
 
+vec3 colour_number(int i) { return texelFetch(colours, i).rgb; }
+
 vec3 map_colour(float x) {
-  return texelFetch(colours, int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5)).rgb;
+  return colour_number(int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5));
 }
+
+#include "regions.glsl"
 
 // Lines so close that they are only their mean leave the colours readable.
 const float kDensest = 0.5;
@@ -70,7 +78,7 @@ float brightness() {
   n = size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
   float light = (features & kThreeLights) != 0 ? three_points(n) : headlight(n);
   // Colours that mean something are dimmed less.
-  return (features & kMapped) != 0 ? 0.3 + 0.7 * light : light;
+  return (features & (kMapped | kRegions)) != 0 ? 0.3 + 0.7 * light : light;
 }
 
 void main() {
@@ -84,6 +92,7 @@ void main() {
     vec3 mapped = map_colour(place);
     c = known ? mapped : kNoValueColour;
   }
+  if ((features & kRegions) != 0) c = region_colour();
   if ((features & kIsolines) != 0) {
     float cover = isolines(value);
     bool within = (features & kMapped) == 0 || abs(place - 0.5) < 0.5001;  // the map's range

@@ -25,6 +25,10 @@ std::optional<View> view_of(Action action) {
       return View::kGradientError;
     case Action::kContours:
       return View::kContours;
+    case Action::kExactError:
+      return View::kExactError;
+    case Action::kRegions:
+      return View::kRegions;
     default:
       return std::nullopt;
   }
@@ -100,6 +104,8 @@ void stop(Frame& frame) {
     frame.ui.input.brush = false;
   } else if (frame.session.work().busy) {
     frame.out.cancel = true;
+  } else if (frame.state().target) {
+    frame.send(app::command::Target{std::nullopt});
   } else if (frame.state().picked) {
     frame.send(app::command::Pick{std::nullopt});
   }

@@ -22,6 +22,8 @@ enum class Action {
   kHeatGradient,
   kGradientError,
   kContours,
+  kExactError,
+  kRegions,
   kRotate,
   kFrame,
   kMoreSources,

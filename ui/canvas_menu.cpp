@@ -44,6 +44,8 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
       return;
     case MouseAction::kPick:
       return frame.send(app::command::Pick{point_text(point)});
+    case MouseAction::kTarget:
+      return frame.send(app::command::Target{point_text(point)});
     case MouseAction::kCentre: {
       const Vec3 at = position_of(mesh, point);
       return frame.send(app::command::Centre{at.x(), at.y(), at.z()});
@@ -70,6 +72,7 @@ void draw_canvas_menu(Frame& frame) {
   draw_stroke(frame, "Remove the nearest source", MouseAction::kRemoveSource);
   ImGui::Separator();
   draw_stroke(frame, "Show figures here", MouseAction::kPick);
+  draw_stroke(frame, "Paths from here", MouseAction::kTarget);
   draw_stroke(frame, "Turn about this point", MouseAction::kCentre);
   ImGui::Separator();
   draw_menu_action(frame, "Whole model", Action::kFrame);

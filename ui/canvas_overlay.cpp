@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/method_words.h"
 #include "app/text.h"
 #include "ui/action.h"
 #include "ui/bundled.h"
@@ -106,8 +107,7 @@ void draw_shown_badge(Frame& frame) {
   std::string text = kShown[static_cast<std::size_t>(frame.state().shown)];
   const app::Answer* answer = frame.answer();
   if (answer && frame.state().shown != app::Shown::kDifference) {
-    text += "  \u00b7  " + answer->method.options().backend +
-            "  \u00b7  t = " + app::significant(answer->method.t(), 3);
+    text += "  \u00b7  " + app::method_caption(*answer->method);
   }
   const Rect& canvas = frame.ui.places.canvas;
   draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(20)}, text);

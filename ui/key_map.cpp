@@ -19,6 +19,8 @@ constexpr KeyBinding kKeys[] = {
     {"5", Action::kHeatGradient, "View", "heat gradient X"},
     {"6", Action::kGradientError, "View", "gradient error: X beside \u2207\u03c6"},
     {"7", Action::kContours, "View", "distance contours"},
+    {"8", Action::kExactError, "View", "error against a more accurate method"},
+    {"9", Action::kRegions, "View", "nearest sources"},
     {"p", Action::kRotate, "View", "turn the model, and stop again"},
     {"f", Action::kFrame, "View", "the whole model in the middle"},
     {"+", Action::kMoreSources, "Sources", "one more random source"},
@@ -39,7 +41,7 @@ constexpr KeyBinding kKeys[] = {
     {"Ctrl+Y", Action::kRedo, "Edit", "redo"},
     {"Ctrl+Shift+Z", Action::kRedo, "Edit", "redo"},
     {"Esc", Action::kStop, "Edit",
-     "close a dialog, end the brush, cancel the work, forget the point"},
+     "close a dialog, end the brush, cancel the work, forget paths, forget the point"},
     {"F1", Action::kKeys, "Window", "this list of keys"},
     {"F2", Action::kLeftPanel, "Window", "left side bar"},
     {"F3", Action::kRightPanel, "Window", "right side bar"},
@@ -60,6 +62,7 @@ constexpr MouseBinding kMouse[] = {
     {"Left drag of a source", MouseAction::kMoveSource, "Set sources", "move it"},
     {"Left drag with the brush", MouseAction::kPaint, "Set sources", "paint a curve of sources"},
     {"Ctrl+Left click", MouseAction::kPick, "Figures", "show the figures of this point"},
+    {"Ctrl+Shift+Left click", MouseAction::kTarget, "Figures", "paths from here to the source"},
     {"Right click", MouseAction::kMenu, "Figures", "menu of this point"},
 };
 

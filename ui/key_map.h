@@ -40,6 +40,7 @@ enum class MouseAction {
   kAddSource,
   kRemoveSource,
   kPick,
+  kTarget,
   kCentre,
   kMenu,
   kWheelZoom,

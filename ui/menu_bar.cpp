@@ -81,6 +81,8 @@ void draw_view_menu(Frame& frame) {
   draw_menu_action(frame, "Heat gradient X", Action::kHeatGradient);
   draw_menu_action(frame, "Gradient error", Action::kGradientError);
   draw_menu_action(frame, "Distance contours", Action::kContours);
+  draw_menu_action(frame, "Exact error", Action::kExactError);
+  draw_menu_action(frame, "Nearest sources", Action::kRegions);
   ImGui::Separator();
   draw_menu_action(frame, "Rotate", Action::kRotate);
   draw_menu_action(frame, "Whole model", Action::kFrame);

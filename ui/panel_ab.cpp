@@ -13,7 +13,7 @@ namespace {
 /// The options in which A and B differ, side by side.
 void draw_settings(Frame& frame) {
   app::ViewerState kept = frame.state();
-  kept.heat = *frame.state().kept;
+  kept.options = *frame.state().kept;
   bool any = false;
   for (const app::Setting& setting : app::settings()) {
     if (!setting.of_method) continue;

@@ -54,7 +54,7 @@ void draw_bars(Frame& frame, const char* title, Figure figure) {
   for (const app::CompareRow& row : rows) {
     if (!(row.*figure)) continue;
     draw_share(frame, *(row.*figure) / most);
-    draw_value(frame, row.backend, app::milliseconds(*(row.*figure)), "ms");
+    draw_value(frame, row.name(), app::milliseconds(*(row.*figure)), "ms");
   }
 }
 
@@ -83,9 +83,10 @@ void draw_table(Frame& frame) {
   for (const app::CompareRow& row : compare.rows) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(row.backend.c_str());
-    const std::string reference = row.backend == compare.reference ? " (the reference)" : "";
-    draw_tip(frame, row.backend + reference + "\nstatus: " + row.status +
+    const std::string name = row.name();
+    ImGui::TextUnformatted(name.c_str());
+    const std::string reference = row.name() == compare.reference ? " (the reference)" : "";
+    draw_tip(frame, row.name() + reference + "\nstatus: " + row.status +
                         "\nfactors: " + number_or_dash(row.factor_mb) +
                         " MB\npeak memory: " + number_or_dash(row.peak_rss_mb) +
                         " MB\na source set of 16 at once: " + number_or_dash(row.batch_query_ms) +
@@ -93,7 +94,7 @@ void draw_table(Frame& frame) {
                         "\nmean difference: " + number_or_dash(row.mean_difference));
     draw_cell(number_or_dash(row.factor_mb));
     draw_cell(number_or_dash(row.batch_query_ms));
-    draw_cell(row.backend == compare.reference ? "ref" : number_or_dash(row.max_difference, 2));
+    draw_cell(row.name() == compare.reference ? "ref" : number_or_dash(row.max_difference, 2));
   }
   ImGui::EndTable();
 }
@@ -110,7 +111,7 @@ void draw_compare_panel(Frame& frame) {
   draw_table(frame);
   for (const app::CompareRow& row : compare.rows) {
     if (row.message.empty()) continue;
-    draw_note(row.backend + ": " + row.message,
+    draw_note(row.name() + ": " + row.message,
               row.status == "ok" ? frame.colours().dim : frame.colours().error);
   }
 }

@@ -29,7 +29,8 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
   }
 }
 
-void draw_figures(Frame& frame, const Quality& quality) {
+/// `heat`: those of the heat method as well.
+void draw_figures(Frame& frame, const Quality& quality, bool heat) {
   const Palette& p = frame.colours();
   const auto warn = [&p](bool bad) { return bad ? p.warning : p.text; };
   const double edge = frame.model()->mesh.mean_edge_length;
@@ -41,6 +42,7 @@ void draw_figures(Frame& frame, const Quality& quality) {
       frame, "eikonal error", app::significant(quality.eikonal_error_mean, 3), "",
       "Area-weighted mean of | |\u2207d| \u2212 1 |: 0 for true distances away from where fronts "
       "meet. Falls with finer meshes; grows with t.");
+  if (!heat) return;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
              "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",
              warn(quality.heat_residual > kLargeResidual));
@@ -70,7 +72,7 @@ void draw_quality_panel(Frame& frame) {
   if (!answer || !frame.model()) return draw_dim(frame, "No answer yet.");
   draw_distances(frame, *answer);
   if (is_measured(answer->result.quality)) {
-    draw_figures(frame, answer->result.quality);
+    draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
   } else {
     draw_dim(frame, "Quality is measured when the drag ends.");
   }

@@ -5,6 +5,7 @@
 
 #include "app/explore/settings.h"
 #include "app/text.h"
+#include "solver/heat/heat_method.h"
 #include "ui/number.h"
 #include "ui/panels.h"
 #include "ui/setting_rows.h"
@@ -31,8 +32,9 @@ void draw_named_choice(Frame& frame, std::string_view name, std::string_view lab
 
 /// t as the present settings mean it, rounded so that it can be read.
 std::string rounded_time(const Frame& frame) {
-  const double t =
-      frame.model() ? app::diffusion_time(frame.state().heat.time_step, frame.model()->mesh) : 0.01;
+  const double t = frame.model()
+                       ? app::diffusion_time(frame.state().options.time_step, frame.model()->mesh)
+                       : 0.01;
   return app::significant(t, 4);
 }
 
@@ -41,7 +43,7 @@ void draw_factor(Frame& frame) {
       frame, "factor m",
       "m of t = m h\u00b2 or t = m A/F. Around 1 is right for most meshes; larger smooths the "
       "distances, smaller costs accuracy on coarse meshes.");
-  const double current = frame.state().heat.time_step.factor;
+  const double current = frame.state().options.time_step.factor;
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   double factor = current;
@@ -65,7 +67,7 @@ void draw_time(Frame& frame) {
                     [&frame](const std::string& name) {
                       return name == "absolute" ? ":" + rounded_time(frame) : std::string();
                     });
-  const TimeStep& step = frame.state().heat.time_step;
+  const TimeStep& step = frame.state().options.time_step;
   if (step.rule == TimeRule::kAbsolute) {
     draw_label(frame, "t", "Diffusion time, model units squared.");
     if (const auto typed = draw_field(frame, "absolute", exact(step.absolute))) {
@@ -78,8 +80,9 @@ void draw_time(Frame& frame) {
   const double t = app::diffusion_time(step, frame.model()->mesh);
   draw_value(frame, "t now", app::significant(t), "",
              "Diffusion time that these settings mean, model units squared.");
-  if (const app::Answer* answer = frame.answer()) {
-    draw_value(frame, "t of the answer", app::significant(answer->method.t()), "",
+  const app::Answer* answer = frame.answer();
+  if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
+    draw_value(frame, "t of the answer", app::significant(heat->t()), "",
                "Diffusion time that the distances shown were computed with.",
                frame.session.stale() ? frame.colours().warning : frame.colours().text);
   }
@@ -122,10 +125,11 @@ void draw_failure(Frame& frame) {
 std::string laplacian_tip(const Frame& frame) {
   std::string tip =
       "auto flips edges where weights would be negative; cotan takes the mesh as it is.";
-  if (const app::Answer* answer = frame.answer()) {
-    const bool flipped = answer->method.laplacian() == LaplacianKind::kIntrinsicDelaunay;
+  const app::Answer* answer = frame.answer();
+  if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
+    const bool flipped = heat->laplacian() == LaplacianKind::kIntrinsicDelaunay;
     tip += std::string("\nNow: ") + (flipped ? "intrinsic-delaunay" : "cotan") + ", " +
-           app::counted(answer->method.flips(), "flip", "flips") + ".";
+           app::counted(heat->flips(), "flip", "flips") + ".";
   }
   return tip;
 }
@@ -136,6 +140,14 @@ void draw_solver_panel(Frame& frame) {
   if (!draw_section(frame, "Solver")) return;
   draw_work_row(frame);
   draw_failure(frame);
+  draw_setting_choice(
+      frame, "method", "method",
+      "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
+      "the classic; exact: slow, and the truth.");
+  if (frame.state().options.method != MethodKind::kHeat) {
+    draw_setting_field(frame, "threads", "threads");
+    return draw_dim(frame, "This method has no other options.");
+  }
   draw_setting_choice(frame, "backend", "backend");
   draw_time(frame);
   draw_constraint(frame);

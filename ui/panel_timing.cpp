@@ -76,12 +76,19 @@ void draw_timing_panel(Frame& frame) {
   draw_stage(frame, {"load", frame.model()->model.load_ms, "Reading or generating the model."}, 0);
   const app::Answer* answer = frame.answer();
   if (!answer) return draw_dim(frame, "No answer yet.");
-  draw_setup(frame, *answer);
-  draw_query(frame, answer->result.timing);
+  if (answer->method->heat() != nullptr) {
+    draw_setup(frame, *answer);
+    draw_query(frame, answer->result.timing);
+  } else {
+    draw_stage(frame, {"set-up", answer->setup.setup, "Flips and tables."}, 0);
+    draw_stage(frame, {"query", answer->result.timing.query, "From the sources to the distances."},
+               0);
+  }
   draw_query_plot(frame);
   draw_heading(frame, "Memory");
-  draw_value(frame, "factors", app::significant(answer->method.memory_mb(), 3), "MB",
-             "Of all factors of the answer that is shown.");
+  draw_value(frame, answer->method->heat() ? "factors" : "tables",
+             app::significant(answer->method->memory_mb(), 3), "MB",
+             "Of the answer that is shown.");
   draw_value(frame, "program, peak", app::grouped(static_cast<std::int64_t>(peak_mb(frame))), "MB",
              "The most that the program has held so far.");
 }

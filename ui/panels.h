@@ -15,6 +15,7 @@ void draw_view_panel(Frame& frame);
 // Sections of the right side bar.
 void draw_timing_panel(Frame& frame);
 void draw_quality_panel(Frame& frame);
+void draw_error_panel(Frame& frame);
 void draw_point_panel(Frame& frame);
 void draw_compare_panel(Frame& frame);
 

@@ -72,6 +72,12 @@ void draw_query_plot(Frame& frame) {
                           packed(frame.colours().series[i]));
       y -= height;
     }
+    // A method that does not have these parts.
+    const double rest = query.timing.query - parts[0] - parts[1] - parts[2];
+    if (const auto height = static_cast<float>(rest / most) * (bottom - top); height > 1) {
+      list->AddRectFilled({x, y - height}, {x + column - frame.px(1), y},
+                          packed(frame.colours().accent));
+    }
     const float mouse = ImGui::GetIO().MousePos.x;
     if (ImGui::IsItemHovered() && mouse >= x && mouse < x + column) pointed = &query;
     x += column;

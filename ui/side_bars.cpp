@@ -93,6 +93,7 @@ void draw_right(Frame& frame) {
               [](Frame& inside) {
                 draw_timing_panel(inside);
                 draw_quality_panel(inside);
+                draw_error_panel(inside);
                 draw_point_panel(inside);
                 draw_compare_panel(inside);
               });

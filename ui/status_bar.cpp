@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/method_words.h"
 #include "app/picture/picture_text.h"
 #include "app/text.h"
 #include "ui/source_edit.h"
@@ -22,7 +23,7 @@ std::string what_is_shown(const Frame& frame) {
     parts.emplace_back(kShown[static_cast<std::size_t>(frame.state().shown)]);
   }
   if (const app::Answer* answer = frame.answer()) {
-    parts.push_back(answer->method.options().backend);
+    parts.push_back(app::solver_name(answer->options));
     parts.push_back("query " + app::milliseconds(answer->result.timing.query) + " ms");
   }
   return app::joined(parts, "  \u00b7  ");

@@ -57,6 +57,7 @@ class Applier {
     std::erase_if(s_.sources, [](const std::string& text) { return !fits_any_model(text); });
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
+    s_.target.reset();
     // Lengths of the old model say nothing on the new one.
     s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
     return (*this)(command::Frame{});
@@ -219,7 +220,7 @@ class Applier {
   }
 
   Result<void> operator()(const command::Keep& /*c*/) {
-    s_.kept = s_.heat;
+    s_.kept = s_.options;
     return {};
   }
 
@@ -231,7 +232,7 @@ class Applier {
 
   Result<void> operator()(const command::Swap& /*c*/) {
     if (!s_.kept) return nothing_kept();
-    std::swap(*s_.kept, s_.heat);
+    std::swap(*s_.kept, s_.options);
     return {};
   }
 
@@ -258,6 +259,21 @@ class Applier {
       return bad("'" + one_line(*c.point) + "' is no point to pick; write face:ID:b0:b1:b2");
     }
     s_.picked = to_text(*spec);
+    return {};
+  }
+
+  Result<void> operator()(const command::Target& c) {
+    if (!c.point) {
+      s_.target.reset();
+      return {};
+    }
+    const auto spec = parse_source(*c.point);
+    if (!spec) return spec.error();
+    if (!is_single_point(*spec)) {
+      return bad("'" + one_line(*c.point) + "' is no target; write one vertex, face:ID:b0:b1:b2 " +
+                 "or xyz:x:y:z");
+    }
+    s_.target = to_text(*spec);
     return {};
   }
 
@@ -296,7 +312,7 @@ class Applier {
 
 ViewerState initial_state() {
   ViewerState state;
-  state.heat.backend = backend_names().front();
+  state.options.backend = backend_names().front();
   state.picture.camera.fit = PictureFit::kSphere;
   return state;
 }

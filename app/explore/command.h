@@ -137,6 +137,12 @@ struct Pick {  // pick face:ID:b0:b1:b2, pick none
   bool operator==(const Pick&) const = default;
 };
 
+/// Draws the paths that lead from a point to the sources; none: no longer.
+struct Target {  // target SPEC, target none
+  std::optional<std::string> point;
+  bool operator==(const Target&) const = default;
+};
+
 /// Runs the present work through several backends.
 struct Compare {  // compare [all|NAME,NAME...]
   std::string backends = "all";
@@ -189,9 +195,9 @@ using Command =
                  command::FewerSources, command::ShuffleSources, command::Orbit, command::Zoom,
                  command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
                  command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
-                 command::Pick, command::Compare, command::SavePicture, command::SaveDistances,
-                 command::SaveSession, command::SaveLog, command::SaveFigures, command::Undo,
-                 command::Redo, command::Quit>;
+                 command::Pick, command::Target, command::Compare, command::SavePicture,
+                 command::SaveDistances, command::SaveSession, command::SaveLog,
+                 command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);

@@ -81,6 +81,9 @@ struct Printer {
   std::string operator()(const command::Pick& c) const {
     return words("pick", {c.point.value_or("none")});
   }
+  std::string operator()(const command::Target& c) const {
+    return words("target", {c.point.value_or("none")});
+  }
   std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
   std::string operator()(const command::SavePicture& c) const {
     std::string text = words("save picture", {c.path});
@@ -219,6 +222,12 @@ Result<Command> read_pick(WordReader& reader) {
   return Command(command::Pick{reader.last()});
 }
 
+Result<Command> read_target(WordReader& reader) {
+  if (reader.peek() == "none") return Command(command::Target{});
+  if (auto point = reader.single_point(); !point) return point.error();
+  return Command(command::Target{reader.last()});
+}
+
 Result<Command> read_compare(WordReader& reader) {
   return Command(reader.at_end() ? command::Compare{} : command::Compare{reader.next()});
 }
@@ -266,6 +275,7 @@ const Form kForms[] = {
     {"show", "a|b|difference", 1, 1, read_show},
     {"flip", "", 0, 0, plain<command::Flip>},
     {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
+    {"target", "POINT|none", 1, 1, read_target},
     {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
     {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
     {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},

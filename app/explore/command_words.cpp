@@ -155,6 +155,16 @@ Result<void> WordReader::face_point() {
   return {};
 }
 
+Result<void> WordReader::single_point() {
+  const auto spec = parse_source(peek());
+  if (!spec || !is_single_point(*spec)) {
+    return fail("a point (a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z) or none");
+  }
+  ++next_;
+  last_ = to_text(*spec);
+  return {};
+}
+
 Result<int> WordReader::one_of(std::initializer_list<const char*> names) {
   int i = 0;
   for (const char* name : names) {

@@ -34,8 +34,9 @@ class WordReader {
   Result<double> number(double least, double most);
   Result<int> whole();  ///< from 0
   Result<std::vector<Index>> vertices();
-  Result<void> source();      ///< its canonical text is last()
-  Result<void> face_point();  ///< the same
+  Result<void> source();        ///< its canonical text is last()
+  Result<void> face_point();    ///< the same
+  Result<void> single_point();  ///< the same: one vertex, a point in a face or in space
   Result<int> one_of(std::initializer_list<const char*> names);
 
   /// "column N: expected WHAT", of the next word or the end of the line.

@@ -9,6 +9,7 @@
 #include "app/explore/viewer_state.h"
 #include "app/load_model.h"
 #include "app/picture/picture_data.h"
+#include "app/picture/target_paths.h"
 #include "app/solve_figures.h"
 #include "solver/mesh/ray_tree.h"
 
@@ -26,12 +27,14 @@ struct ExploredModel {
 
 /// One answer with the settings it belongs to.
 struct Answer {
-  HeatMethod method;
+  std::shared_ptr<const DistanceMethod> method;
+  MethodOptions options;
   DistanceResult result;
   DistanceSummary distance;
   SetupTiming setup;    ///< of the work that these settings needed, with what they took over
   double setup_ms = 0;  ///< the time from a change of settings to the method being ready
   std::vector<std::string> warnings;
+  std::shared_ptr<const ErrorReport> error = {};  ///< null: not asked for
 };
 
 /// A place on the model under one entry of the list of sources.
@@ -56,8 +59,12 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  std::string b_failure;      ///< why there is no B although settings are kept; empty: none
-  std::uint64_t version = 0;  ///< another one with every change
+  std::vector<Index> nearest;     ///< V: group of the nearest source; empty: not asked for
+  std::vector<TargetPath> paths;  ///< to ViewerState::target
+  std::optional<Vec3> target;     ///< where that is, model units
+  std::string path_failure;       ///< why there are none although there is a target; empty: none
+  std::string b_failure;          ///< why there is no B although settings are kept; empty: none
+  std::uint64_t version = 0;      ///< another one with every change
 };
 
 /// The t that a time step means on a mesh, model units squared.
@@ -65,6 +72,9 @@ double diffusion_time(const TimeStep& step, const MeshReport& mesh);
 
 /// A or B (for the difference: A); null while there is none.
 const Answer* shown_answer(const Explored& explored, Shown shown);
+
+/// All there is to say about an answer.
+SolveFigures figures_of(const Explored& explored, const Answer& answer);
 
 /// Figures of a point of the surface.
 struct PointFigures {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/explore/explored_picture.h"
 
+#include "app/method_words.h"
 #include "app/picture/picture_caption.h"
 #include "app/text.h"
 
@@ -11,15 +12,15 @@ std::string caption_of(const Explored& explored, Shown shown) {
   const Model& model = explored.model->model;
   const Index faces = model.mesh->face_count();
   if (!explored.b) {
-    return picture_caption(model.name, faces, explored.a ? &explored.a->method : nullptr);
+    return picture_caption(model.name, faces, explored.a ? explored.a->method.get() : nullptr);
   }
   if (shown != Shown::kDifference) {
-    return picture_caption(model.name, faces, &shown_answer(explored, shown)->method) +
+    return picture_caption(model.name, faces, shown_answer(explored, shown)->method.get()) +
            (shown == Shown::kB ? " (B)" : " (A)");
   }
   return picture_caption(model.name, faces, nullptr) +
-         ", A: " + method_caption(explored.a->method) +
-         ", B: " + method_caption(explored.b->method);
+         ", A: " + method_caption(*explored.a->method) +
+         ", B: " + method_caption(*explored.b->method);
 }
 
 }  // namespace
@@ -34,13 +35,18 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.value_unit = 1;
   data.largest_value = 0;
   data.is_signed = false;
+  data.nearest = explored.nearest;
+  data.lines.clear();
   const TriangleMesh& mesh = *explored.model->model.mesh;
   if (shown != Shown::kA && !explored.b) shown = Shown::kA;
   data.caption = caption_of(explored, shown);
   const Answer* answer = shown_answer(explored, shown);
   if (answer == nullptr) return;
   add_sources(data, mesh, explored.set);
-  if (shown == Shown::kDifference && explored.difference) {
+  add_paths(data, mesh, explored.paths);
+  if (view == View::kExactError && answer->error) {
+    add_error(data, answer->error->values, error_title(*answer->error));
+  } else if (shown == Shown::kDifference && explored.difference) {
     add_difference(data, explored.difference->values);
   } else {
     add_distances(data, answer->result.distances);

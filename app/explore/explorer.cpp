@@ -51,20 +51,32 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
 class SetUnion {
  public:
   void add(const SourceSet& more) {
-    for (const SurfacePoint& point : more.points) {
-      if (point.is_vertex() && !vertices_.insert(point.vertex).second) continue;
-      set_.points.push_back(point);
+    for (std::size_t i = 0; i < more.points.size(); ++i) {
+      add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
     }
     edges_.insert(more.edges.begin(), more.edges.end());
   }
   SourceSet take() {
     set_.edges.assign(edges_.begin(), edges_.end());
+    if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
     return std::move(set_);
   }
 
  private:
+  void add(const SurfacePoint& point, double offset) {
+    if (point.is_vertex()) {
+      const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
+      if (!fresh) {
+        set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
+        return;
+      }
+    }
+    set_.points.push_back(point);
+    set_.offsets.push_back(offset);
+  }
+
   SourceSet set_;
-  std::set<Index> vertices_;
+  std::map<Index, std::size_t> vertices_;
   std::set<std::array<Index, 2>> edges_;
 };
 
@@ -114,6 +126,9 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   a_.reset();
   b_.reset();
   placed_.clear();
+  waves_.reset();
+  reference_.reset();
+  paths_.reset();
   model_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
@@ -140,10 +155,10 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   return {};
 }
 
-Result<void> Explorer::prepare(const HeatOptions& options, std::optional<Method>& kept,
+Result<void> Explorer::prepare(const MethodOptions& options, std::optional<Method>& kept,
                                const std::optional<Method>& other, const Progress& progress) {
-  if (kept && kept->method.options() == options) return {};
-  if (other && other->method.options() == options) {
+  if (kept && same_method(kept->options, options)) return {};
+  if (other && same_method(other->options, options)) {
     if (kept) {
       std::swap(a_, b_);  // A and B have changed places
     } else {
@@ -154,38 +169,41 @@ Result<void> Explorer::prepare(const HeatOptions& options, std::optional<Method>
   if (auto pin = check_pin(options.constraint, *model_->model.mesh); !pin) return pin;
   const std::optional<Method>& near = kept ? kept : other;
   const Stopwatch watch;
-  auto made = near ? near->method.with(options, progress)
-                   : HeatMethod::build(model_->model.mesh, options, progress);
+  auto made = make(options, near ? near->method.get() : nullptr, progress);
   if (!made) return about_model(model_->model.name, made.error());
-  SetupTiming setup = made->timing();
+  SetupTiming setup = (*made)->timing();
   if (near && setup.operators == 0) {  // taken over
     setup.operators = near->setup.operators;
     setup.analyze = near->setup.analyze;
   }
-  kept = Method{*std::move(made), setup, watch.milliseconds()};
+  kept = Method{*std::move(made), options, setup, watch.milliseconds()};
   return {};
 }
 
 Result<std::shared_ptr<const Answer>> Explorer::answer(
-    const ExploreRequest& request, const HeatOptions& options, bool is_b, const Explored& explored,
-    const std::vector<std::string>& source_warnings, const Progress& progress) {
+    const ExploreRequest& request, const MethodOptions& options, bool is_b,
+    const Explored& explored, const std::vector<std::string>& source_warnings,
+    const Progress& progress) {
   std::optional<Method>& mine = is_b ? b_ : a_;
   if (auto ready = prepare(options, mine, is_b ? a_ : b_, progress); !ready) return ready.error();
   if (!report(progress, "solve", -1)) return cancelled_error();
   QueryOptions query;
   query.fields = request.fields;
   query.quality = request.quality;
-  auto result = mine->method.solve(explored.set, query, progress);
+  auto result = mine->method->solve(explored.set, query, progress);
   if (!result) return about_model(model_->model.name, result.error());
-  Answer out{mine->method, *std::move(result), {}, mine->setup, mine->setup_ms, {}};
+  Answer out{mine->method, options, *std::move(result), {}, mine->setup, mine->setup_ms, {}};
   out.distance = summarize(out.result.distances);
   const auto add = [&out](const std::vector<std::string>& more) {
     out.warnings.insert(out.warnings.end(), more.begin(), more.end());
   };
-  add(out.method.warnings());
+  add(out.method->warnings());
   add(source_warnings);
   add(out.result.warnings);
   add(unreached_notes(model_->mesh, out.distance.unreached));
+  if (request.check != Check::kOff) {
+    if (auto done = check(request, explored.set, out, progress); !done) return done.error();
+  }
   return std::make_shared<const Answer>(std::move(out));
 }
 
@@ -198,9 +216,15 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   if (request.sources.empty()) return explored;
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();
-  auto a = answer(request, request.heat, false, explored, *warnings, progress);
+  auto a = answer(request, request.options, false, explored, *warnings, progress);
   if (!a) return a.error();
   explored.a = *std::move(a);
+  if (request.nearest) {
+    if (auto found = find_nearest(explored, progress); !found) return found.error();
+  }
+  if (request.target) {
+    if (auto found = find_paths(request, explored, progress); !found) return found.error();
+  }
   if (!request.kept) {
     b_.reset();
     return explored;

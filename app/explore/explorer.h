@@ -18,19 +18,23 @@ struct ExploreRequest {
   std::string model;
   std::uint64_t opening = 0;  ///< another number: the model is read anew
   std::vector<std::string> sources;
-  HeatOptions heat;                 ///< A
-  std::optional<HeatOptions> kept;  ///< B
+  MethodOptions options;              ///< A
+  std::optional<MethodOptions> kept;  ///< B
   bool fields = false, quality = true;
+  Check check = Check::kOff;
+  bool nearest = false;               ///< Explored::nearest
+  std::optional<std::string> target;  ///< Explored::paths
 
   /// Whether both need the same model and factors.
   bool same_setup(const ExploreRequest& other) const {
-    return model == other.model && opening == other.opening && heat == other.heat &&
+    return model == other.model && opening == other.opening && options == other.options &&
            kept == other.kept;
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
     return same_setup(other) && sources == other.sources && fields >= other.fields &&
-           quality >= other.quality;
+           quality >= other.quality && nearest >= other.nearest &&
+           (check == other.check || other.check == Check::kOff) && target == other.target;
   }
 };
 
@@ -48,19 +52,30 @@ class Explorer {
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
-                                               const HeatOptions& options, bool is_b,
+                                               const MethodOptions& options, bool is_b,
                                                const Explored& explored,
                                                const std::vector<std::string>& source_warnings,
                                                const Progress& progress);
 
   Result<std::vector<std::string>> place_sources(const ExploreRequest& request, Explored& explored);
 
+  Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,
+                                                     const DistanceMethod* near,
+                                                     const Progress& progress);
+  Result<void> make_waves(const Progress& progress);
+  Result<void> find_nearest(Explored& explored, const Progress& progress);
+  Result<void> find_paths(const ExploreRequest& request, Explored& explored,
+                          const Progress& progress);
+  Result<void> check(const ExploreRequest& request, const SourceSet& sources, Answer& answer,
+                     const Progress& progress);
+
   struct Method {
-    HeatMethod method;
+    std::shared_ptr<const DistanceMethod> method;
+    MethodOptions options;
     SetupTiming setup;
     double setup_ms;
   };
-  Result<void> prepare(const HeatOptions& options, std::optional<Method>& kept,
+  Result<void> prepare(const MethodOptions& options, std::optional<Method>& kept,
                        const std::optional<Method>& other, const Progress& progress);
 
   std::shared_ptr<const ExploredModel> model_;
@@ -68,6 +83,21 @@ class Explorer {
   std::uint64_t opening_ = 0;
   std::optional<Method> a_, b_;
   std::map<std::string, ResolvedSources> placed_;  ///< of the last request, by entry
+  std::shared_ptr<const WaveSurface> waves_;       ///< of the model; null: not needed so far
+  /// The last distances that others were held against.
+  struct Reference {
+    MethodKind kind;
+    std::vector<std::string> sources;
+    std::vector<double> distances;
+    double milliseconds;
+  };
+  std::optional<Reference> reference_;
+  /// What finds paths on the streamlines of `method`; for as long as A has that.
+  struct Paths {
+    std::shared_ptr<const DistanceMethod> method;
+    std::shared_ptr<const TargetPathFinder> finder;
+  };
+  std::optional<Paths> paths_;
 };
 
 }  // namespace geotherm::app

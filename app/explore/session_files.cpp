@@ -57,10 +57,8 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
   if (answer == nullptr || session.stale()) return not_yet("figures");
-  SolveFigures figures{explored.model->model, explored.model->mesh, answer->method,
-                       explored.set,          answer->result,       answer->distance,
-                       peak_rss_mb(),         answer->warnings};
-  return write_text(session.state().model, save.path, "save figures", to_text(solve_json(figures)));
+  return write_text(session.state().model, save.path, "save figures",
+                    to_text(solve_json(figures_of(explored, *answer))));
 }
 
 std::string session_text(const ViewerState& state) {

@@ -6,9 +6,10 @@
 
 #include "app/explore/explored_picture.h"
 #include "app/explore/session_state.h"
+#include "app/method_words.h"
 #include "app/resolve_sources.h"
+#include "app/solver_names.h"
 #include "app/text.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm::app {
 namespace {
@@ -19,10 +20,10 @@ constexpr int kCompareBatch = 16;
 
 std::string summary(const Explored& explored, const Explored& before) {
   const Answer& a = *explored.a;
-  std::string text = "solved with " + a.method.options().backend + ": query " +
+  std::string text = "solved with " + solver_name(a.options) + ": query " +
                      milliseconds(a.result.timing.query) + " ms";
-  const bool same_method = before.a && before.model == explored.model &&
-                           before.a->method.options() == a.method.options();
+  const bool same_method =
+      before.a && before.model == explored.model && before.a->method == a.method;
   if (!same_method) text += ", set-up " + milliseconds(a.setup_ms) + " ms";
   text += ", largest distance " + significant(a.distance.max);
   if (explored.difference) {
@@ -39,10 +40,15 @@ ExploreRequest Session::State::wanted() const {
   request.model = state.model;
   request.opening = opening;
   request.sources = state.sources;
-  request.heat = state.heat;
+  request.options = state.options;
   request.kept = state.kept;
   request.fields = needs_fields(state.picture.view) || state.picked.has_value();
   request.quality = !dragging;
+  const View view = state.picture.view;
+  request.check =
+      state.check == Check::kOff && view == View::kExactError ? Check::kAuto : state.check;
+  request.target = state.target;
+  request.nearest = view == View::kRegions;
   return request;
 }
 
@@ -163,9 +169,12 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   }
   if (!explored.a) return;
   if (queries.size() >= kMostQueries) queries.erase(queries.begin());
-  queries.push_back({explored.a->method.options().backend, explored.a->result.timing});
+  queries.push_back({solver_name(explored.a->options), explored.a->result.timing});
   if (!request.quality) return;  // a drag goes on
   note(LogLine::Kind::kNote, summary(explored, before));
+  if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
+    note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);
+  }
   for (const std::string& warning : explored.a->warnings) {
     const bool known = before.a && before.model == explored.model &&
                        std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
@@ -175,19 +184,10 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
 
 Result<void> Session::State::start_compare(const command::Compare& command) {
   CompareTask task;
-  task.options = state.heat;
-  if (command.backends == "all") {
-    task.backends = backend_names();
-  } else {
-    std::string rest = command.backends + ",";
-    for (std::size_t at = rest.find(','); at != std::string::npos; at = rest.find(',')) {
-      const auto backend = find_backend(rest.substr(0, at));
-      if (!backend) return backend.error();
-      task.backends.emplace_back((*backend)->name());
-      rest.erase(0, at + 1);
-    }
-  }
-  task.reference = task.backends.front();
+  auto solvers = solvers_named(command.backends, state.options);
+  if (!solvers) return solvers.error();
+  task.solvers = *std::move(solvers);
+  task.reference = solver_name(task.solvers.front());
   task.queries.push_back(explored.set);
   const TriangleMesh& mesh = *explored.model->model.mesh;
   for (int i = 1; i < kCompareBatch; ++i) {

@@ -64,60 +64,97 @@ Result<void> set_colour_map(State& s, const Text& text) {
   return {};
 }
 
+constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOff, "off"},
+                                                          {Check::kAuto, "auto"},
+                                                          {Check::kWavefrontFine, "wavefront-fine"},
+                                                          {Check::kExact, "exact"}};
+
+Text check_text(Check check) {
+  for (const auto& [value, name] : kChecks) {
+    if (value == check) return Text(name);
+  }
+  return {};
+}
+
+Result<void> set_check(State& s, const Text& text) {
+  for (const auto& [value, name] : kChecks) {
+    if (name != text) continue;
+    s.check = value;
+    return {};
+  }
+  return Error{ErrorCode::kBadInput,
+               "'" + one_line(text) + "' is no check; there are off, auto, wavefront-fine, exact"};
+}
+
 const std::vector<Setting>& all() {
   static const std::vector<Setting> kAll = {
-      {"backend", "the linear solver", true, [](const State& s) { return s.heat.backend; },
-       [](State& s, const Text& t) { return store(parse_backend(t), s.heat.backend); },
+      {"method", "how distance is computed", true,
+       [](const State& s) { return to_text(s.options.method); },
+       [](State& s, const Text& t) { return store(parse_method(t), s.options.method); },
+       [] { return method_names(); }},
+      {"backend", "the linear solver", true, [](const State& s) { return s.options.backend; },
+       [](State& s, const Text& t) { return store(parse_backend(t), s.options.backend); },
        [] { return backend_names(); }},
       {"time-step", "how the diffusion time t is chosen", true,
-       [](const State& s) { return to_text(s.heat.time_step); },
+       [](const State& s) { return to_text(s.options.time_step); },
        [](State& s, const Text& t) {
-         return store(parse_time_step_option(t, s.heat.time_step.factor), s.heat.time_step);
+         return store(parse_time_step_option(t, s.options.time_step.factor), s.options.time_step);
        },
        [] {
          return Names{"mean-edge", "mean-face-area", "absolute:0.01"};
        }},
       {"time-factor", "m of the time step", true,
-       [](const State& s) { return number_text(s.heat.time_step.factor); },
-       [](State& s, const Text& t) { return store(parse_time_factor(t), s.heat.time_step.factor); },
+       [](const State& s) { return number_text(s.options.time_step.factor); },
+       [](State& s, const Text& t) {
+         return store(parse_time_factor(t), s.options.time_step.factor);
+       },
        none},
       {"constraint", "what makes the Poisson system solvable", true,
-       [](const State& s) { return to_text(s.heat.constraint); },
-       [](State& s, const Text& t) { return store(parse_constraint_option(t), s.heat.constraint); },
+       [](const State& s) { return to_text(s.options.constraint); },
+       [](State& s, const Text& t) {
+         return store(parse_constraint_option(t), s.options.constraint);
+       },
        [] {
          return Names{"pin-sources", "pin-vertex", "penalty:10", "conserve-energy",
                       "pseudo-inverse"};
        }},
       {"heat", "what the heat step diffuses", true,
-       [](const State& s) { return to_text(s.heat.heat); },
-       [](State& s, const Text& t) { return store(parse_heat_mode(t), s.heat.heat); },
+       [](const State& s) { return to_text(s.options.heat); },
+       [](State& s, const Text& t) { return store(parse_heat_mode(t), s.options.heat); },
        [] {
          return Names{"unit", "diffuse", "hold"};
        }},
       {"boundary", "the condition on u along the border", true,
-       [](const State& s) { return to_text(s.heat.boundary); },
-       [](State& s, const Text& t) { return store(parse_boundary_rule(t), s.heat.boundary); },
+       [](const State& s) { return to_text(s.options.boundary); },
+       [](State& s, const Text& t) { return store(parse_boundary_rule(t), s.options.boundary); },
        [] {
          return Names{"neumann", "dirichlet", "average"};
        }},
       {"laplacian", "which triangulation carries the operators", true,
-       [](const State& s) { return to_text(s.heat.laplacian); },
-       [](State& s, const Text& t) { return store(parse_laplacian_option(t), s.heat.laplacian); },
+       [](const State& s) { return to_text(s.options.laplacian); },
+       [](State& s, const Text& t) {
+         return store(parse_laplacian_option(t), s.options.laplacian);
+       },
        [] {
          return Names{"auto", "cotan", "intrinsic-delaunay"};
        }},
       {"variant", "how the method is discretised", true,
-       [](const State& s) { return to_text(s.heat.variant); },
-       [](State& s, const Text& t) { return store(parse_variant(t), s.heat.variant); },
+       [](const State& s) { return to_text(s.options.variant); },
+       [](State& s, const Text& t) { return store(parse_variant(t), s.options.variant); },
        [] {
          return Names{"corrected", "classic"};
        }},
       {"threads", "that work at once; 0: one a core", true,
-       [](const State& s) { return std::to_string(s.heat.threads); },
+       [](const State& s) { return std::to_string(s.options.threads); },
        [](State& s, const Text& t) {
-         return store(parse_threads(t == "0" ? Text() : t), s.heat.threads);
+         return store(parse_threads(t == "0" ? Text() : t), s.options.threads);
        },
        none},
+      {"check", "what the distances are held against", false,
+       [](const State& s) { return check_text(s.check); }, set_check,
+       [] {
+         return Names{"off", "auto", "wavefront-fine", "exact"};
+       }},
       {"view", "what is shown", false, [](const State& s) { return to_text(s.picture.view); },
        [](State& s, const Text& t) { return store(parse_view(t), s.picture.view); },
        [] { return view_names(); }},

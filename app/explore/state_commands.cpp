@@ -34,12 +34,13 @@ std::vector<Command> commands_to(const ViewerState& state) {
   }
   if (state.kept) {
     ViewerState kept = now;
-    kept.heat = *state.kept;
+    kept.options = *state.kept;
     add_settings(now, kept, commands);
     commands.emplace_back(command::Keep{});
   }
   add_settings(now, state, commands);
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
+  if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});
   if (state.rotating) commands.emplace_back(command::Rotate{true});
   return commands;
@@ -59,10 +60,10 @@ UndoRule undo_rule(const Command& command) {
       is(static_cast<std::variant<command::MoveSource, command::ExtendCurve>*>(nullptr));
   const bool undoable =
       merged ||
-      is(static_cast<std::variant<command::SetSources, command::AddSources, command::RemoveSource,
-                                  command::ClearSources, command::MoreSources,
-                                  command::FewerSources, command::ShuffleSources, command::Keep,
-                                  command::Forget, command::Swap, command::Show, command::Flip>*>(
+      is(static_cast<std::variant<
+             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
+             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Keep,
+             command::Forget, command::Swap, command::Show, command::Flip, command::Target>*>(
           nullptr));
   return {undoable, merged};
 }

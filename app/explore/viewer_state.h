@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/picture/picture_settings.h"
-#include "solver/heat/heat_options.h"
+#include "solver/method/build_method.h"
 
 namespace geotherm::app {
 
@@ -18,14 +18,24 @@ enum class Shown {
   kDifference,  ///< d_A - d_B
 };
 
+/// What distances are held against.
+enum class Check {
+  kOff,
+  kAuto,  ///< the best method that fits the mesh (reference_for())
+  kWavefrontFine,
+  kExact,
+};
+
 /// All that decides what the program shows; a plain value. What commands change and session files
 /// hold. Answers, panels and windows are not part of it.
 struct ViewerState {
   std::string model;                  ///< a path or a bundled name; empty: none is open
   std::vector<std::string> sources;   ///< text forms (source_spec.h), canonical; one set
-  HeatOptions heat;                   ///< A
-  std::optional<HeatOptions> kept;    ///< B
+  MethodOptions options;              ///< A
+  std::optional<MethodOptions> kept;  ///< B
   Shown shown = Shown::kA;            ///< kA unless `kept`
+  Check check = Check::kOff;          ///< the view exact-error means kAuto then
+  std::optional<std::string> target;  ///< paths lead from here to the sources; as `picked`
   PictureSettings picture;            ///< width and height: of saved pictures
   std::optional<std::string> picked;  ///< the point whose figures are shown: face:ID:b0:b1:b2
   bool rotating = false;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/text.h"
 #include "engine/scene/colour_map.h"
+#include "engine/scene/region_colours.h"
 
 namespace geotherm::app {
 namespace {
@@ -19,6 +21,9 @@ constexpr double kMostLinesOnBar = 200;
 
 /// Between the model and the sides of the picture, of the smaller of them.
 constexpr float kMargin = 0.03F;
+
+/// Colours that stand for those of all regions.
+constexpr std::size_t kMostPatches = 6;
 
 constexpr float kPaperOpacity = 0.75F;
 
@@ -67,8 +72,14 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   engine::SurfaceStyle style;
   style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
-  if (settings.view != View::kContours || data.values.empty()) return style;
-  style.paint = engine::Paint::kMap;
+  const bool regions = shows_regions(data, settings);
+  if (regions) style.paint = engine::Paint::kRegions;
+  const bool mapped = maps_values(settings.view);
+  if (data.values.empty() || !(regions || mapped)) return style;
+  if (mapped) style.paint = engine::Paint::kMap;
+  if (!data.is_signed) {
+    style.scene_per_value = static_cast<float>(data.value_unit / data.model_per_scene);
+  }
   style.range_min = value_of(data, scale.min);
   style.range_max = value_of(data, scale.max);
   style.line_spacing = value_of(data, scale.spacing);
@@ -98,6 +109,35 @@ bool shows_sources(View view) {
   return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
 }
 
+/// What the colours of arrows, regions and lines stand for.
+std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings& settings) {
+  std::vector<engine::Key> keys;
+  if (settings.view == View::kGradientError) {
+    const engine::ArrowStyle style;
+    keys = {{style.primary_colour, "X = -\u2207u / |\u2207u|"},
+            {style.secondary_colour, "\u2207\u03c6, as long as its angle to X (full: 90\u00b0)"}};
+  }
+  if (shows_regions(data, settings)) {
+    std::set<Index> groups(data.nearest.begin(), data.nearest.end());
+    groups.erase(kNoIndex);
+    const std::size_t known = groups.size();
+    engine::Key key{.label = "nearest source (" + std::to_string(known) + ")"};
+    for (std::uint32_t i = 0; i < std::min(known, kMostPatches); ++i) {
+      key.patches.push_back(engine::region_colour(i));
+    }
+    keys.push_back(std::move(key));
+  }
+  for (const PictureData::Line& line : data.lines) {
+    const glm::vec3 colour(line.colour[0], line.colour[1], line.colour[2]);
+    const bool stands = std::any_of(keys.begin(), keys.end(), [&](const engine::Key& key) {
+      return key.label == line.name && key.colour == colour;
+    });
+    if (line.name.empty() || stands) continue;
+    keys.push_back({colour, line.name, engine::LineStyle().rim_about(colour)});
+  }
+  return keys;
+}
+
 }  // namespace
 
 engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
@@ -107,12 +147,7 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   legend.paper = background_of(settings.background);
   legend.paper.a *= kPaperOpacity;
   if (settings.caption) legend.caption = data.caption;
-  if (settings.view == View::kGradientError && settings.bar) {
-    const engine::ArrowStyle style;
-    legend.keys = {
-        {style.primary_colour, "X = -\u2207u / |\u2207u|"},
-        {style.secondary_colour, "\u2207\u03c6, as long as its angle to X (full: 90\u00b0)"}};
-  }
+  if (settings.bar) legend.keys = keys_of(data, settings);
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;

@@ -17,8 +17,9 @@ std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all
 Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
                             std::span<const glm::vec3> positions);
 
-/// Hands it all else that a picture is drawn from: values, arrows, markers, colours; what the data
-/// lack is taken away. Precondition: upload_surface(). Errors: the renderer's.
+/// Hands it all else that a picture is drawn from: values, regions, arrows, lines, markers,
+/// colours; what the data lack is taken away. Precondition: upload_surface(). Errors: the
+/// renderer's.
 Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
                            const PictureSettings& settings);
 

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_caption.h"
 
-#include <cmath>
-
+#include "app/method_words.h"
 #include "app/text.h"
 
 namespace geotherm::app {
 
-std::string method_caption(const HeatMethod& method) {
-  const double t = method.t();
-  const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
-  return (is_double ? "t = " + significant(t) + ", " : "") + method.options().backend;
-}
-
-std::string picture_caption(const std::string& model, Index faces, const HeatMethod* method) {
+std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method) {
   const std::string text = one_line(model) + ", " + counted(faces, "face", "faces");
   return method == nullptr ? text : text + ", " + method_caption(*method);
 }

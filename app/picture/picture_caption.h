@@ -3,14 +3,11 @@
 
 #include <string>
 
-#include "solver/heat/heat_method.h"
+#include "solver/method/distance_method.h"
 
 namespace geotherm::app {
 
-/// "t = 0.0123, cholmod".
-std::string method_caption(const HeatMethod& method);
-
 /// "bunny, 4,000 faces, t = 0.0123, cholmod"; `method`: null without a solve.
-std::string picture_caption(const std::string& model, Index faces, const HeatMethod* method);
+std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method);
 
 }  // namespace geotherm::app

@@ -120,6 +120,22 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   }
 }
 
+std::array<float, 3> line_colour(std::string_view name) {
+  if (name == "geodesic") return {1.0F, 0.84F, 0.10F};
+  if (name == "heat") return {1.0F, 0.45F, 0.85F};
+  if (name == "distance") return {0.25F, 0.95F, 0.45F};
+  return {1, 1, 1};
+}
+
+void add_line(PictureData& data, std::span<const Vec3> points, const std::string& name) {
+  const SceneSpace scene(data.centre, data.model_per_scene);
+  PictureData::Line line;
+  for (const Vec3& point : points) line.points.push_back(scene.of(point));
+  line.colour = line_colour(name);
+  line.name = name;
+  data.lines.push_back(std::move(line));
+}
+
 void add_distances(PictureData& data, std::span<const double> distances) {
   double most = 0;
   for (const double d : distances) {
@@ -137,15 +153,19 @@ void add_distances(PictureData& data, std::span<const double> distances) {
   }
 }
 
-void add_difference(PictureData& data, std::span<const double> difference) {
-  std::vector<double> sizes(difference.begin(), difference.end());
-  for (double& d : sizes) d = std::abs(d);
+void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title) {
+  std::vector<double> sizes(signed_error.begin(), signed_error.end());
+  for (double& size : sizes) size = std::abs(size);
   add_distances(data, sizes);
   data.is_signed = true;
-  data.value_title = "d_A \u2212 d_B (model\u00a0units)";
-  for (std::size_t i = 0; i < difference.size(); ++i) {
-    if (difference[i] < 0 && std::isfinite(difference[i])) data.values[i] = -data.values[i];
+  data.value_title = title;
+  for (std::size_t i = 0; i < signed_error.size(); ++i) {
+    if (signed_error[i] < 0 && std::isfinite(signed_error[i])) data.values[i] = -data.values[i];
   }
+}
+
+void add_difference(PictureData& data, std::span<const double> difference) {
+  add_error(data, difference, "d_A \u2212 d_B (model\u00a0units)");
 }
 
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result) {

@@ -6,13 +6,14 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/core/types.h"
 #include "solver/geometry/mesh_report.h"
-#include "solver/method/distance_result.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
+#include "solver/method/distance_result.h"
 
 namespace geotherm::app {
 
@@ -69,10 +70,21 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 /// Sets where distance is 0. Precondition: the sources lie on the mesh.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
 
+/// sRGB of a line of this name: the fields that paths follow (geodesic, heat, distance) have
+/// colours that are found on all of the colour maps, others are white.
+std::array<float, 3> line_colour(std::string_view name);
+
+/// Adds a line on the surface, over those that are there. points: model units.
+void add_line(PictureData& data, std::span<const Vec3> points, const std::string& name);
+
 /// Sets the distances; those that are not finite have no value. distances: V.
 void add_distances(PictureData& data, std::span<const double> distances);
 
-/// Shows a difference of distances instead. difference: V, not finite where there is none.
+/// Shows a signed error instead: 0 in the middle of a diverging map, both of its ends equally far.
+/// signed_error: V, model units, not finite where there is none. title: over the colour bar.
+void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title);
+
+/// Shows a difference of distances instead, in the same way.
 void add_difference(PictureData& data, std::span<const double> difference);
 
 /// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there

@@ -19,6 +19,12 @@ std::string colour_map_of(const PictureData& data, const PictureSettings& settin
   return data.is_signed && !fits ? kDiverging[0] : settings.colour_map;
 }
 
+bool maps_values(View view) { return view == View::kContours || view == View::kExactError; }
+
+bool shows_regions(const PictureData& data, const PictureSettings& settings) {
+  return settings.view == View::kRegions && !data.nearest.empty();
+}
+
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
   const double largest = data.largest_value * data.value_unit;
   const bool has_range = settings.range_min || settings.range_max;
@@ -34,9 +40,10 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
       scale.max = scale.min + width;
     }
   }
-  const bool coloured = settings.view == View::kContours && !data.values.empty();
+  const bool painted = maps_values(settings.view) && !data.values.empty();
+  const bool shown = painted || (settings.view == View::kRegions && !data.values.empty());
   // Where all distances are 0 an isoline would be all of the surface.
-  if (coloured && largest > 0) {
+  if (shown && largest > 0) {
     scale.coloured = true;
     const double usual = data.is_signed ? 0 : round_spacing(scale.max - scale.min);
     scale.spacing = settings.line_spacing.value_or(usual);
@@ -44,7 +51,7 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
     const double pixels = std::max(settings.width, settings.height);
     if ((scale.max - scale.min) > pixels * scale.spacing) scale.spacing = 0;
   }
-  scale.bar = settings.bar && coloured && (largest > 0 || has_range);
+  scale.bar = settings.bar && painted && (largest > 0 || has_range);
   if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMostTicks, scale.spacing);
   return scale;
 }

@@ -20,6 +20,12 @@ struct PictureScale {
 /// The settings' map, or a diverging one where values have both signs and it is none.
 std::string colour_map_of(const PictureData& data, const PictureSettings& settings);
 
+/// Whether a view paints values by the colour map.
+bool maps_values(View view);
+
+/// Whether a picture shows which source is the nearest: the view is to, and it is known.
+bool shows_regions(const PictureData& data, const PictureSettings& settings);
+
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings);
 
 }  // namespace geotherm::app

@@ -21,7 +21,9 @@ constexpr Named<View> kViews[] = {{View::kContours, "contours"},
                                   {View::kSmooth, "smooth"},
                                   {View::kSources, "sources"},
                                   {View::kHeatGradient, "heat-gradient"},
-                                  {View::kGradientError, "gradient-error"}};
+                                  {View::kGradientError, "gradient-error"},
+                                  {View::kExactError, "exact-error"},
+                                  {View::kRegions, "regions"}};
 constexpr Named<PictureLight> kLights[] = {{PictureLight::kThreePoint, "three-point"},
                                            {PictureLight::kHeadlight, "headlight"},
                                            {PictureLight::kNone, "none"}};

@@ -170,6 +170,26 @@ void draw_column(const Legend& legend, const Column& column, float stroke, Overl
   }
 }
 
+/// What stands for a key's colours: from `left`, about the line `middle`.
+void draw_swatch(const Key& key, glm::vec2 left, float width, const Measures& m, Overlay& overlay) {
+  const auto stroke = [&](float half, const glm::vec3& colour) {
+    overlay.add_rectangle({left.x, left.y - half}, {left.x + width, left.y + half},
+                          glm::vec4(colour, 1));
+  };
+  if (key.patches.empty()) {
+    if (key.rim) stroke(3 * m.stroke, *key.rim);
+    stroke(key.rim ? 2 * m.stroke : m.stroke, key.colour);
+    return;
+  }
+  const float half = std::round(0.25F * m.line);
+  const float each = width / static_cast<float>(key.patches.size());
+  for (std::size_t i = 0; i < key.patches.size(); ++i) {
+    const float from = std::round(left.x + static_cast<float>(i) * each);
+    const float to = std::round(left.x + static_cast<float>(i + 1) * each);
+    overlay.add_rectangle({from, left.y - half}, {to, left.y + half}, glm::vec4(key.patches[i], 1));
+  }
+}
+
 /// Height of what was drawn, 0 where there is no room.
 float draw_keys(const Legend& legend, const Measures& m, glm::vec2 extent, Overlay& overlay) {
   const float swatch = 1.6F * m.line;
@@ -183,8 +203,7 @@ float draw_keys(const Legend& legend, const Measures& m, glm::vec2 extent, Overl
   float top = m.margin;
   for (const Key& key : legend.keys) {
     const float middle = std::round(top + 0.55F * overlay.atlas.line_height());
-    overlay.add_rectangle({m.margin, middle - m.stroke}, {m.margin + swatch, middle + m.stroke},
-                          glm::vec4(key.colour, 1));
+    draw_swatch(key, {m.margin, middle}, swatch, m, overlay);
     overlay.add_text({m.margin + 1.3F * swatch, top + overlay.atlas.ascent()}, key.label,
                      glm::vec4(legend.ink, 1));
     top += overlay.atlas.line_height();

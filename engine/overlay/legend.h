@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Tick {
 struct Key {
   glm::vec3 colour{0};
   std::string label;
+  std::optional<glm::vec3> rim{};    ///< about the stroke that shows the colour
+  std::vector<glm::vec3> patches{};  ///< instead of a stroke: patches of several colours
 };
 
 /// What is written around the model; empty parts are left out.

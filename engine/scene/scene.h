@@ -26,6 +26,12 @@ struct Marker {
   glm::vec3 from, to;  ///< scene space
 };
 
+/// A line on the surface.
+struct Polyline {
+  std::span<const glm::vec3> points;  ///< scene space
+  glm::vec3 colour{0};                ///< sRGB
+};
+
 enum class Light {
   kHeadlight,   ///< one lamp at the eye
   kThreePoint,  ///< key, fill and rim light, fixed to the eye
@@ -35,6 +41,9 @@ enum class Light {
 enum class Paint {
   kPlain,  ///< one colour
   kMap,    ///< the colour map at each vertex' value
+  /// The colour of the region that is nearest: each vertex has one, and between vertices of several
+  /// it is the one whose value grows least from there.
+  kRegions,
 };
 
 /// How the surface is drawn; what is off costs nothing.
@@ -44,6 +53,7 @@ struct SurfaceStyle {
   Paint paint = Paint::kPlain;
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
+  float scene_per_value = 0;              ///< kRegions: lengths in scene space; 0: values are none
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
@@ -65,6 +75,19 @@ struct MarkerStyle {
   glm::vec3 colour{1, 1, 1}, rim{0.05F};
 };
 
+struct LineStyle {
+  bool visible = true;
+  float width = 3;                                ///< pixels, without the rim
+  float rim = 1.2F;                               ///< pixels on either side
+  glm::vec3 dark_rim{0.05F}, light_rim{1, 1, 1};  ///< about light lines, about dark ones
+
+  /// The one that stands out from a line of this colour.
+  glm::vec3 rim_about(const glm::vec3& colour) const {
+    const float grey = glm::dot(colour, glm::vec3(0.299F, 0.587F, 0.114F));
+    return grey > 0.5F ? dark_rim : light_rim;
+  }
+};
+
 /// Everything about a picture but the data that was uploaded.
 struct Scene {
   Camera camera;
@@ -72,6 +95,7 @@ struct Scene {
   glm::vec4 background{1, 1, 1, 1};  ///< sRGB and alpha; what has alpha 0 stays transparent
   SurfaceStyle surface;
   ArrowStyle arrows;
+  LineStyle lines;
   MarkerStyle markers;
   float pixel_scale = 1;  ///< multiplies every width, radius and spacing in pixels
 };

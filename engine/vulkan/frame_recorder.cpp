@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "engine/scene/line_pieces.h"
 #include "engine/vulkan/frame_uniforms.h"
 #include "engine/vulkan/upload.h"
 #include "shaders/shared.h"
@@ -65,15 +66,43 @@ void FrameRecorder::set_surface(const DrawMesh& mesh, std::span<const float> val
   indices_ = std::move(indices);
   values_ = std::move(made);
   index_count_ = static_cast<std::uint32_t>(3 * mesh.faces.size());
+  regions_ = {};
+  line_ranges_.clear();
+  marker_count_ = 0;
 }
 
 void FrameRecorder::set_values(std::span<const float> values) {
   device_->update(values_, std::as_bytes(values));
 }
 
+void FrameRecorder::set_regions(std::span<const glm::vec2> values_and_regions) {
+  const auto bytes = std::as_bytes(values_and_regions);
+  if (bytes.empty()) {
+    regions_ = {};
+  } else if (regions_.bytes == bytes.size()) {
+    device_->update(regions_, bytes);
+  } else {
+    regions_ = device_->upload(bytes, Usage::eVertexBuffer);
+  }
+}
+
 void FrameRecorder::set_colours(const ColourTable& table) {
   static_assert(kColourSteps == shared::kColourSteps);
   device_->update(colours_, bytes_of(packed(table)));
+}
+
+void FrameRecorder::set_lines(std::span<const Polyline> lines) {
+  std::vector<LinePiece> pieces;
+  std::vector<LineRange> ranges;
+  for (const Polyline& line : lines) {
+    const std::vector<LinePiece> own = line_pieces(line.points);
+    if (own.empty()) continue;
+    ranges.push_back({static_cast<std::uint32_t>(pieces.size()),
+                      static_cast<std::uint32_t>(own.size()), line.colour});
+    pieces.insert(pieces.end(), own.begin(), own.end());
+  }
+  if (!pieces.empty()) lines_ = device_->upload(bytes_of(pieces), Usage::eVertexBuffer);
+  line_ranges_ = std::move(ranges);
 }
 
 void FrameRecorder::set_markers(std::span<const Marker> markers) {
@@ -162,15 +191,20 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
 }
 
 void FrameRecorder::record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene) {
-  if (scene.surface.visible && index_count_ > 0) {
-    commands.bindPipeline(vk::PipelineBindPoint::eGraphics,
-                          pipelines_.surface(surface_features(scene)));
-    commands.bindVertexBuffers(0, {*vertices_.buffer, *values_.buffer}, {0, 0});
-    commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
-    commands.drawIndexed(index_count_, 1, 0, 0, 0);
-  }
+  if (scene.surface.visible && index_count_ > 0) record_surface(commands, scene);
   record_arrows(commands, scene.arrows);
+  if (scene.lines.visible) record_lines(commands, scene);
   if (scene.markers.visible && marker_count_ > 0) record_markers(commands);
+}
+
+void FrameRecorder::record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene) {
+  std::uint32_t features = surface_features(scene);
+  if (regions_.bytes == 0) features &= ~shared::kRegions;
+  const Buffer& values = (features & shared::kRegions) != 0 ? regions_ : values_;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.surface(features));
+  commands.bindVertexBuffers(0, {*vertices_.buffer, *values.buffer}, {0, 0});
+  commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
+  commands.drawIndexed(index_count_, 1, 0, 0, 0);
 }
 
 void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,
@@ -186,6 +220,23 @@ void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,
   if (secondary_count_ > 0) {
     push(commands, shared::ArrowPush{glm::vec4(style.secondary_colour, 1), kLiftOfSecond});
     commands.draw(kVerticesOfAnArrow, secondary_count_, 0, primary_count_);
+  }
+}
+
+void FrameRecorder::record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene) {
+  if (line_ranges_.empty()) return;
+  const LineStyle& style = scene.lines;
+  const float half = 0.5F * style.width * scene.pixel_scale;
+  const float with_rim = half + style.rim * scene.pixel_scale;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.lines());
+  commands.bindVertexBuffers(0, *lines_.buffer, {0});
+  for (const LineRange& line : line_ranges_) {
+    const auto draw = [&](const glm::vec3& colour, float half_width) {
+      push(commands, shared::LinePush{glm::vec4(colour, 1), half_width});
+      commands.draw(4, line.count, 0, line.first);
+    };
+    if (style.rim > 0) draw(style.rim_about(line.colour), with_rim);
+    draw(line.colour, half);
   }
 }
 

@@ -27,11 +27,13 @@ class FrameRecorder {
   int samples() const { return static_cast<int>(samples_); }
   void set_samples(int samples);  ///< 1 or 4
 
+  /// All that was set on the surface before is gone.
   void set_surface(const DrawMesh& mesh, std::span<const float> values);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
+  void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
   void set_colours(const ColourTable& table);
+  void set_lines(std::span<const Polyline> lines);
   void set_markers(std::span<const Marker> markers);
-  void clear_markers() { marker_count_ = 0; }
   void set_panel_font(const PanelFont& font) { panels_.set_font(font); }
 
   /// Uploads what only this frame needs; before the target's begin().
@@ -44,17 +46,27 @@ class FrameRecorder {
   const Attachments& fitting_attachments(vk::Extent2D size, vk::Format format);
   void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
+  void record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene);
+  void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_markers(const vk::raii::CommandBuffer& commands);
   void record_overlay(const vk::raii::CommandBuffer& commands);
   template <class Push>
   void push(const vk::raii::CommandBuffer& commands, const Push& values);
+
+  /// What is drawn of one line.
+  struct LineRange {
+    std::uint32_t first = 0, count = 0;  ///< pieces
+    glm::vec3 colour{0};
+  };
 
   // Members are destroyed from the last to the first.
   std::shared_ptr<Device::State> device_;
   vk::SampleCountFlagBits samples_;
   Pipelines pipelines_;
   std::array<Attachments, 2> attachments_;  ///< with one sample a pixel, with four
-  Buffer frame_, colours_, vertices_, values_, indices_, markers_, arrows_, overlay_;
+  Buffer frame_, colours_, vertices_, values_, regions_, indices_;
+  Buffer lines_, markers_, arrows_, overlay_;
+  std::vector<LineRange> line_ranges_;
   vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_
   vk::raii::Sampler sampler_;
   Texture atlas_;

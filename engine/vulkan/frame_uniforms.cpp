@@ -33,12 +33,15 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
   const float per_width = width != 0 ? 1 / width : 0;
   const float scale = has_isolines(surface) ? 1 / surface.line_spacing : 1;
-  frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
+  frame.range = {per_width / scale, -surface.range_min * per_width, scale,
+                 surface.scene_per_value / scale};
   frame.plain = {surface.colour, 1};
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};
   frame.marker = {scene.markers.colour, scene.markers.radius * scene.pixel_scale};
   frame.marker_rim = {scene.markers.rim, 1};
+  const float half = 0.5F * scene.lines.width * scene.pixel_scale;
+  frame.polyline = {half, half + scene.lines.rim * scene.pixel_scale, origin};
   return frame;
 }
 
@@ -49,6 +52,7 @@ std::uint32_t surface_features(const Scene& scene) {
   if (scene.light == Light::kThreePoint) features |= shared::kThreeLights;
   if (!surface.smooth && scene.light != Light::kNone) features |= shared::kFlat;
   if (surface.paint == Paint::kMap) features |= shared::kMapped;
+  if (surface.paint == Paint::kRegions) features |= shared::kRegions;
   if (has_isolines(surface)) features |= shared::kIsolines;
   if (surface.wire) features |= shared::kWire;
   return features;

@@ -5,6 +5,8 @@
 
 #include "embedded/arrow_frag.h"
 #include "embedded/arrow_vert.h"
+#include "embedded/line_frag.h"
+#include "embedded/line_vert.h"
 #include "embedded/marker_frag.h"
 #include "embedded/marker_vert.h"
 #include "embedded/overlay_frag.h"
@@ -16,6 +18,7 @@
 #include "engine/overlay/panel_draw.h"
 #include "engine/scene/arrow_selection.h"
 #include "engine/scene/draw_mesh.h"
+#include "engine/scene/line_pieces.h"
 #include "shaders/shared.h"
 
 namespace geotherm::engine {
@@ -128,13 +131,17 @@ vk::Pipeline Pipelines::made(std::uint32_t kind, const Plan& plan) {
 
 vk::Pipeline Pipelines::surface(std::uint32_t features) {
   using Vertex = DrawMesh::Vertex;
+  // Without regions there are values alone; the shader reads 0 for the rest.
+  const bool regions = (features & shared::kRegions) != 0;
+  const auto values = regions ? vk::Format::eR32G32Sfloat : vk::Format::eR32Sfloat;
+  const std::uint32_t values_size = regions ? sizeof(glm::vec2) : sizeof(float);
   Plan plan{
       .vertex = embedded::surface_vert(),
       .fragment = embedded::surface_frag(),
-      .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, sizeof(float), kPerVertex}},
+      .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, values_size, kPerVertex}},
       .attributes = {{0, 0, kFloat3, offsetof(Vertex, position)},
                      {1, 0, vk::Format::eR16G16B16A16Snorm, offsetof(Vertex, normal_and_label)},
-                     {2, 1, vk::Format::eR32Sfloat, 0}}};
+                     {2, 1, values, 0}}};
   plan.features = features;
   plan.write_depth = true;
   return made(features, plan);
@@ -150,6 +157,18 @@ vk::Pipeline Pipelines::arrows() {
                               {2, 0, kFloat3, offsetof(ArrowInstance, normal)},
                               {3, 0, vk::Format::eR32Sfloat, offsetof(ArrowInstance, full)}},
                .write_depth = true});
+}
+
+vk::Pipeline Pipelines::lines() {
+  return made(6U << 16, {.vertex = embedded::line_vert(),
+                         .fragment = embedded::line_frag(),
+                         .bindings = {{0, sizeof(LinePiece), kPerInstance}},
+                         .attributes = {{0, 0, kFloat3, offsetof(LinePiece, before)},
+                                        {1, 0, kFloat3, offsetof(LinePiece, from)},
+                                        {2, 0, kFloat3, offsetof(LinePiece, to)},
+                                        {3, 0, kFloat3, offsetof(LinePiece, after)}},
+                         .topology = vk::PrimitiveTopology::eTriangleStrip,
+                         .blend = true});
 }
 
 vk::Pipeline Pipelines::visible_markers() {

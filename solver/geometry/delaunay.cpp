@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/geometry/flip_diamond.h"
+
 namespace geotherm {
 namespace {
 
@@ -19,21 +21,6 @@ double weight(const IntrinsicMesh& mesh, Side side) {
   const Side other = mesh.twin[side];
   return opposite_cotangent(mesh.lengths[face_of(side)], corner_of(side)) +
          opposite_cotangent(mesh.lengths[face_of(other)], corner_of(other));
-}
-
-using Point2 = Eigen::Vector2d;
-
-/// The quadrilateral of a flip in the plane: a at the origin, b on the positive x axis, c above,
-/// d below.
-struct Diamond {
-  Point2 a, b, c, d;
-};
-
-Diamond unfold(const std::array<double, 5>& l) {
-  const FaceLayout upper = lay_out({l[0], l[1], l[2]});
-  const FaceLayout lower = lay_out({l[0], l[4], l[3]});
-  return {Point2(0, 0), Point2(l[0], 0), Point2(upper.x, upper.height),
-          Point2(lower.x, -lower.height)};
 }
 
 void set_face(IntrinsicMesh& mesh, Index f, const Face& corners,
@@ -64,7 +51,7 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
            static_cast<std::int8_t>(j),
            {lf[i], lf[next_corner(i)], lf[previous_corner(i)], lg[next_corner(j)],
             lg[previous_corner(j)]}};
-  const Diamond diamond = unfold(out.lengths);
+  const FlipDiamond diamond = unfold(out.lengths);
   const double cd = (diamond.c - diamond.d).norm();
   const auto [ab, bc, ca, ad, db] = out.lengths;
 
@@ -87,18 +74,6 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
   set_face(mesh, f, {c, a, d}, {ca, ad, cd}, {twin_ca, twin_ad, 3 * g + 2});
   set_face(mesh, g, {d, b, c}, {db, bc, cd}, {twin_db, twin_bc, 3 * f + 2});
   return out;
-}
-
-/// Weights of `p` in triangle (u, v, w), clipped to it.
-std::array<double, 3> barycentric(const Point2& u, const Point2& v, const Point2& w,
-                                  const Point2& p) {
-  const auto cross = [](const Point2& x, const Point2& y) { return x.x() * y.y() - x.y() * y.x(); };
-  std::array<double, 3> weights = {std::max(cross(v - p, w - p), 0.0),
-                                   std::max(cross(w - p, u - p), 0.0),
-                                   std::max(cross(u - p, v - p), 0.0)};
-  const double sum = weights[0] + weights[1] + weights[2];
-  for (double& x : weights) x /= sum;
-  return weights;
 }
 
 }  // namespace
@@ -142,17 +117,16 @@ SurfacePoint carry_through_flips(const std::vector<Flip>& flips, SurfacePoint po
     if (point.face != flip.f && point.face != flip.g) continue;
     const bool in_f = point.face == flip.f;
     const int start = in_f ? flip.start_f : flip.start_g;
-    const Diamond q = unfold(flip.lengths);
+    const FlipDiamond q = unfold(flip.lengths);
     const double w0 = point.weights[start];
     const double w1 = point.weights[next_corner(start)];
     const double w2 = point.weights[previous_corner(start)];
-    const Point2 p =
-        in_f ? Point2(w0 * q.a + w1 * q.b + w2 * q.c) : Point2(w0 * q.b + w1 * q.a + w2 * q.d);
-    const Point2 along = q.c - q.d;
-    const Point2 from_d = p - q.d;
-    const bool side_of_a = along.x() * from_d.y() - along.y() * from_d.x() >= 0;
+    const Eigen::Vector2d p = in_f ? Eigen::Vector2d(w0 * q.a + w1 * q.b + w2 * q.c)
+                                   : Eigen::Vector2d(w0 * q.b + w1 * q.a + w2 * q.d);
+    const bool side_of_a = cross(q.c - q.d, p - q.d) >= 0;
     point.face = side_of_a ? flip.f : flip.g;
-    point.weights = side_of_a ? barycentric(q.c, q.a, q.d, p) : barycentric(q.d, q.b, q.c, p);
+    point.weights =
+        side_of_a ? clipped_weights(q.c, q.a, q.d, p) : clipped_weights(q.d, q.b, q.c, p);
   }
   return point;
 }

@@ -22,7 +22,9 @@ enum class FlipRule { kNever, kWhereNeeded, kAlways };
 struct IntrinsicSurface {
   std::shared_ptr<const TriangleMesh> mesh;
   std::vector<Face> clean_faces;     ///< before flips, as CleanFaces
+  EdgeTable clean_edges;             ///< of clean_faces
   std::vector<Index> clean_of_face;  ///< F of the mesh: number in clean_faces, or kNoIndex
+  std::vector<char> on_surface;      ///< V: the vertex is a corner of a clean face
   IntrinsicMesh intrinsic;           ///< after flips; its vertices are the mesh's
   std::vector<Flip> flips;
   bool delaunay = false;  ///< flips were asked for or needed
@@ -30,14 +32,25 @@ struct IntrinsicSurface {
   std::vector<std::string> warnings;
 };
 
-/// `progress` is asked as stage "operators". Errors: kBadInput (no face with area, edges that cannot
-/// be added up), kCancelled. Cost: O(F + flips).
+/// `progress` is asked as stage "operators". Errors: kBadInput (no face with area, edges that
+/// cannot be added up), kCancelled. Cost: O(F + flips).
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                  FlipRule rule, const Progress& progress = {});
 
 /// Whether every source lies on the surface. Errors (kBadInput, with the numbers): no source, a
 /// vertex or face out of range, a vertex in no face, bad weights, a face that was left out, an edge
-/// that is none, offsets that are negative, not finite or not one a point.
+/// that is none, offsets that are negative, not finite or not one a point. An edge may have two
+/// ends that are one vertex. Cost: O(log F) a source.
 Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sources);
+
+/// Weights (and distances over edge lengths) nearer to a corner or a side than this are on it.
+inline constexpr double kAtCorner = 1e-12;
+
+/// A source point as a vertex, where it is within kAtCorner of one; else in a face of clean_faces,
+/// with weights that sum to 1. Precondition: check_sources().
+SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point);
+
+/// Number in clean_edges of the edge between two vertices, kNoIndex where there is none.
+Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b);
 
 }  // namespace geotherm

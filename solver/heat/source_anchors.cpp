@@ -11,11 +11,6 @@
 namespace geotherm {
 namespace {
 
-/// Weights nearer to a corner than this are that corner.
-constexpr double kAtCorner = 1e-12;
-/// Weights are accepted when they sum to 1 within this: what nine typed digits give.
-constexpr double kWeightSum = 1e-6;
-
 using Point2 = Eigen::Vector2d;
 
 std::array<Point2, 3> corners(const FaceLayout& p) {
@@ -32,25 +27,28 @@ class Placer {
  public:
   explicit Placer(const Surface& surface) : surface_(surface) {}
 
-  Result<void> add(const SurfacePoint& point) {
-    return point.is_vertex() ? add_vertex(point.vertex) : add_in_face(point);
+  void add(const SurfacePoint& given) {
+    const SurfacePoint point = clean_point(surface_, given);
+    if (point.is_vertex()) {
+      add_vertex(point.vertex);
+    } else {
+      add_carried(carry_through_flips(surface_.flips, point));
+    }
   }
 
-  Result<void> add_edge(const std::array<Index, 2>& edge) {
-    for (const Index v : edge) {
-      if (const auto added = add_vertex(v); !added) return added;
-    }
-    if (edge[0] == edge[1]) return {};
+  void add_edge(const std::array<Index, 2>& edge) {
+    for (const Index v : edge) add_vertex(v);
+    if (edge[0] == edge[1]) return;
     const Index a = surface_.row_of_vertex[edge[0]];
     const Index b = surface_.row_of_vertex[edge[1]];
     for (const Index f : surface_.operators->faces_at(a)) {
       const Face& face = surface_.operators->faces[f];
       if (std::find(face.begin(), face.end(), b) != face.end()) {
         edges_.insert({std::min(a, b), std::max(a, b)});
-        return {};
+        return;
       }
     }
-    return add_flipped_edge(edge);
+    add_flipped_edge(edge);
   }
 
   SourceAnchors finish() {
@@ -76,74 +74,7 @@ class Placer {
     double heat;
   };
 
-  Result<void> add_vertex(Index v) {
-    if (v < 0 || v >= surface_.mesh->vertex_count()) {
-      return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
-                                             " does not exist; vertices are 0 to " +
-                                             std::to_string(surface_.mesh->vertex_count() - 1)};
-    }
-    const Index row = surface_.row_of_vertex[v];
-    if (row == kNoIndex) {
-      return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
-                                             " belongs to no face; choose one on the surface"};
-    }
-    anchors_[row] = {0.0, 1.0};
-    return {};
-  }
-
-  Result<void> add_in_face(SurfacePoint point) {
-    const Index count = surface_.mesh->face_count();
-    if (point.face < 0 || point.face >= count) {
-      return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
-                                             " does not exist; faces are 0 to " +
-                                             std::to_string(count - 1)};
-    }
-    double sum = 0;
-    bool valid = true;
-    for (const double w : point.weights) {
-      valid = valid && std::isfinite(w) && w >= -kWeightSum;
-      sum += w;
-    }
-    if (!valid || std::abs(sum - 1) > kWeightSum) {
-      return Error{ErrorCode::kBadInput,
-                   "the weights of the source in face " + std::to_string(point.face) + " sum to " +
-                       number_text(sum) + "; barycentric weights are not negative and sum to 1"};
-    }
-    const Face& face = surface_.mesh->faces()[point.face];
-    for (int k = 0; k < 3; ++k) {
-      point.weights[k] = std::max(point.weights[k], 0.0) / sum;
-      if (point.weights[k] >= 1 - kAtCorner) return add_vertex(face[k]);
-    }
-    const auto carried = carry(point);
-    if (!carried) return carried.error();
-    add_carried(*carried);
-    return {};
-  }
-
-  /// The point in the flipped triangulation, face numbers of the intrinsic mesh.
-  Result<SurfacePoint> carry(const SurfacePoint& point) const {
-    const Face& face = surface_.mesh->faces()[point.face];
-    Index clean = surface_.clean_of_face[point.face];
-    const auto same_corners = [&face](const Face& other) {
-      return std::is_permutation(face.begin(), face.end(), other.begin());
-    };
-    if (clean == kNoIndex) {  // a duplicate: its twin stands in for it
-      const auto& faces = surface_.clean_faces;
-      const auto it = std::find_if(faces.begin(), faces.end(), same_corners);
-      if (it == faces.end()) {
-        return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
-                                               " repeats a corner and has no inside; choose "
-                                               "another"};
-      }
-      clean = static_cast<Index>(it - faces.begin());
-    }
-    SurfacePoint moved = SurfacePoint::in_face(clean, {});
-    for (int k = 0; k < 3; ++k) {
-      const auto corner = std::find(face.begin(), face.end(), surface_.clean_faces[clean][k]);
-      moved.weights[k] = point.weights[static_cast<std::size_t>(corner - face.begin())];
-    }
-    return carry_through_flips(surface_.flips, moved);
-  }
+  void add_vertex(Index v) { anchors_[surface_.row_of_vertex[v]] = {0.0, 1.0}; }
 
   /// The point as its face sees it and, where it lies on an edge, as the face beyond does: which
   /// of the two was named makes no difference.
@@ -180,21 +111,12 @@ class Placer {
   }
 
   /// An edge of the mesh that the flips removed crosses other faces: its middle stands for it.
-  Result<void> add_flipped_edge(const std::array<Index, 2>& edge) {
-    for (std::size_t c = 0; c < surface_.clean_faces.size(); ++c) {
-      const Face& face = surface_.clean_faces[c];
-      const auto a = std::find(face.begin(), face.end(), edge[0]);
-      const auto b = std::find(face.begin(), face.end(), edge[1]);
-      if (a == face.end() || b == face.end()) continue;
-      SurfacePoint middle = SurfacePoint::in_face(static_cast<Index>(c), {});
-      middle.weights[static_cast<std::size_t>(a - face.begin())] = 0.5;
-      middle.weights[static_cast<std::size_t>(b - face.begin())] = 0.5;
-      add_carried(carry_through_flips(surface_.flips, middle));
-      return {};
-    }
-    return Error{ErrorCode::kBadInput,
-                 "the source curve goes from vertex " + std::to_string(edge[0]) + " to " +
-                     std::to_string(edge[1]) + ", which share no edge; name vertices along edges"};
+  void add_flipped_edge(const std::array<Index, 2>& edge) {
+    const Index e = find_clean_edge(surface_, edge[0], edge[1]);
+    const Side side = surface_.clean_edges.sides(e).front();
+    SurfacePoint middle = SurfacePoint::in_face(face_of(side), {});
+    middle.weights[corner_of(side)] = middle.weights[next_corner(corner_of(side))] = 0.5;
+    add_carried(carry_through_flips(surface_.flips, middle));
   }
 
   /// Straight distances to the sources within the faces that touch one.
@@ -254,16 +176,15 @@ std::vector<Index> SourceAnchors::rows() const {
 }
 
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {
-  if (sources.empty()) {
-    return Error{ErrorCode::kBadInput, "there is no source; name at least one"};
+  if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
+  for (const double offset : sources.offsets) {
+    if (!(offset > 0)) continue;
+    return Error{ErrorCode::kBadInput, "the heat method takes no offsets, and one is " +
+                                           rounded_text(offset) + "; use --method wavefront"};
   }
   Placer placer(surface);
-  for (const SurfacePoint& point : sources.points) {
-    if (const auto added = placer.add(point); !added) return added.error();
-  }
-  for (const auto& edge : sources.edges) {
-    if (const auto added = placer.add_edge(edge); !added) return added.error();
-  }
+  for (const SurfacePoint& point : sources.points) placer.add(point);
+  for (const auto& edge : sources.edges) placer.add_edge(edge);
   return placer.finish();
 }
 

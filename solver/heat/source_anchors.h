@@ -29,7 +29,7 @@ struct SourceAnchors {
   std::vector<Index> rows() const;
 };
 
-/// Errors (kBadInput): no source, a number out of range, bad weights, a vertex in no face.
+/// Errors (kBadInput): those of check_sources(), and offsets above 0.
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);
 
 }  // namespace geotherm

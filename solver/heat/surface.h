@@ -5,23 +5,17 @@
 #include <vector>
 
 #include "solver/core/result.h"
-#include "solver/geometry/delaunay.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "solver/geometry/operator_mesh.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/backend.h"
-#include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
 
 /// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a
 /// backend and renumbered into its elimination order. Immutable; shared by every HeatMethod of the
 /// same mesh, backend and Laplacian.
-struct Surface {
-  std::shared_ptr<const TriangleMesh> mesh;
-  std::vector<Face> clean_faces;     ///< before flips, as CleanFaces
-  std::vector<Index> clean_of_face;  ///< F of the mesh: number in clean_faces, or kNoIndex
-  IntrinsicMesh intrinsic;           ///< after flips
-  std::vector<Flip> flips;
+struct Surface : IntrinsicSurface {
   LaplacianKind laplacian = LaplacianKind::kCotan;
 
   std::vector<Index> row_of_vertex;  ///< V: elimination number, kNoIndex when in no face
@@ -30,10 +24,8 @@ struct Surface {
   std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<const OperatorMesh> operators;
 
-  double mean_edge = 0;  ///< of the mesh, model units; also the unit of `intrinsic`
   double unit_area = 0;  ///< total, in squares of mean_edge
   double operators_ms = 0, analyze_ms = 0;
-  std::vector<std::string> warnings;
   std::string scale_warning;  ///< for times that follow the mean edge; empty where that fits all
 };
 

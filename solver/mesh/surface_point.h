@@ -25,7 +25,7 @@ struct SurfacePoint {
 struct SourceSet {
   std::vector<SurfacePoint> points;
   std::vector<std::array<Index, 2>> edges;
-  std::vector<double> offsets;  ///< of the points: distance there, >= 0, model units; empty: all 0
+  std::vector<double> offsets{};  ///< of the points: distance there, >= 0, model units; none: all 0
 
   static SourceSet of_vertices(const std::vector<Index>& vertices) {
     SourceSet set;

@@ -47,7 +47,7 @@ Result<void> check_distance_path(const std::string& path) {
 }
 
 Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
-                             std::span<const double> distances) {
+                             std::span<const double> distances, std::span<const Index> nearest) {
   if (Result<void> known = check_distance_path(path); !known) return known;
   if (distances.size() != mesh.positions().size()) {
     return Error{ErrorCode::kBadInput, io::printable(path) + ": " +
@@ -56,10 +56,10 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
   }
   return write_made(path, [&]() -> Result<std::string> {
     const std::string extension = path == "-" ? ".csv" : io::file_extension(path);
-    if (extension == ".npy") return io::npy_bytes(distances);
-    if (extension == ".ply") return io::ply_bytes(mesh, distances);
-    if (extension == ".vtp") return io::vtp_bytes(mesh, distances);
-    return io::csv_bytes(distances);
+    if (extension == ".npy") return io::npy_bytes(distances, nearest);
+    if (extension == ".ply") return io::ply_bytes(mesh, distances, nearest);
+    if (extension == ".vtp") return io::vtp_bytes(mesh, distances, nearest);
+    return io::csv_bytes(distances, nearest);
   });
 }
 

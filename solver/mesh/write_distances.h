@@ -17,11 +17,14 @@ Result<void> check_distance_path(const std::string& path);
 /// The format is the extension's: `.csv` (`vertex,distance`, the fewest
 /// digits that read back equal), `.npy` (float64, shape V),
 /// `.ply` (binary little endian mesh with the vertex property `double distance`), `.vtp` (ParaView
-/// PolyData, point data `distance`). The file is written beside its place and renamed: it is there
-/// whole or not at all. `path` "-" writes CSV to standard output.
-/// Precondition: distances.size() == mesh.vertex_count().
+/// PolyData, point data `distance`). With `nearest`, a number per vertex (DistanceResult::
+/// nearest_source), they have a third column `nearest_source`, shape V x 2, a property
+/// `int nearest_source` and point data of that name. The file is written beside its place and
+/// renamed: it is there whole or not at all. `path` "-" writes CSV to standard output.
+/// Precondition: distances.size() == mesh.vertex_count(), and nearest.size() unless it is empty.
 Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
-                             std::span<const double> distances);
+                             std::span<const double> distances,
+                             std::span<const Index> nearest = {});
 
 /// The same for write_mesh().
 Result<void> check_mesh_path(const std::string& path);

@@ -7,21 +7,25 @@
 #include "solver/heat/heat_options.h"
 #include "solver/mesh/triangle_mesh.h"
 #include "solver/method/distance_method.h"
+#include "solver/wave/wave_surface.h"
 
 namespace geotherm {
 
-/// A method with its options.
-struct MethodOptions {
+/// A method with its options: those of the heat method, of which the others use `threads` alone.
+struct MethodOptions : HeatOptions {
   MethodKind method = MethodKind::kHeat;
-  HeatOptions heat;  ///< of the heat method; `threads` is every method's
 
   bool operator==(const MethodOptions&) const = default;
 };
 
-/// Makes a mesh ready for a method. Cost: that of HeatMethod::build(), WavefrontMethod::build(), ...
-/// Errors: theirs.
-Result<std::shared_ptr<const DistanceMethod>> build_method(std::shared_ptr<const TriangleMesh> mesh,
-                                                           const MethodOptions& options = {},
-                                                           const Progress& progress = {});
+/// Whether both lead to the same distances: options that a method does not use do not count.
+bool same_method(const MethodOptions& a, const MethodOptions& b);
+
+/// Makes a mesh ready for a method. `waves`: the mesh's, where it is there already; made otherwise
+/// by the methods that walk over it. Cost and errors: those of HeatMethod::build(),
+/// WavefrontMethod::build(), ...
+Result<std::shared_ptr<const DistanceMethod>> build_method(
+    std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options = {},
+    const Progress& progress = {}, std::shared_ptr<const WaveSurface> waves = nullptr);
 
 }  // namespace geotherm

@@ -44,8 +44,8 @@ struct DistanceResult {
   QueryTiming timing;
   std::vector<std::string> warnings;  ///< one sentence each
 
-  /// V: the group (source_groups) of the nearest source, kNoIndex where none can be; only when asked
-  /// for (QueryOptions::nearest) and from methods that carry it along: all but heat.
+  /// V: the group (source_groups) of the nearest source, kNoIndex where none can be; only when
+  /// asked for (QueryOptions::nearest) and from methods that carry it along: all but heat.
   std::vector<Index> nearest_source;
 
   /// Only when asked for (QueryOptions::fields), and only by the heat method.

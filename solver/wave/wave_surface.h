@@ -37,8 +37,9 @@ struct SourceSeeds {
     double offset;
     Index group;  ///< source_groups()
   };
-  /// A point (both ends the same) or a straight piece of a curve inside one face or along its sides,
-  /// in the face's layout (lay_out()). What lies on a side stands in every face at that edge.
+  /// A point (both ends the same) or a straight piece of a curve inside one face or along its
+  /// sides, in the face's layout (lay_out()). What lies on a side stands in every face at that
+  /// edge.
   struct Piece {
     Index face;
     Eigen::Vector2d from, to;

@@ -119,8 +119,10 @@ TEST_P(LittleMemory, IsAnErrorOfTheLibraryWithACure) {
 
 TEST_P(LittleMemory, IsARowOfTheComparison) {
   CompareTask task;
-  task.options.threads = 1;
-  task.backends = {GetParam()};
+  MethodOptions solver;
+  solver.threads = 1;
+  solver.backend = GetParam();
+  task.solvers = {solver};
   task.reference = GetParam();
   task.queries = {SourceSet::of_vertices({1})};
   task.batch = {SourceSet::of_vertices({2})};

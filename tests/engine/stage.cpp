@@ -65,6 +65,9 @@ Stage full_stage(const Device& device, int samples) {
   must(stage.renderer.set_arrows(field, {}));
   const Marker marker{{0.5F, 0.5F, 0.7071F}, {0.6F, 0.4F, 0.69F}};
   must(stage.renderer.set_markers({&marker, 1}));
+  const std::vector<glm::vec3> bend = {{-0.5F, 0.1F, 0.86F}, {0, 0.3F, 0.95F}, {0.4F, 0, 0.91F}};
+  const Polyline line{bend, {0.9F, 0.8F, 0.1F}};
+  must(stage.renderer.set_lines({&line, 1}));
   return stage;
 }
 

@@ -36,7 +36,7 @@ class Stage {
   engine::Scene scene;
 };
 
-/// Something of everything: values, isolines, edges, arrows, a source, on a sphere.
+/// Something of everything: values, isolines, edges, arrows, a line, a source, on a sphere.
 Stage full_stage(const engine::Device& device, int samples = 4);
 engine::Overlay some_text();
 

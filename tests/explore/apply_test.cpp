@@ -123,7 +123,7 @@ TEST(Apply, BIsKeptSwappedShownAndForgotten) {
   ViewerState state = after({"backend cg", "keep", "backend eigen-ldlt"});
   EXPECT_EQ(state.kept->backend, "cg");
   state = after({"swap"}, state);
-  EXPECT_EQ(state.heat.backend, "cg");
+  EXPECT_EQ(state.options.backend, "cg");
   EXPECT_EQ(after({"flip"}, state).shown, Shown::kB);
   EXPECT_EQ(after({"flip", "flip"}, state).shown, Shown::kA);
   EXPECT_EQ(after({"show difference", "flip"}, state).shown, Shown::kA);

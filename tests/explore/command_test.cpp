@@ -37,6 +37,9 @@ INSTANTIATE_TEST_SUITE_P(
     EveryCommand, CommandText,
     testing::Values(
         TextCase{"Open", Open{"a/b.obj"}, "open a/b.obj"},
+        TextCase{"Target", Target{"face:3:0.25:0.25:0.5"}, "target face:3:0.25:0.25:0.5"},
+        TextCase{"TargetVertex", Target{"17"}, "target 17"},
+        TextCase{"NoTarget", Target{}, "target none"},
         TextCase{"OpenWithBlanks", Open{"my \"best\" model #1.ply"},
                  R"(open "my \"best\" model #1.ply")"},
         TextCase{"OpenWithBackslashes", Open{"C:\\a b\\c"}, R"(open "C:\\a b\\c")"},

@@ -10,6 +10,7 @@
 
 #include "app/explore/apply.h"
 #include "app/explore/explored_picture.h"
+#include "solver/heat/heat_method.h"
 #include "tests/explore/session_fixture.h"
 
 namespace geotherm::app {
@@ -73,8 +74,8 @@ TEST_F(SessionTest, AAndBAreSolvedOnTheSameSourcesAndSubtracted) {
   run({"open " + small_model(), "source set 5", "time-factor 1", "keep", "time-factor 30"});
   const Explored& explored = session.explored();
   ASSERT_TRUE(explored.a && explored.b && explored.difference);
-  EXPECT_EQ(explored.a->method.options().time_step.factor, 30);
-  EXPECT_EQ(explored.b->method.options().time_step.factor, 1);
+  EXPECT_EQ(explored.a->options.time_step.factor, 30);
+  EXPECT_EQ(explored.b->options.time_step.factor, 1);
   double most = 0, sum = 0;
   for (std::size_t i = 0; i < explored.difference->values.size(); ++i) {
     const double d = explored.a->result.distances[i] - explored.b->result.distances[i];
@@ -105,7 +106,7 @@ TEST_F(SessionTest, SettingsAloneFactorWhatTheyMustAndNoMore) {
   const double operators = session.explored().a->setup.operators;
   run({"time-factor 2"});
   EXPECT_EQ(session.explored().a->setup.operators, operators) << "taken over";
-  EXPECT_EQ(session.explored().a->method.timing().operators, 0);
+  EXPECT_EQ(session.explored().a->method->timing().operators, 0);
   run({"source set 6"});
   EXPECT_EQ(session.explored().a->setup.operators, operators);
 }
@@ -315,7 +316,7 @@ TEST(DiffusionTime, IsWhatTheMethodUses) {
     Session session;
     ASSERT_TRUE(session.submit(command::Set{"time-step", rule}));
     ASSERT_TRUE(session.submit(command::Open{"bunny"}));
-    const HeatMethod& method = session.explored().a->method;
+    const HeatMethod& method = *session.explored().a->method->heat();
     const double t = diffusion_time(method.options().time_step, session.explored().model->mesh);
     EXPECT_NEAR(t, method.t(), 1e-12 * method.t()) << rule;
   }

@@ -47,7 +47,7 @@ TEST_F(SessionThread, TheLatestOfManyWins) {
     threaded.update();
   }
   ASSERT_TRUE(threaded.finish());
-  EXPECT_EQ(threaded.explored().a->method.options().time_step.factor, 200);
+  EXPECT_EQ(threaded.explored().a->options.time_step.factor, 200);
   EXPECT_EQ(threaded.explored().sources, std::vector<std::string>{"200"});
   EXPECT_FALSE(threaded.stale());
 }

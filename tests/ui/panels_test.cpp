@@ -6,6 +6,7 @@
 #include "tests/ui/driver.h"
 #include "ui/bundled.h"
 #include "ui/key_codes.h"
+#include "ui/source_edit.h"
 
 namespace geotherm::ui {
 namespace {
@@ -43,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
     Solver, PanelClicks,
     ::testing::Values(
         Click{"", {"Solver/backend", "Solver/backend=cg"}, {"backend cg"}},
+        Click{"", {"Solver/method", "Solver/method=wavefront"}, {"method wavefront"}},
         Click{"",
               {"Solver/time-step", "Solver/time-step=mean-face-area"},
               {"time-step mean-face-area"}},
@@ -77,6 +79,14 @@ INSTANTIATE_TEST_SUITE_P(
         Click{"", {"View/caption"}, {"caption off"}}, Click{"", {"View/markers"}, {"markers off"}},
         Click{"", {"View/frame"}, {"camera frame"}},
         Click{"camera orbit 10 10", {"View/reset"}, {"camera frame", "camera place 30 20 1 0 0"}}));
+
+INSTANTIATE_TEST_SUITE_P(
+    ExactError, PanelClicks,
+    ::testing::Values(
+        Click{"", {"Exact error/check", "Exact error/check=auto"}, {"check auto"}},
+        Click{"check exact", {"Exact error/show"}, {"view exact-error"}},
+        Click{"", {"Menu/View", "Menu/Exact error"}, {"view exact-error"}},
+        Click{"", {"Menu/View", "Menu/Nearest sources"}, {"view regions"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Others, PanelClicks,
@@ -174,18 +184,18 @@ TEST_F(Panels, SliderMovesTheTimeFactorThroughItsDecades) {
   const Texts texts = sent();
   ASSERT_FALSE(texts.empty());
   for (const std::string& text : texts) EXPECT_EQ(text.rfind("time-factor ", 0), 0U) << text;
-  EXPECT_GT(session_.state().heat.time_step.factor, 3);
-  EXPECT_LT(session_.state().heat.time_step.factor, 1000);
+  EXPECT_GT(session_.state().options.time_step.factor, 3);
+  EXPECT_LT(session_.state().options.time_step.factor, 1000);
 }
 
 TEST_F(Panels, AbsoluteTimeBeginsWithTheOneThatHolds) {
   open_square();
   const double t =
-      app::diffusion_time(session_.state().heat.time_step, session_.explored().model->mesh);
+      app::diffusion_time(session_.state().options.time_step, session_.explored().model->mesh);
   click_item("Solver/time-step");
   click_item("Solver/time-step=absolute");
-  ASSERT_EQ(session_.state().heat.time_step.rule, TimeRule::kAbsolute);
-  EXPECT_NEAR(session_.state().heat.time_step.absolute, t, 1e-3 * t);
+  ASSERT_EQ(session_.state().options.time_step.rule, TimeRule::kAbsolute);
+  EXPECT_NEAR(session_.state().options.time_step.absolute, t, 1e-3 * t);
 }
 
 TEST_F(Panels, CompareLeavesOutWhatIsNotTicked) {
@@ -299,6 +309,35 @@ TEST_F(Panels, SleepWhereNothingHappens) {
   EXPECT_FALSE(frame().animating);
   type("2");
   EXPECT_TRUE(last_.animating);
+}
+
+class ErrorPanel : public UiTest {};
+
+TEST_F(ErrorPanel, GoesToTheWorstVertex) {
+  open_square();
+  run("check exact");
+  frames(2);
+  ASSERT_TRUE(is_drawn("Exact error/plot"));
+  click_item("Exact error/worst");
+  ASSERT_TRUE(session_.state().picked);
+  const auto point = *point_in(*session_.state().picked, 1 << 20, 1 << 20);
+  const Index worst = session_.explored().a->error->figures.worst;
+  const Face& face = session_.explored().model->model.mesh->faces()[point.face];
+  const auto corner = std::ranges::max_element(point.weights) - point.weights.begin();
+  EXPECT_EQ(face[static_cast<std::size_t>(corner)], worst);
+}
+
+class MethodPanel : public UiTest {};
+
+TEST_F(MethodPanel, HidesWhatAnotherMethodDoesNotHave) {
+  open_square();
+  frames(2);
+  EXPECT_TRUE(is_drawn("Solver/constraint"));
+  run("method wavefront");
+  frames(2);
+  EXPECT_FALSE(is_drawn("Solver/constraint"));
+  EXPECT_FALSE(is_drawn("Solver/backend"));
+  EXPECT_TRUE(is_drawn("Solver/method"));
 }
 
 }  // namespace

@@ -20,32 +20,38 @@ void append_faces(std::string& bytes, const Face& face) {
 
 }  // namespace
 
-std::string npy_bytes(std::span<const double> values) {
+std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest) {
   constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
   constexpr std::size_t kAlignment = 64;
   std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(values.size()) + ",), }";
+                       std::to_string(distances.size()) + (nearest.empty() ? ",), }" : ", 2), }");
   while ((kPreamble + header.size() + 1) % kAlignment != 0) header += ' ';
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);
-  bytes.reserve(kPreamble + header.size() + sizeof(double) * values.size());
+  bytes.reserve(kPreamble + header.size() + sizeof(double) * (distances.size() + nearest.size()));
   append_little(bytes, static_cast<std::uint16_t>(header.size()));
   bytes += header;
-  for (const double value : values) append_little(bytes, value);
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    append_little(bytes, distances[v]);
+    if (!nearest.empty()) append_little(bytes, static_cast<double>(nearest[v]));
+  }
   return bytes;
 }
 
-std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances) {
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
+                      std::span<const Index> nearest) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(mesh.vertex_count()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!distances.empty()) bytes += "property double distance\n";
+  if (!nearest.empty()) bytes += "property int nearest_source\n";
   bytes += "element face " + std::to_string(mesh.face_count()) +
            "\nproperty list uchar int vertex_indices\nend_header\n";
   bytes.reserve(bytes.size() + 32 * mesh.positions().size() + 13 * mesh.faces().size());
   for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
     append_little(bytes, mesh.positions()[v]);
     if (!distances.empty()) append_little(bytes, distances[v]);
+    if (!nearest.empty()) append_little(bytes, nearest[v]);
   }
   for (const Face& face : mesh.faces()) {
     bytes += '\3';
@@ -54,7 +60,8 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distance
   return bytes;
 }
 
-std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances) {
+std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
+                      std::span<const Index> nearest) {
   const std::uint64_t vertices = mesh.positions().size();
   const std::uint64_t faces = mesh.faces().size();
   std::uint64_t offset = 0;
@@ -65,6 +72,7 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
     return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
   };
   const std::uint64_t lengths[] = {8 * vertices, 24 * vertices, 12 * faces, 8 * faces};
+  const std::uint64_t nearest_length = 4 * vertices;
   std::string bytes =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
@@ -72,6 +80,7 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
       "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
       std::to_string(faces) + "\">\n<PointData Scalars=\"distance\">\n";
   bytes += array("type=\"Float64\" Name=\"distance\"", lengths[0]);
+  if (!nearest.empty()) bytes += array("type=\"Int32\" Name=\"nearest_source\"", nearest_length);
   bytes += "</PointData>\n<Points>\n";
   bytes += array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", lengths[1]);
   bytes += "</Points>\n<Polys>\n";
@@ -81,6 +90,8 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
   bytes.reserve(bytes.size() + offset + 64);
   append_little(bytes, lengths[0]);
   for (const double distance : distances) append_little(bytes, distance);
+  if (!nearest.empty()) append_little(bytes, nearest_length);
+  for (const Index source : nearest) append_little(bytes, source);
   append_little(bytes, lengths[1]);
   for (const Vec3& p : mesh.positions()) append_little(bytes, p);
   append_little(bytes, lengths[2]);

@@ -11,14 +11,19 @@
 // back as the same double.
 namespace geotherm::io {
 
-std::string csv_bytes(std::span<const double> distances);
-std::string npy_bytes(std::span<const double> values);
+// `nearest`: one number per vertex, or none at all: the column, property or array `nearest_source`.
+std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest = {});
+
+/// Shape V, or V x 2 with `nearest`.
+std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest = {});
 
 /// Binary little endian with the vertex property `double distance`, unless there are none.
-std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances = {});
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances = {},
+                      std::span<const Index> nearest = {});
 
 /// VTK XML PolyData; the arrays are appended raw, with 64-bit lengths.
-std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances);
+std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
+                      std::span<const Index> nearest = {});
 
 std::string obj_bytes(const TriangleMesh& mesh);
 std::string off_bytes(const TriangleMesh& mesh);

@@ -26,13 +26,17 @@ void append(std::string& text, const Vec3& p) {
 
 }  // namespace
 
-std::string csv_bytes(std::span<const double> distances) {
-  std::string text = "vertex,distance\n";
+std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest) {
+  std::string text = nearest.empty() ? "vertex,distance\n" : "vertex,distance,nearest_source\n";
   text.reserve(28 * distances.size() + 32);
   for (std::size_t v = 0; v < distances.size(); ++v) {
     append(text, v);
     text += ',';
     append(text, distances[v]);
+    if (!nearest.empty()) {
+      text += ',';
+      append(text, nearest[v]);
+    }
     text += '\n';
   }
   return text;

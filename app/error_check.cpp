@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "app/error_check.h"
+
+#include <cmath>
+
+#include "app/text.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Bounds of the mean relative error: beside the heat method's usual 0.5 to 2 %, less is near exact
+/// and more has a cause worth looking for.
+constexpr double kNearExact = 1e-3, kGood = 0.02, kFair = 0.05;
+
+constexpr int kBins = 41;
+
+std::string cure(MethodKind checked) {
+  if (checked != MethodKind::kHeat) return "the mesh is too coarse for this method";
+  return "try another --time-factor, or --method wavefront";
+}
+
+std::string verdict_of(MethodKind checked, MethodKind reference, const DistanceError& e) {
+  if (checked == reference) return "this is the most accurate method there is";
+  if (e.worst == kNoIndex) return "no vertex has both distances";
+  if (e.differently_reached > 0) {
+    return counted(e.differently_reached, "vertex is", "vertices are") +
+           " reached by one method and not by the other";
+  }
+  if (e.mean_relative <= kNearExact) return "near exact";
+  if (e.mean_relative <= kGood) return "good";
+  if (e.mean_relative <= kFair) return "fair: " + cure(checked) + " for less";
+  return "poor: " + cure(checked);
+}
+
+}  // namespace
+
+std::string error_title(const ErrorReport& report) {
+  return "error, against " + to_text(report.reference);
+}
+
+std::string percent(double share) { return significant(100 * share, 2) + " %"; }
+
+ErrorReport error_report(MethodKind checked, std::span<const double> distances,
+                         MethodKind reference, std::span<const double> better,
+                         double milliseconds) {
+  ErrorReport report;
+  report.reference = reference;
+  report.figures = distance_error(distances, better);
+  report.values = signed_error(distances, better);
+  report.histogram = error_histogram(report.values, kBins);
+  report.verdict = verdict_of(checked, reference, report.figures);
+  report.milliseconds = milliseconds;
+  return report;
+}
+
+Result<ErrorReport> check_error(const std::shared_ptr<const TriangleMesh>& mesh, MethodKind checked,
+                                std::span<const double> distances, const SourceSet& sources,
+                                int threads, const Progress& progress) {
+  MethodOptions options;
+  options.method = reference_for(checked, mesh->face_count());
+  options.threads = threads;
+  if (options.method == checked) {  // nothing to hold it against
+    ErrorReport itself;
+    itself.reference = checked;
+    itself.values = signed_error(distances, distances);
+    itself.verdict = verdict_of(checked, checked, itself.figures);
+    return itself;
+  }
+  const Stopwatch watch;
+  const auto method = build_method(mesh, options, part_of(progress, 0.0, 0.1));
+  if (!method) return method.error();
+  const auto better = (*method)->solve(sources, {.quality = false}, part_of(progress, 0.1, 1.0));
+  if (!better) return better.error();
+  return error_report(checked, distances, options.method, better->distances, watch.milliseconds());
+}
+
+}  // namespace geotherm::app

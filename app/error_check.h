@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/method/build_method.h"
+#include "solver/method/distance_error.h"
+
+// How wrong distances are, by a more accurate method.
+namespace geotherm::app {
+
+struct ErrorReport {
+  MethodKind reference = MethodKind::kExact;
+  DistanceError figures;
+  ErrorHistogram histogram;    ///< of the values
+  std::vector<double> values;  ///< V: d - d_reference; infinite where either is
+  std::string verdict;         ///< in words
+  double milliseconds = 0;     ///< that the reference took, set-up and query
+};
+
+/// Holds distances of `checked` against distances of `reference`.
+ErrorReport error_report(MethodKind checked, std::span<const double> distances,
+                         MethodKind reference, std::span<const double> better, double milliseconds);
+
+/// Solves with the more accurate method that fits the mesh (reference_for()). Errors: those of
+/// build_method() and its queries.
+Result<ErrorReport> check_error(const std::shared_ptr<const TriangleMesh>& mesh, MethodKind checked,
+                                std::span<const double> distances, const SourceSet& sources,
+                                int threads, const Progress& progress);
+
+/// What the values are, over a colour bar: "error against exact".
+std::string error_title(const ErrorReport& report);
+
+/// "0.81 %".
+std::string percent(double share);
+
+}  // namespace geotherm::app

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// What an explorer works out beside the distances: methods to hold them against, paths, cells.
+#include "app/explore/explorer.h"
+#include "app/solve_steps.h"
+#include "solver/core/stopwatch.h"
+#include "solver/heat/heat_method.h"
+
+namespace geotherm::app {
+
+Result<void> Explorer::make_waves(const Progress& progress) {
+  if (waves_) return {};
+  auto made = build_wave_surface(model_->model.mesh, progress);
+  if (!made) return about_model(model_->model.name, made.error());
+  waves_ = *std::move(made);
+  return {};
+}
+
+/// A heat method begins with what another one has, any other with the model's wave surface.
+Result<std::shared_ptr<const DistanceMethod>> Explorer::make(const MethodOptions& options,
+                                                             const DistanceMethod* near,
+                                                             const Progress& progress) {
+  if (options.method == MethodKind::kHeat) {
+    const HeatMethod* heat = near ? near->heat() : nullptr;
+    if (heat == nullptr) return build_method(model_->model.mesh, options, progress);
+    auto made = heat->with(options, progress);
+    if (!made) return made.error();
+    return std::shared_ptr<const DistanceMethod>(
+        std::make_shared<const HeatMethod>(*std::move(made)));
+  }
+  if (auto made = make_waves(part_of(progress, 0.0, 0.5)); !made) return made.error();
+  return build_method(model_->model.mesh, options, part_of(progress, 0.5, 1.0), waves_);
+}
+
+Result<void> Explorer::find_nearest(Explored& explored, const Progress& progress) {
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  auto method = make(options, nullptr, progress);
+  if (!method) return method.error();
+  auto result = (*method)->solve(explored.set, {.quality = false, .nearest = true}, progress);
+  if (!result) return about_model(model_->model.name, result.error());
+  explored.nearest = std::move(result->nearest_source);
+  return {};
+}
+
+/// Paths that cannot be found are a matter of their own: the distances are good all the same.
+Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
+                                  const Progress& progress) {
+  const auto spec = parse_source(*request.target);
+  if (!spec) return spec.error();
+  const Source target{*spec, "target " + *request.target, ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
+  if (!placed) {
+    explored.path_failure = placed.error().message;
+    return {};
+  }
+  const SurfacePoint& point = placed->set.points.front();
+  explored.target = position_of(*model_->model.mesh, point);
+  if (!paths_ || paths_->method != explored.a->method) {
+    MethodOptions options;
+    options.method = MethodKind::kWavefront;
+    auto near_exact = make(options, nullptr, progress);
+    if (!near_exact) return near_exact.error();
+    paths_ = Paths{explored.a->method,
+                   std::make_shared<const TargetPathFinder>(
+                       model_->model.mesh, *std::move(near_exact), explored.a->method)};
+  }
+  auto found = paths_->finder->find(explored.set, point, progress);
+  if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
+  if (!found) {
+    explored.path_failure = found.error().message;
+    return {};
+  }
+  explored.paths = std::move(found->paths);
+  return {};
+}
+
+/// Holds an answer against a better one, which is kept for the next answer from the same sources.
+Result<void> Explorer::check(const ExploreRequest& request, const SourceSet& sources,
+                             Answer& answer, const Progress& progress) {
+  MethodOptions options;
+  options.threads = answer.options.threads;
+  options.method = request.check == Check::kExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+  if (request.check == Check::kAuto && request.quality) {  // while a source is dragged: the quicker
+    options.method = reference_for(answer.options.method, model_->model.mesh->face_count());
+  }
+  if (!reference_ || reference_->kind != options.method || reference_->sources != request.sources) {
+    reference_.reset();
+    const Stopwatch watch;
+    auto method = make(options, nullptr, progress);
+    if (!method) return method.error();
+    auto result = (*method)->solve(sources, {.quality = false}, progress);
+    if (!result) return about_model(model_->model.name, result.error());
+    reference_ = Reference{options.method, request.sources, std::move(result->distances),
+                           watch.milliseconds()};
+  }
+  answer.error = std::make_shared<const ErrorReport>(
+      error_report(answer.options.method, answer.result.distances, reference_->kind,
+                   reference_->distances, reference_->milliseconds));
+  return {};
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "app/lines/cmd_isolines.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "app/report_json.h"
+#include "app/resolve_sources.h"
+#include "app/solve_model.h"
+#include "app/text.h"
+#include "app/text_table.h"
+#include "solver/path/isolines.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr int kMostLevels = 100000;
+
+/// Where the lines are to be, before the distances are known.
+struct Levels {
+  double spacing = 0;
+  int count = 0;  ///< 0: by spacing
+};
+
+Result<Levels> levels_in(const IsolinesArguments& arguments) {
+  if (arguments.spacing.empty() == arguments.count.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 std::string("--spacing and --count: ") +
+                     (arguments.spacing.empty() ? "neither" : "both") +
+                     " of them was given; give one, such as --spacing 0.1 or --count 20"};
+  }
+  Levels levels;
+  if (!arguments.count.empty()) {
+    const auto count = number_in<int>(arguments.count);
+    if (!count || *count < 1 || *count > kMostLevels) {
+      return Error{ErrorCode::kBadInput, "--count: '" + one_line(arguments.count) +
+                                             "' is no number of levels; give 1 to " +
+                                             grouped(kMostLevels)};
+    }
+    levels.count = *count;
+    return levels;
+  }
+  const auto spacing = number_in<double>(arguments.spacing);
+  if (!spacing || !std::isfinite(*spacing) || !(*spacing > 0)) {
+    return Error{ErrorCode::kBadInput, "--spacing: '" + one_line(arguments.spacing) +
+                                           "' is no distance between lines; give a number above 0, "
+                                           "in model units"};
+  }
+  levels.spacing = *spacing;
+  return levels;
+}
+
+/// Multiples of the spacing, or as many as were asked for evenly between 0 and the largest distance
+/// (both left out).
+Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
+  std::vector<double> levels;
+  if (asked.count > 0) {
+    for (int i = 1; i <= asked.count; ++i) {
+      levels.push_back(largest * (static_cast<double>(i) / (asked.count + 1)));
+    }
+    return levels;
+  }
+  const double number = largest / asked.spacing;
+  if (number > kMostLevels) {
+    return Error{ErrorCode::kBadInput, "--spacing: " + significant(asked.spacing) + " makes " +
+                                           significant(number) +
+                                           " lines up to the largest "
+                                           "distance " +
+                                           significant(largest) + ", more than " +
+                                           grouped(kMostLevels) + "; give a larger one"};
+  }
+  for (int i = 1; i * asked.spacing < largest; ++i) levels.push_back(i * asked.spacing);
+  return levels;
+}
+
+Json isolines_json(const SolveFigures& figures, const std::vector<double>& levels,
+                   const std::vector<Isoline>& lines) {
+  Json json = {{"model", model_json(figures.model.name, figures.mesh)},
+               {"method", to_text(figures.method->kind())},
+               {"sources", sources_json(figures.sources)},
+               {"levels", levels},
+               {"lines", Json::array()},
+               {"warnings", figures.warnings}};
+  double total = 0;
+  for (const Isoline& line : lines) {
+    total += line.path.length;
+    json["lines"].push_back({{"value", line.value},
+                             {"length", line.path.length},
+                             {"closed", line.path.closed},
+                             {"points", line.path.points.size()}});
+  }
+  json["length"] = total;
+  return json;
+}
+
+std::string isolines_table(const SolveFigures& figures, const std::vector<double>& levels,
+                           const std::vector<Isoline>& lines) {
+  TextTable table({{"value", TextTable::Align::kRight},
+                   {"lines", TextTable::Align::kRight},
+                   {"closed", TextTable::Align::kRight},
+                   {"length", TextTable::Align::kRight}});
+  std::size_t next = 0;
+  for (const double level : levels) {
+    std::int64_t count = 0, closed = 0;
+    double length = 0;
+    for (; next < lines.size() && lines[next].value == level; ++next) {
+      ++count;
+      closed += lines[next].path.closed ? 1 : 0;
+      length += lines[next].path.length;
+    }
+    table.add_row({significant(level), grouped(count), grouped(closed), significant(length)});
+  }
+  return one_line(figures.model.name) + ": " +
+         counted(static_cast<std::int64_t>(lines.size()), "line", "lines") + " at " +
+         counted(static_cast<std::int64_t>(levels.size()), "level", "levels") +
+         ", distances up to " + significant(figures.distance.max) + " (" +
+         to_text(figures.method->kind()) + ")\n" + table.text();
+}
+
+LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isoline>& lines) {
+  LinePicture picture;
+  picture.mesh = figures.model.mesh;
+  for (const Isoline& line : lines) picture.lines.push_back({&line.path, line.value});
+  for (const SurfacePoint& source : figures.sources.points) {
+    picture.markers.push_back(position_at(*figures.model.mesh, source));
+  }
+  picture.largest_value = figures.distance.max;
+  picture.title = figures.model.name + ", " + to_text(figures.method->kind()) + ", " +
+                  counted(static_cast<std::int64_t>(lines.size()), "line", "lines");
+  return picture;
+}
+
+}  // namespace
+
+void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
+  command
+      .add_option("MODEL", arguments.model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  add_source_options(command, arguments.sources);
+  command.add_option("--spacing", arguments.spacing, "between lines, in model units")
+      ->type_name("D");
+  command
+      .add_option("--count", arguments.count,
+                  "of levels, evenly between 0 and the largest distance")
+      ->type_name("N");
+  add_line_file_options(command, arguments.files, "the lines");
+  add_quiet_option(command, arguments.quiet);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
+  command.footer(
+      "Examples:\n"
+      "  geotherm isolines bunny -s 0 --count 20 -o lines.obj\n"
+      "  geotherm isolines terrain -s boundary --spacing 0.05 -o lines.svg --azimuth 60");
+}
+
+Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Progress& progress) {
+  const auto options = method_options(arguments.method);
+  if (!options) return options.error();
+  const auto asked = levels_in(arguments);
+  if (!asked) return asked.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  const auto settings = expect_line_files(arguments.files, outputs);
+  if (!settings) return settings.error();
+  const auto named = sources_of(arguments.sources);
+  if (!named) return named.error();
+  if (named->empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
+  }
+  auto model = load_model(arguments.model, progress);
+  if (!model) return model.error();
+  auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
+  if (!figures) return figures.error();
+  note_unused_options(arguments.method, *options, figures->warnings);
+  const auto levels = levels_up_to(figures->distance.max, *asked);
+  if (!levels) return levels.error();
+  const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
+
+  CommandOutput out{"", figures->warnings, {}};
+  const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
+                                        *settings, progress, outputs, out.text);
+  if (!written) return written.error();
+  if (!arguments.files.json.empty()) {
+    const auto json = outputs.write_text(
+        arguments.files.json, to_text(isolines_json(*figures, *levels, lines)), out.text);
+    if (!json) return json.error();
+  }
+  if (!outputs.uses_stdout()) out.text = isolines_table(*figures, *levels, lines);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

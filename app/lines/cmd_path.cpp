@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "app/lines/cmd_path.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/lines/path_report.h"
+#include "app/load_model.h"
+#include "app/option_value.h"
+#include "app/resolve_sources.h"
+#include "app/solve_steps.h"
+#include "app/text.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm::app {
+namespace {
+
+/// What the words of the command line say.
+struct PathTask {
+  MethodOptions method;
+  PathOptions options;
+  std::vector<Source> points;  ///< from, via, then each to
+};
+
+Result<Source> point_of(const std::string& text, const std::string& option) {
+  auto spec = parse_source(text);
+  if (!spec) return Error{ErrorCode::kBadInput, option + ": " + spec.error().message};
+  if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
+  return Error{ErrorCode::kBadInput, option + ": '" + one_line(text) +
+                                         "' is not one point; write a vertex id, face:ID:b0:b1:b2 "
+                                         "or xyz:x:y:z"};
+}
+
+Result<std::vector<Source>> points_of(const PathArguments& arguments) {
+  std::vector<Source> out;
+  const auto add = [&out](const std::string& text, const std::string& option) -> Result<void> {
+    auto point = point_of(text, option);
+    if (!point) return point.error();
+    out.push_back(*std::move(point));
+    return {};
+  };
+  if (auto added = add(arguments.from, "--from"); !added) return added.error();
+  for (const std::string& text : arguments.via) {
+    if (auto added = add(text, "--via"); !added) return added.error();
+  }
+  for (const std::string& text : arguments.to) {
+    if (auto added = add(text, "--to"); !added) return added.error();
+  }
+  return out;
+}
+
+Result<PathTask> task_of(const PathArguments& arguments) {
+  PathTask task;
+  auto all = take(parse_path_field(arguments.field), "--field", task.options.field);
+  if (!all) return all.error();
+  task.options.closed = arguments.closed;
+  task.options.hold_points = arguments.hold;
+  MethodArguments method = arguments.method;
+  const bool geodesic = task.options.field == PathField::kGeodesic;
+  if (method.method.empty()) method.method = geodesic ? "wavefront" : "heat";
+  auto options = method_options(method);
+  if (!options) return options.error();
+  task.method = *std::move(options);
+  if (arguments.closed && arguments.to.size() != 1) {
+    return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
+                                           std::to_string(arguments.to.size()) +
+                                           " were given; name the points between with --via"};
+  }
+  if (arguments.hold && (!arguments.closed || !geodesic)) {
+    return Error{ErrorCode::kBadInput,
+                 "--hold: only a closed geodesic can leave its points; add --closed, or leave "
+                 "--hold out"};
+  }
+  auto points = points_of(arguments);
+  if (!points) return points.error();
+  task.points = *std::move(points);
+  return task;
+}
+
+Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const TriangleMesh& mesh,
+                                        std::vector<std::string>& warnings) {
+  std::vector<SurfacePoint> out;
+  for (const Source& point : points) {
+    const auto placed = resolve_sources({&point, 1}, mesh);
+    if (!placed) return placed.error();
+    out.push_back(placed->set.points.front());
+    warnings.insert(warnings.end(), placed->warnings.begin(), placed->warnings.end());
+  }
+  return out;
+}
+
+/// One path for each target: they share the start and the way-points.
+Result<void> find_paths(const PathTask& task, std::size_t targets, const Progress& progress,
+                        PathFigures& figures) {
+  auto points = place(task.points, *figures.model.mesh, figures.warnings);
+  if (!points) return points.error();
+  Stopwatch watch;
+  auto method = build_method(figures.model.mesh, task.method, part_of(progress, 0, 0.5));
+  if (!method) return about_model(figures.model.name, method.error());
+  const auto& about_method = (*method)->warnings();
+  figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
+  const PathFinder finder(figures.model.mesh, *std::move(method));
+  figures.setup_ms = watch.milliseconds();
+  const Stopwatch finding;
+  const std::size_t shared = points->size() - targets;
+  for (std::size_t i = 0; i < targets; ++i) {
+    std::vector<SurfacePoint> stops(points->begin(),
+                                    points->begin() + static_cast<std::ptrdiff_t>(shared));
+    stops.push_back((*points)[shared + i]);
+    const double begin = static_cast<double>(i) / static_cast<double>(targets);
+    const double end = static_cast<double>(i + 1) / static_cast<double>(targets);
+    auto found =
+        finder.find(stops, task.options, part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
+    if (!found) {
+      return Error{found.error().code,
+                   task.points[shared + i].where + ": " + found.error().message};
+    }
+    figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
+    figures.paths.push_back({std::move(stops), std::move(found->path)});
+  }
+  figures.path_ms = finding.milliseconds();
+  return {};
+}
+
+LinePicture picture_of_paths(const PathFigures& figures) {
+  LinePicture picture;
+  picture.mesh = figures.model.mesh;
+  for (const FoundLine& line : figures.paths) {
+    picture.lines.push_back({&line.path, {}});
+    for (const SurfacePoint& stop : line.stops) {
+      if (!figures.options.closed || figures.options.hold_points) {
+        picture.markers.push_back(position_at(*figures.model.mesh, stop));
+      }
+    }
+  }
+  picture.title = figures.model.name + ", " + to_text(figures.options.field) + ", length " +
+                  significant(figures.paths.front().path.length);
+  return picture;
+}
+
+}  // namespace
+
+void add_path_options(CLI::App& command, PathArguments& arguments) {
+  command
+      .add_option("MODEL", arguments.model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  const auto add_points = [&command](const char* name, std::vector<std::string>& points,
+                                     const char* help) {
+    return command.add_option(name, points, help)
+        ->type_name("POINT")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->group("Points");
+  };
+  command
+      .add_option("--from", arguments.from,
+                  "where it begins: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z (the closest point "
+                  "of the surface)")
+      ->required()
+      ->type_name("POINT")
+      ->group("Points");
+  add_points("--to", arguments.to, "where it ends; may be repeated, for a path to each")
+      ->required();
+  add_points("--via", arguments.via, "a point on the way; may be repeated, in order");
+  command
+      .add_flag("--closed", arguments.closed,
+                "goes on from the end to the start; a geodesic loop then leaves its points and is "
+                "shortened all round")
+      ->group("Points");
+  command.add_flag("--hold", arguments.hold, "a closed geodesic stays at its points")
+      ->group("Points");
+  command
+      .add_option("--field", arguments.field,
+                  "what it follows: geodesic (default: the shortest path, straight across faces), "
+                  "distance (-grad phi), heat (X of the heat method)")
+      ->type_name("NAME");
+  add_line_file_options(command, arguments.files, "the path");
+  add_quiet_option(command, arguments.quiet);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
+  command.footer(
+      "The method finds the distances that lead the way: wavefront for a geodesic, heat for the "
+      "other fields, unless --method names one.\n"
+      "Examples:\n"
+      "  geotherm path bunny --from 0 --to 1200 -o path.obj --json -\n"
+      "  geotherm path model.obj --from 17 --to xyz:0:1:0 --to face:12:0.2:0.3:0.5 -o paths.csv\n"
+      "  geotherm path sleeve --from 0 --via 900 --to 1800 --closed -o loop.svg");
+}
+
+Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress) {
+  const auto task = task_of(arguments);
+  if (!task) return task.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, {}, outputs);
+  const auto settings = expect_line_files(arguments.files, outputs);
+  if (!settings) return settings.error();
+  auto model = load_model(arguments.model, progress);
+  if (!model) return model.error();
+  PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}};
+  figures.warnings = figures.model.notes;
+  if (auto pin = check_pin(task->method.constraint, *figures.model.mesh); !pin) return pin.error();
+  if (auto found = find_paths(*task, arguments.to.size(), progress, figures); !found) {
+    return found.error();
+  }
+  note_unused_options(arguments.method, task->method, figures.warnings);
+
+  CommandOutput out{"", figures.warnings, {}};
+  const auto written = write_line_files(arguments.files, picture_of_paths(figures), *settings,
+                                        progress, outputs, out.text);
+  if (!written) return written.error();
+  if (!arguments.files.json.empty()) {
+    const auto json =
+        outputs.write_text(arguments.files.json, to_text(path_json(figures)), out.text);
+    if (!json) return json.error();
+  }
+  if (!outputs.uses_stdout()) out.text = path_table(figures);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/command_output.h"
+#include "app/lines/line_files.h"
+#include "app/options.h"
+
+namespace geotherm::app {
+
+struct PathArguments {
+  std::string model;
+  std::string from;
+  std::vector<std::string> to, via;
+  std::string field = "geodesic";
+  bool closed = false, hold = false;
+  MethodArguments method;  ///< `method` empty: the best for the field
+  LineFileArguments files;
+  bool quiet = false;
+
+  PathArguments() { method.method.clear(); }
+};
+
+void add_path_options(CLI::App& command, PathArguments& arguments);
+Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress = {});
+
+}  // namespace geotherm::app

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "app/lines/line_files.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/text.h"
+#include "solver/mesh/io/file_extension.h"
+
+namespace geotherm::app {
+namespace {
+
+bool is_picture(const std::string& path) { return io::file_extension(path) == ".svg"; }
+
+Result<void> check_line_path(const std::string& path) {
+  if (path == "-" || is_picture(path) || check_polyline_path(path)) return {};
+  return Error{ErrorCode::kNotAvailable, "--output: " + one_line(path) + ": unknown extension '" +
+                                             one_line(io::file_extension(path)) +
+                                             "'; there are .obj .csv .vtp .svg"};
+}
+
+}  // namespace
+
+void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
+                           const std::string& what) {
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "where " + what +
+                      " is written: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
+                      "output; may be repeated")
+      ->type_name("FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  add_line_picture_options(command, arguments.picture);
+}
+
+Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments,
+                                              Outputs& outputs) {
+  auto settings = line_picture_settings(arguments.picture);
+  if (!settings) return settings;
+  for (const std::string& path : arguments.outputs) {
+    if (auto known = check_line_path(path); !known) return known.error();
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected.error();
+  }
+  if (arguments.json.empty()) return settings;
+  if (auto expected = outputs.expect(arguments.json, "--json"); !expected) return expected.error();
+  return settings;
+}
+
+Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
+                              const LinePictureSettings& settings, const Progress& progress,
+                              Outputs& outputs, std::string& standard_output) {
+  const TriangleMesh& mesh = *picture.mesh;
+  for (const std::string& path : arguments.outputs) {
+    if (!report(progress, "writing " + path, 1.0)) {
+      outputs.remove_written();
+      return cancelled_error();
+    }
+    Result<void> written;
+    if (path == "-") {
+      written = outputs.write_text(path, polyline_csv(mesh, picture.lines), standard_output);
+    } else if (is_picture(path)) {
+      auto svg = line_picture_svg(picture, settings, progress);
+      if (!svg) {
+        outputs.remove_written();
+        return svg.error();
+      }
+      written = outputs.write_text(path, *std::move(svg), standard_output);
+    } else {
+      written = outputs.write(path, [&] { return write_polylines(path, mesh, picture.lines); });
+    }
+    if (!written) return written;
+  }
+  return {};
+}
+
+}  // namespace geotherm::app

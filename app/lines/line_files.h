@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli_app.h"
+#include "app/lines/line_picture.h"
+#include "app/outputs.h"
+#include "solver/core/progress.h"
+#include "solver/path/write_polylines.h"
+
+namespace geotherm::app {
+
+/// Where the lines of a command go, as typed.
+struct LineFileArguments {
+  std::vector<std::string> outputs;
+  std::string json;
+  LinePictureArguments picture;
+};
+
+/// `what`: "the path", for the help.
+void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
+                           const std::string& what);
+
+/// Errors: kBadInput and kNotAvailable (an ending, a picture's option), those of Outputs::expect().
+Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments, Outputs& outputs);
+
+/// Writes the lines to every output; "-" is CSV, which `standard_output` takes.
+/// Errors: kBadFile, kCancelled, those of line_picture_svg().
+Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
+                              const LinePictureSettings& settings, const Progress& progress,
+                              Outputs& outputs, std::string& standard_output);
+
+}  // namespace geotherm::app

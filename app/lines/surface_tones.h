@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "app/lines/line_view.h"
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/mesh/ray_tree.h"
+
+namespace geotherm::app {
+
+/// A closed outline in a picture, pixels.
+using Outline = std::vector<Eigen::Vector2d>;
+
+/// Regions of a picture in which the surface is at least so bright; the rule is even-odd.
+struct Tone {
+  double brightness;  ///< 0 to 1; 0 is all of the surface
+  std::vector<Outline> outlines;
+};
+
+/// The shape of a surface in a few tones, each inside the one before: its brightness under a light
+/// beside the eye is sampled on a grid of pixels and contoured. The outline against the background
+/// is found to a fraction of a pixel. Errors: kCancelled.
+Result<std::vector<Tone>> surface_tones(const TriangleMesh& mesh, const RayTree& tree,
+                                        const LineView& view, int width, int height,
+                                        const Progress& progress);
+
+}  // namespace geotherm::app

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "app/method_words.h"
+
+#include <cmath>
+
+#include "app/text.h"
+#include "solver/heat/heat_method.h"
+
+namespace geotherm::app {
+
+std::string solver_name(const MethodOptions& options) {
+  return options.method == MethodKind::kHeat ? options.backend : to_text(options.method);
+}
+
+std::string method_caption(const DistanceMethod& method) {
+  const HeatMethod* heat = method.heat();
+  if (heat == nullptr) return to_text(method.kind());
+  const double t = heat->t();
+  const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
+  return (is_double ? "t = " + significant(t) + ", " : "") + heat->options().backend;
+}
+
+}  // namespace geotherm::app

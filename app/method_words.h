@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "solver/method/build_method.h"
+
+namespace geotherm::app {
+
+/// What does the work, in a word: the backend of the heat method, or the name of another method.
+std::string solver_name(const MethodOptions& options);
+
+/// "t = 0.0123, cholmod", or the name of another method.
+std::string method_caption(const DistanceMethod& method);
+
+}  // namespace geotherm::app

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/cmd_study.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "app/outputs.h"
+#include "app/resolve_sources.h"
+#include "app/solve_steps.h"
+#include "app/study/study_report.h"
+#include "app/text.h"
+#include "solver/mesh/io/file_extension.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr double kLeastFactor = 1e-6, kMostFactor = 1e6;
+constexpr int kMostFactors = 200;
+
+/// LEAST:MOST:COUNT.
+Result<std::vector<double>> parse_factors(const std::string& text) {
+  const std::size_t first = text.find(':');
+  const std::size_t second = first == std::string::npos ? first : text.find(':', first + 1);
+  if (second != std::string::npos) {
+    const auto least = number_in<double>(text.substr(0, first));
+    const auto most = number_in<double>(text.substr(first + 1, second - first - 1));
+    const auto count = number_in<int>(text.substr(second + 1));
+    if (least && most && count && *least >= kLeastFactor && *most <= kMostFactor &&
+        *least < *most && *count >= 2 && *count <= kMostFactors) {
+      return study_factors(*least, *most, *count);
+    }
+  }
+  return Error{ErrorCode::kBadInput,
+               "--factors: '" + one_line(text) +
+                   "' is no range of time factors; write LEAST:MOST:COUNT such as 0.1:100:13, "
+                   "within 1e-6 to 1e6, COUNT 2 to 200"};
+}
+
+Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& named,
+                             std::vector<std::string>& warnings) {
+  if (named.empty()) {
+    const auto vertex = random_vertices(*model.mesh, 1, 1);
+    if (!vertex) return about_model(model.name, vertex.error());
+    std::string note = "no source was given: vertex ";
+    note += std::to_string(vertex->front()) + " was taken; choose others with -s";
+    warnings.push_back(std::move(note));
+    return SourceSet::of_vertices(*vertex);
+  }
+  auto resolved = resolve_sources(named, *model.mesh);
+  if (!resolved) return resolved.error();
+  warnings.insert(warnings.end(), resolved->warnings.begin(), resolved->warnings.end());
+  return std::move(resolved->set);
+}
+
+Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  if (!arguments.svg.empty() && arguments.svg != "-" &&
+      io::file_extension(arguments.svg) != ".svg") {
+    return Error{ErrorCode::kBadInput,
+                 "--svg: " + one_line(arguments.svg) + ": the plot is written as .svg"};
+  }
+  for (const auto& [path, option] :
+       {std::pair{&arguments.json, "--json"}, {&arguments.svg, "--svg"}}) {
+    if (path->empty()) continue;
+    if (auto expected = outputs.expect(*path, option); !expected) return expected;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_study_options(CLI::App& command, StudyArguments& arguments) {
+  command
+      .add_option("MODEL", arguments.model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--factors", arguments.factors,
+                  "time factors m that are tried, the same ratio apart, default 0.1:100:13")
+      ->type_name("LEAST:MOST:COUNT");
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  command.add_option("--svg", arguments.svg, "the error as curves, .svg; - is standard output")
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  add_source_options(command, arguments.sources);
+  add_backend_option(command, arguments.method);
+  add_study_method_options(command, arguments.method);
+  command.footer(
+      "Sweeps m over both time rules, all constraint modes and, where the surface has a border, "
+      "the boundary rules; each answer is held against exact distances, or wavefront-fine on "
+      "large meshes.\n"
+      "Examples:\n"
+      "  geotherm study bunny -s 0 --svg study.svg\n"
+      "  geotherm study terrain -s boundary --variant classic --json -");
+}
+
+Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress& progress) {
+  StudyTask task;
+  const auto options = method_options(arguments.method);
+  if (!options) return options.error();
+  task.options = *options;
+  auto factors = parse_factors(arguments.factors);
+  if (!factors) return factors.error();
+  task.factors = *std::move(factors);
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  const auto named = sources_of(arguments.sources);
+  if (!named) return named.error();
+  const auto model = load_model(arguments.model, progress);
+  if (!model) return model.error();
+  CommandOutput out{"", model->notes, {}};
+  auto sources = sources_on(*model, *named, out.warnings);
+  if (!sources) return sources.error();
+  task.sources = *std::move(sources);
+  const MeshReport mesh = inspect_mesh(*model->mesh);
+  task.boundaries = {BoundaryRule::kNeumann};
+  if (mesh.boundary_edges > 0) {
+    task.boundaries.insert(task.boundaries.end(),
+                           {BoundaryRule::kDirichlet, BoundaryRule::kAverage});
+  }
+  const auto study = sweep(*model, task, progress);
+  if (!study) return study.error();
+  if (!outputs.uses_stdout()) out.text = study_table(model->name, *study);
+  const auto write = [&](const std::string& path, std::string text) -> Result<void> {
+    return path.empty() ? Result<void>() : outputs.write_text(path, std::move(text), out.text);
+  };
+  const std::string json = to_text(study_json(model->name, task.sources, *study));
+  if (auto done = write(arguments.json, json); !done) return done.error();
+  if (auto done = write(arguments.svg, study_svg(model->name, *study)); !done) return done.error();
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "app/study/study_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/progress_bar.h"
+#include "app/solve_steps.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/geometry/intrinsic_mesh.h"
+#include "solver/heat/heat_method.h"
+#include "solver/method/distance_error.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr TimeRule kRules[] = {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea};
+
+/// One method after the other, each made from the last one, so that factors are shared where only
+/// the constraint changes.
+class Sweeper {
+ public:
+  Sweeper(const Model& model, const StudyTask& task, const std::vector<double>& better)
+      : model_(model), task_(task), better_(better) {
+    for (const double e : better) {
+      if (std::isfinite(e)) range_ = std::max(range_, e);
+    }
+  }
+
+  double range() const { return range_; }
+
+  void add(const HeatOptions& options, double mean_edge, Study& study) {
+    StudyRow row;
+    row.rule = options.time_step.rule;
+    row.factor = options.time_step.factor;
+    row.boundary = options.boundary;
+    row.constraint = options.constraint.mode;
+    auto made = method_ ? method_->with(options) : HeatMethod::build(model_.mesh, options);
+    if (!made) {
+      row.message = made.error().message;
+    } else {
+      method_ = *std::move(made);
+      row.t = method_->t();
+      row.unit_t = row.t / mean_edge / mean_edge;
+      measure(row);
+    }
+    study.rows.push_back(std::move(row));
+  }
+
+ private:
+  void measure(StudyRow& row) {
+    const auto result = method_->solve(task_.sources, {.quality = false});
+    if (!result) {
+      row.message = result.error().message;
+      return;
+    }
+    const DistanceError error = distance_error(result->distances, better_);
+    if (error.worst == kNoIndex) return;
+    row.mean_error = error.mean_relative;
+    row.max_error = error.max_of_range;
+    if (range_ > 0) row.source_distance = result->quality.max_source_distance / range_;
+  }
+
+  const Model& model_;
+  const StudyTask& task_;
+  const std::vector<double>& better_;
+  double range_ = 0;
+  std::optional<HeatMethod> method_;
+};
+
+}  // namespace
+
+std::vector<Constraint> study_constraints() {
+  std::vector<Constraint> all;
+  for (const ConstraintMode mode :
+       {ConstraintMode::kPinSources, ConstraintMode::kPinVertex, ConstraintMode::kConserveEnergy,
+        ConstraintMode::kPseudoInverse, ConstraintMode::kPenalty}) {
+    Constraint constraint;
+    constraint.mode = mode;
+    all.push_back(constraint);
+  }
+  return all;
+}
+
+std::vector<double> study_factors(double least, double most, int count) {
+  std::vector<double> factors;
+  for (int i = 0; i < count; ++i) {
+    const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
+    const double factor = least * std::pow(most / least, share);
+    const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 1);
+    factors.push_back(std::round(factor / unit) * unit);
+  }
+  return factors;
+}
+
+Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress) {
+  Study study;
+  study.reference = reference_for(MethodKind::kHeat, model.mesh->face_count());
+  MethodOptions better;
+  better.method = study.reference;
+  better.threads = task.options.threads;
+  const auto method =
+      build_method(model.mesh, better, with_prefix(part_of(progress, 0.0, 0.02), "reference: "));
+  if (!method) return about_model(model.name, method.error());
+  const auto reference = (*method)->solve(task.sources, {.quality = false},
+                                          with_prefix(part_of(progress, 0.02, 0.1), "reference: "));
+  if (!reference) return about_model(model.name, reference.error());
+
+  const CleanFaces clean = clean_faces(*model.mesh);
+  study.mean_edge = mean_edge_length(model.mesh->positions(), clean.edges);
+  Sweeper sweeper(model, task, reference->distances);
+  study.largest_distance = sweeper.range();
+  const std::vector<Constraint> constraints = study_constraints();
+  const std::size_t total =
+      std::size(kRules) * task.factors.size() * task.boundaries.size() * constraints.size();
+  HeatOptions options = task.options;
+  for (const TimeRule rule : kRules) {
+    for (const double factor : task.factors) {
+      for (const BoundaryRule boundary : task.boundaries) {
+        for (const Constraint& constraint : constraints) {
+          const double done = static_cast<double>(study.rows.size()) / static_cast<double>(total);
+          if (!report(progress, "sweep", 0.1 + 0.9 * done)) return cancelled_error();
+          options.time_step = {rule, factor, 0};
+          options.boundary = boundary;
+          options.constraint = constraint;
+          sweeper.add(options, study.mean_edge, study);
+        }
+      }
+    }
+  }
+  return study;
+}
+
+}  // namespace geotherm::app

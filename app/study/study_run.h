@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/load_model.h"
+#include "solver/core/progress.h"
+#include "solver/method/build_method.h"
+
+namespace geotherm::app {
+
+/// The heat method with one choice of time, boundary rule and constraint. What could not be had is
+/// empty.
+struct StudyRow {
+  TimeRule rule = TimeRule::kMeanEdge;
+  double factor = 1;  ///< m
+  double t = 0;       ///< model units squared
+  double unit_t = 0;  ///< t / h^2, h the mean edge length
+  BoundaryRule boundary = BoundaryRule::kNeumann;
+  ConstraintMode constraint = ConstraintMode::kPinSources;
+  std::optional<double> mean_error;       ///< mean of |d - e| / e
+  std::optional<double> max_error;        ///< largest |d - e| as a share of the largest e
+  std::optional<double> source_distance;  ///< largest |d| on a source, as a share of the largest e
+  std::string message;                    ///< why something is missing
+};
+
+struct StudyTask {
+  HeatOptions options;  ///< but for what is swept
+  SourceSet sources;
+  std::vector<double> factors;  ///< m, ascending
+  std::vector<BoundaryRule> boundaries;
+};
+
+struct Study {
+  std::vector<StudyRow> rows;  ///< by rule, factor, boundary, constraint
+  MethodKind reference = MethodKind::kExact;
+  double largest_distance = 0;  ///< of the reference, model units
+  double mean_edge = 0;         ///< model units
+};
+
+/// The constraint modes that are swept, in the order of the rows.
+std::vector<Constraint> study_constraints();
+
+/// `count` factors from `least` to `most`, the same ratio apart, rounded to two digits.
+std::vector<double> study_factors(double least, double most, int count);
+
+/// Sweeps the time factor over both rules, all constraint modes and the boundary rules, each held
+/// against the best method that fits the mesh (reference_for()). What fails is a row with its
+/// message. Cost: a heat factorisation for each rule, factor and boundary rule, and a query for
+/// each row. Errors: those of the reference; kCancelled.
+Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress = {});
+
+}  // namespace geotherm::app

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/line_pieces.h"
+
+#include <cmath>
+
+namespace geotherm::engine {
+namespace {
+
+/// Of scene space, which has radius 1: a few roundings of single precision. The direction of a
+/// shorter piece is only noise.
+constexpr float kShortestPiece = 1e-6F;
+
+bool is_finite(const glm::vec3& p) { return std::isfinite(p.x + p.y + p.z); }
+
+bool is_repeated(const glm::vec3& a, const glm::vec3& b) {
+  return glm::length(a - b) <= kShortestPiece;
+}
+
+void add_chain(std::vector<LinePiece>& pieces, const std::vector<glm::vec3>& chain) {
+  const std::size_t count = chain.size();
+  const bool closed = count > 3 && is_repeated(chain.front(), chain.back());
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const glm::vec3& at_begin = closed ? chain[count - 2] : chain[0];
+    const glm::vec3& at_end = closed ? chain[1] : chain[count - 1];
+    pieces.push_back({i > 0 ? chain[i - 1] : at_begin, chain[i], chain[i + 1],
+                      i + 2 < count ? chain[i + 2] : at_end});
+  }
+}
+
+}  // namespace
+
+std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
+  std::vector<LinePiece> pieces;
+  std::vector<glm::vec3> chain;
+  for (const glm::vec3& point : points) {
+    if (!is_finite(point)) {
+      add_chain(pieces, chain);
+      chain.clear();
+    } else if (chain.empty() || !is_repeated(chain.back(), point)) {
+      chain.push_back(point);
+    }
+  }
+  add_chain(pieces, chain);
+  return pieces;
+}
+
+}  // namespace geotherm::engine

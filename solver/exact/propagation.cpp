@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "solver/exact/propagation.h"
+
+#include <algorithm>
+#include <string>
+
+#include "solver/exact/late_part.h"
+
+namespace geotherm {
+namespace {
+
+/// A bucket of the queue, in mean edges.
+constexpr double kBucketWidth = 0.25;
+
+/// Windows between two calls of progress: a few milliseconds.
+constexpr std::int64_t kWindowsBetweenChecks = 1 << 14;
+
+/// Windows in all, and waiting at once. Meshes as they come have tens to hundreds a face in all.
+constexpr std::int64_t kMostWindowsPerFace = 100'000;
+constexpr std::int64_t kMostWindowsAtLeast = 100'000'000;
+constexpr std::size_t kMostBytes = std::size_t{3} << 29;  // 1.5 GiB
+
+}  // namespace
+
+Propagation::Propagation(const WindowMesh& mesh)
+    : mesh_(mesh),
+      queue_(kBucketWidth),
+      vertices_(static_cast<std::size_t>(mesh.vertex_count())),
+      leaders_(static_cast<std::size_t>(mesh.side_count())),
+      waiting_(leaders_.size(), nullptr),
+      at_branches_(static_cast<std::size_t>(mesh.branch_count())) {}
+
+Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress) {
+  for (const auto& seed : seeds.vertices) reach(seed.vertex, seed.offset, seed.group, true);
+  for (const auto& piece : seeds.pieces) {
+    if (piece.from == piece.to) {
+      seed_point(piece);
+    } else {
+      seed_segment(piece);
+    }
+  }
+  while (const Window* next = queue_.pop()) {
+    const Window window = *next;
+    if (window.side < 0) {
+      send_from(~window.side, window.sigma, window.group());
+    } else {
+      Window*& waiting = waiting_[static_cast<std::size_t>(window.side)];
+      if (waiting == next) waiting = nullptr;
+      follow(window);
+    }
+    if (++windows_ % kWindowsBetweenChecks != 0) continue;
+    if (auto fine = check(progress); !fine) return fine;
+  }
+  return {};
+}
+
+Result<void> Propagation::check(const Progress& progress) {
+  peak_bytes_ = std::max(peak_bytes_, queue_.bytes());
+  const Index faces = mesh_.side_count() / 3;
+  const double all = std::max(mesh_.vertices_in_use(), Index{1});
+  if (!report(progress, "exact", static_cast<double>(reached_) / all)) return cancelled_error();
+  if (queue_.bytes() > kMostBytes) {
+    return Error{ErrorCode::kOutOfMemory,
+                 "exact distances on " + std::to_string(faces) +
+                     " faces: " + std::to_string(queue_.size()) + " windows wait and fill " +
+                     std::to_string(kMostBytes >> 20) + " MiB; use the method wavefront-fine"};
+  }
+  if (windows_ > std::max(kMostWindowsAtLeast, kMostWindowsPerFace * faces)) {
+    return Error{ErrorCode::kBudgetEnded, "exact distances on " + std::to_string(faces) +
+                                              " faces: no end after " + std::to_string(windows_) +
+                                              " windows; use the method wavefront-fine"};
+  }
+  return {};
+}
+
+void Propagation::reach(Index vertex, double distance, Index group, bool send_anyway) {
+  VertexState& state = vertices_[static_cast<std::size_t>(vertex)];
+  if (distance >= state.distance) return;
+  if (state.distance == kUnreached) ++reached_;
+  state.distance = distance;
+  state.group = group;
+  if (!send_anyway && !mesh_.sends(vertex)) return;
+  if (distance >= state.sent * (1 - kTie)) return;
+  state.sent = distance;
+  queue_.push({0, 0, 0, 0, distance, ~vertex, Window::label_of(group)}, distance);
+}
+
+void Propagation::send_from(Index vertex, double distance, Index group) {
+  if (vertices_[static_cast<std::size_t>(vertex)].sent != distance)
+    return;  // a later one is queued
+  for (const Side side : mesh_.opposite_sides(vertex)) {
+    const auto& frame = mesh_.side(side);
+    const auto& next = mesh_.side(next_side(side));
+    reach(frame.origin, distance + mesh_.side(previous_side(side)).length, group);
+    reach(next.origin, distance + next.length, group);
+    const Window window{0,        frame.length, frame.apex_x,           -frame.apex_y,
+                        distance, side,         Window::label_of(group)};
+    cross(side, window, false);
+  }
+}
+
+/// Sends a window out of a face. It stands in the frame of `side`, or in the one that runs against
+/// it, with its source below.
+void Propagation::cross(Side side, Window window, bool against) {
+  const auto& frame = mesh_.side(side);
+  if (frame.across == WindowMesh::kBorder) return;
+  double at_origin = distance_at(frame.origin);
+  double at_length = distance_at(mesh_.side(next_side(side)).origin);
+  if (against) std::swap(at_origin, at_length);
+  if (!trim_by_ends(window, frame.length, at_origin, at_length)) return;
+  if (frame.across <= WindowMesh::kBranch && !is_early_at_branch(side, window, against)) return;
+  const double key = window.distance_at(window.nearest_place());
+  mesh_.for_each_across(side, [&](Side other, bool opposite) {
+    Window child = window;
+    child.side = other;
+    if (opposite != against) child.reverse(frame.length);
+    if (!merges_with_waiting(child, frame.length)) {
+      waiting_[static_cast<std::size_t>(other)] = queue_.push(child, key);
+    }
+  });
+}
+
+/// Two windows that a flat vertex has split meet again side by side on the next edge: they go on as
+/// one. Without this large flat regions would be cut into ever more windows.
+bool Propagation::merges_with_waiting(const Window& window, double length) {
+  Window* waiting = waiting_[static_cast<std::size_t>(window.side)];
+  if (!waiting || (waiting->label | Window::kMerged) != (window.label | Window::kMerged))
+    return false;
+  const double margin = kOrder * length;
+  if (window.begin > waiting->end + margin || window.end < waiting->begin - margin) return false;
+  if (!have_same_source(*waiting, window)) return false;
+  waiting->begin = std::min(waiting->begin, window.begin);
+  waiting->end = std::max(waiting->end, window.end);
+  waiting->label |= Window::kMerged;
+  return true;
+}
+
+/// Windows that cross an edge with many faces multiply, and those that meet again behind the next
+/// one would without end. Each goes on only where it is earlier than all before it.
+bool Propagation::is_early_at_branch(Side side, Window& window, bool against) {
+  const auto& frame = mesh_.side(side);
+  auto& others = at_branches_[static_cast<std::size_t>(WindowMesh::kBranch - frame.across)];
+  const bool reversed = against != (frame.origin > mesh_.side(next_side(side)).origin);
+  Window in_edge = window;
+  if (reversed) in_edge.reverse(frame.length);
+  for (const Window& other : others) {
+    if (!cut_late_ends(in_edge, other, frame.length)) return false;
+  }
+  others.push_back(in_edge);
+  window.begin = reversed ? frame.length - in_edge.end : in_edge.begin;
+  window.end = reversed ? frame.length - in_edge.begin : in_edge.end;
+  window.label |= Window::kBranched;
+  return true;
+}
+
+}  // namespace geotherm

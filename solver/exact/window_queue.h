@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "solver/exact/window.h"
+
+namespace geotherm {
+
+/// Windows in the order of their keys up to the width of a bucket; within a bucket first in, first
+/// out. A turn of buckets holds what is near, a heap what is far. Cost: O(1) for a near window,
+/// O(log n) for a far one. Source: Xu, Wang, Wei, Wang, He, Liu 2015 (buckets).
+class WindowQueue {
+ public:
+  /// `width` > 0, in units of the keys.
+  explicit WindowQueue(double width);
+
+  /// A key below the present bucket's goes into that. Where the window stands until it is popped;
+  /// nullptr where it may be moved before. Throws std::bad_alloc.
+  Window* push(const Window& window, double key);
+
+  /// Where the next window stands, until something is pushed; nullptr: none is left.
+  const Window* pop();
+
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t kBuckets = 1 << 12;
+  static constexpr int kChunkSize = 128;
+  struct Chunk {
+    std::array<Window, kChunkSize> windows;
+    int begin, end;
+    Chunk* next;
+  };
+  struct Bucket {
+    Chunk* first = nullptr;
+    Chunk* last = nullptr;
+  };
+  struct Far {
+    double key;
+    std::size_t number;  ///< equal keys: first in, first out
+    Window window;
+  };
+  static bool later(const Far& a, const Far& b) {
+    return a.key != b.key ? a.key > b.key : a.number > b.number;
+  }
+
+  Window* append(std::size_t bucket, const Window& window);
+  void refill();
+  Chunk* take_chunk();
+
+  double inverse_width_;
+  double base_ = 0;          ///< key where bucket 0 of this turn begins
+  std::size_t present_ = 0;  ///< of the buckets
+  std::size_t near_ = 0;     ///< windows in buckets
+  std::size_t size_ = 0, pushed_ = 0;
+  std::vector<Bucket> buckets_;
+  std::vector<Far> far_;  ///< a heap, smallest key first
+  std::vector<std::unique_ptr<Chunk>> chunks_;
+  Chunk* free_ = nullptr;
+};
+
+}  // namespace geotherm

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
+#include "solver/core/number_text.h"
+#include "solver/geometry/intrinsic_surface.h"
+
+namespace geotherm {
+namespace {
+
+/// Weights are accepted when they sum to 1 within this: what nine typed digits give.
+constexpr double kWeightSum = 1e-6;
+
+/// First edge whose lower vertex is not below `low`; edges are sorted by it.
+Index first_edge_from(const EdgeTable& edges, Index low) {
+  Index first = 0, count = edges.edge_count();
+  while (count > 0) {
+    const Index half = count / 2;
+    if (edges.low(first + half) < low) {
+      first += half + 1;
+      count -= half + 1;
+    } else {
+      count = half;
+    }
+  }
+  return first;
+}
+
+Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
+  if (v < 0 || v >= surface.mesh->vertex_count()) {
+    return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
+                                           " does not exist; vertices are 0 to " +
+                                           std::to_string(surface.mesh->vertex_count() - 1)};
+  }
+  if (!surface.on_surface[v]) {
+    return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
+                                           " belongs to no face; choose one on the surface"};
+  }
+  return {};
+}
+
+/// The number in clean_faces of a face of the mesh or, where it is a duplicate, of its twin;
+/// kNoIndex where it repeats a corner.
+Index clean_face_of(const IntrinsicSurface& surface, Index f) {
+  const Index clean = surface.clean_of_face[f];
+  if (clean != kNoIndex) return clean;
+  const Face& face = surface.mesh->faces()[f];
+  const Index edge = find_clean_edge(surface, face[0], face[1]);
+  if (edge == kNoIndex) return kNoIndex;
+  for (const Side side : surface.clean_edges.sides(edge)) {
+    if (std::ranges::is_permutation(surface.clean_faces[face_of(side)], face)) return face_of(side);
+  }
+  return kNoIndex;
+}
+
+Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& point) {
+  const Index count = surface.mesh->face_count();
+  if (point.face < 0 || point.face >= count) {
+    return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
+                                           " does not exist; faces are 0 to " +
+                                           std::to_string(count - 1)};
+  }
+  double sum = 0;
+  bool valid = true;
+  for (const double w : point.weights) {
+    valid = valid && std::isfinite(w) && w >= -kWeightSum;
+    sum += w;
+  }
+  if (!valid || std::abs(sum - 1) > kWeightSum) {
+    return Error{ErrorCode::kBadInput,
+                 "the weights of the source in face " + std::to_string(point.face) + " sum to " +
+                     number_text(sum) + "; barycentric weights are not negative and sum to 1"};
+  }
+  if (clean_face_of(surface, point.face) == kNoIndex) {
+    for (int k = 0; k < 3; ++k) {  // at a corner it needs no inside
+      if (point.weights[k] < (1 - kAtCorner) * sum) continue;
+      return check_vertex(surface, surface.mesh->faces()[point.face][k]);
+    }
+    return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
+                                           " repeats a corner and has no inside; choose another"};
+  }
+  return {};
+}
+
+Result<void> check_edge(const IntrinsicSurface& surface, const std::array<Index, 2>& edge) {
+  for (const Index v : edge) {
+    if (const auto valid = check_vertex(surface, v); !valid) return valid;
+  }
+  if (edge[0] == edge[1] || find_clean_edge(surface, edge[0], edge[1]) != kNoIndex) return {};
+  return Error{ErrorCode::kBadInput,
+               "the source curve goes from vertex " + std::to_string(edge[0]) + " to " +
+                   std::to_string(edge[1]) + ", which share no edge; name vertices along edges"};
+}
+
+Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sources) {
+  if (sources.offsets.empty()) return {};
+  if (sources.offsets.size() != sources.points.size()) {
+    return Error{ErrorCode::kBadInput,
+                 counted_text(sources.offsets.size(), "offset is", "offsets are") + " given for " +
+                     counted_text(sources.points.size(), "source point", "source points") +
+                     "; give one a point, or none"};
+  }
+  for (std::size_t i = 0; i < sources.offsets.size(); ++i) {
+    const double offset = sources.offsets[i];
+    if (offset >= 0 && std::isfinite(offset / surface.mean_edge)) continue;
+    return Error{ErrorCode::kBadInput,
+                 "the offset of source point " + std::to_string(i) + " is " + number_text(offset) +
+                     "; offsets are lengths, not negative and not beyond all measure beside the "
+                     "mean edge of " +
+                     rounded_text(surface.mean_edge)};
+  }
+  return {};
+}
+
+}  // namespace
+
+Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b) {
+  const EdgeTable& edges = surface.clean_edges;
+  const Index low = std::min(a, b), high = std::max(a, b);
+  for (Index e = first_edge_from(edges, low); e < edges.edge_count() && edges.low(e) == low; ++e) {
+    if (edges.high(e) == high) return e;
+  }
+  return kNoIndex;
+}
+
+SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point) {
+  if (point.is_vertex()) return point;
+  const Face& face = surface.mesh->faces()[point.face];
+  double sum = 0;
+  for (const double w : point.weights) sum += w;
+  std::array<double, 3> weights{};
+  for (int k = 0; k < 3; ++k) {
+    weights[k] = std::max(point.weights[k], 0.0) / sum;
+    if (weights[k] >= 1 - kAtCorner) return SurfacePoint::at_vertex(face[k]);
+  }
+  SurfacePoint out = SurfacePoint::in_face(clean_face_of(surface, point.face), {});
+  for (int k = 0; k < 3; ++k) {
+    const auto corner = std::ranges::find(face, surface.clean_faces[out.face][k]);
+    out.weights[k] = weights[static_cast<std::size_t>(corner - face.begin())];
+  }
+  return out;
+}
+
+Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sources) {
+  if (sources.empty()) {
+    return Error{ErrorCode::kBadInput, "there is no source; name at least one"};
+  }
+  for (const SurfacePoint& point : sources.points) {
+    const auto valid =
+        point.is_vertex() ? check_vertex(surface, point.vertex) : check_in_face(surface, point);
+    if (!valid) return valid;
+  }
+  for (const auto& edge : sources.edges) {
+    if (const auto valid = check_edge(surface, edge); !valid) return valid;
+  }
+  return check_offsets(surface, sources);
+}
+
+}  // namespace geotherm

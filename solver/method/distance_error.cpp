@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "solver/method/distance_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+/// Distances below this share of the largest one are sources, up to round-off.
+constexpr double kAtSource = 1e-12;
+
+/// Windows need some seconds there.
+constexpr Index kMostFacesExact = 50'000;
+
+}  // namespace
+
+DistanceError distance_error(std::span<const double> d, std::span<const double> e) {
+  DistanceError error;
+  double range = 0, relative = 0, sum = 0, most = -1;
+  Index count = 0, positive = 0;
+  for (const double x : e) {
+    if (std::isfinite(x)) range = std::max(range, x);
+  }
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (std::isfinite(d[i]) != std::isfinite(e[i])) ++error.differently_reached;
+    if (!std::isfinite(d[i]) || !std::isfinite(e[i])) continue;
+    const double off = d[i] - e[i];
+    sum += off;
+    ++count;
+    if (std::abs(off) > most) {
+      most = std::abs(off);
+      error.worst = static_cast<Index>(i);
+    }
+    if (e[i] > kAtSource * range) {
+      relative += std::abs(off) / e[i];
+      ++positive;
+    }
+  }
+  if (count == 0) return error;
+  error.max = most;
+  error.mean_signed = sum / count;
+  if (positive > 0) error.mean_relative = relative / positive;
+  if (range > 0) error.max_of_range = most / range;
+  return error;
+}
+
+std::vector<double> signed_error(std::span<const double> d, std::span<const double> e) {
+  std::vector<double> out(e.size(), kUnreached);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    if (std::isfinite(d[i]) && std::isfinite(e[i])) out[i] = d[i] - e[i];
+  }
+  return out;
+}
+
+ErrorHistogram error_histogram(std::span<const double> signed_error, int bins) {
+  ErrorHistogram histogram;
+  histogram.count.assign(static_cast<std::size_t>(bins), 0);
+  bool any = false;
+  for (const double x : signed_error) {
+    if (!std::isfinite(x)) continue;
+    histogram.low = any ? std::min(histogram.low, x) : x;
+    histogram.high = any ? std::max(histogram.high, x) : x;
+    any = true;
+  }
+  const double width = histogram.high - histogram.low;
+  for (const double x : signed_error) {
+    if (!std::isfinite(x)) continue;
+    const double place = width > 0 ? (x - histogram.low) / width * bins : 0;
+    ++histogram.count[static_cast<std::size_t>(std::clamp(static_cast<int>(place), 0, bins - 1))];
+  }
+  return histogram;
+}
+
+MethodKind reference_for(MethodKind kind, Index faces) {
+  switch (kind) {
+    case MethodKind::kExact:
+    case MethodKind::kWavefrontFine:
+      return MethodKind::kExact;
+    case MethodKind::kHeat:
+    case MethodKind::kWavefront:
+    case MethodKind::kFastMarching:
+      break;
+  }
+  return faces <= kMostFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "solver/method/distance_method.h"
+
+namespace geotherm {
+
+/// Solves one source set; on any thread, several at once.
+using SolveSet = std::function<Result<DistanceResult>(const SourceSet&, const Progress&)>;
+
+/// Calls `solve` for every set, shared out over `threads` threads (0: all cores). The first failure
+/// ends the work; one set after another fails in their order. `progress` is called by one thread at
+/// a time, with shares that do not fall. Timings are shares of the wall clock. std::bad_alloc
+/// becomes kOutOfMemory.
+Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets, int threads,
+                                               const Progress& progress, const SolveSet& solve);
+
+}  // namespace geotherm

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include "solver/wave/eikonal.h"
+
+#include <cmath>
+
+namespace geotherm {
+
+double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances) {
+  double sum = 0, area = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto [a, b, c] = mesh.faces[f];
+    const double da = distances[a], db = distances[b] - da, dc = distances[c] - da;
+    if (!std::isfinite(db) || !std::isfinite(dc)) continue;
+    const FaceLayout layout = lay_out(mesh.lengths[f]);
+    const double slope_x = db / layout.base;
+    const double slope_y = (dc - slope_x * layout.x) / layout.height;
+    const double twice_area = layout.base * layout.height;
+    sum += twice_area * std::abs(std::hypot(slope_x, slope_y) - 1);
+    area += twice_area;
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+}  // namespace geotherm

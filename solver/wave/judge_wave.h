@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/method/distance_result.h"
+#include "solver/wave/wave_surface.h"
+
+namespace geotherm {
+
+/// Fills in the quality figures that waves know: how far a source vertex is above its offset, and
+/// the slope. `result.distances` are still in units of the intrinsic mesh. Cost: O(F).
+void judge_wave(const WaveSurface& surface, const SourceSeeds& seeds, DistanceResult& result);
+
+}  // namespace geotherm

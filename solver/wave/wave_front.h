@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/core/progress.h"
+#include "solver/wave/bucket_ring.h"
+#include "solver/wave/wave_tables.h"
+
+namespace geotherm {
+
+/// One wave at a time from sources to everywhere, with memory that is kept for the next.
+class WaveFront {
+ public:
+  /// Keeps a reference. `samples`: 1 or 3 on each edge.
+  WaveFront(const WaveTables& tables, int samples, InstructionSet set = best_instruction_set());
+
+  /// Lets the wave run; false when `progress` (stage "solve") said stop.
+  bool run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
+           const Progress& progress);
+
+  /// After run(), by rank, in units of the intrinsic mesh; kUnreached where no source can be.
+  std::span<const double> distances() const { return distance_; }
+  /// Groups of the nearest sources, when labels were asked for.
+  std::span<const Index> labels() const { return label_; }
+  /// What has to be added to every distance: the least offset.
+  double base() const { return base_; }
+
+ private:
+  using Keys = std::vector<std::pair<double, Index>>;
+
+  void reset(bool labels);
+  void seed(const WaveSurface& surface, const SourceSeeds& seeds);
+  void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
+  void lower(double& value, Index* label, double candidate, Index group);
+  WavePass pass();
+
+  const WaveTables& tables_;
+  int samples_;
+  InstructionSet set_;
+  BucketRing ring_;
+  std::vector<double> distance_, sample_;
+  std::vector<Index> label_, sample_label_;
+  std::vector<std::uint8_t> queued_;
+  Keys keys_;
+  double base_ = 0;
+};
+
+}  // namespace geotherm

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+// The visit of an edge (docs/numerics.md, "Wavefront"), compiled once for each instruction set. The
+// targets of a face are the lanes of a vector. Products and sums are not fused, so that every
+// processor gives the same distances.
+#include "solver/wave/wave_fit.inl"
+#include "solver/wave/wave_kernels.h"
+
+namespace geotherm {
+using WaveKernel = std::size_t (*)(WavePass&, std::size_t);
+}
+
+namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
+namespace {
+
+/// An edge is visited again when a value of it fell by this share of the face's longest side.
+constexpr double kNotice = 1e-4;
+
+template <int kSamples, bool kLabels>
+class Wave {
+ public:
+  explicit Wave(WavePass& pass) : p_(pass) {}
+
+  std::size_t run(std::size_t most_visits) {
+    WaveBucket& bucket = p_.buckets[p_.current & p_.bucket_mask];
+    std::size_t visits = 0;
+    // The bucket grows while it is emptied.
+    while (p_.place < bucket.size && visits < most_visits) {
+      fetch_ahead(bucket, p_.place);
+      const Index edge = bucket.edges[p_.place++];
+      p_.queued[edge] = 0;
+      --p_.waiting;
+      visit(edge);
+      ++visits;
+    }
+    if (p_.place == bucket.size) bucket.size = 0, p_.place = 0;
+    return visits;
+  }
+
+ private:
+  static constexpr int kLanes = Targets<kSamples>::kLanes;
+  using Values = typename VectorOf<kLanes>::Values;
+  using Mask = typename VectorOf<kLanes>::Mask;
+
+  /// Each step needs what the one before brought: first the sides, then the faces, then the values.
+  void fetch_ahead(const WaveBucket& bucket, std::int64_t place) const {
+    if (place + 8 < bucket.size) __builtin_prefetch(&p_.sides[bucket.edges[place + 8]]);
+    if (place + 4 < bucket.size) {
+      const auto& sides = p_.sides[bucket.edges[place + 4]];
+      __builtin_prefetch(&p_.faces[face_of_code(sides[0])]);
+      if (sides[1] >= 0) __builtin_prefetch(&p_.faces[face_of_code(sides[1])]);
+    }
+    if (place + 2 < bucket.size) {
+      const auto& sides = p_.sides[bucket.edges[place + 2]];
+      fetch_values(sides[0]);
+      if (sides[1] >= 0) fetch_values(sides[1]);
+    }
+  }
+  void fetch_values(SideCode code) const {
+    const WaveFace& face = p_.faces[face_of_code(code)];
+    for (int k = 0; k < 3; ++k) {
+      __builtin_prefetch(&p_.distance[face.vertex[k]]);
+      __builtin_prefetch(&p_.sample[kSamples * static_cast<std::ptrdiff_t>(face.edge[k])]);
+    }
+  }
+
+  void visit(Index edge) {
+    const auto& sides = p_.sides[edge];
+    const WaveFace& face = p_.faces[face_of_code(sides[0])];
+    const int k = corner_of_code(sides[0]);
+    const int next = k == 2 ? 0 : k + 1;
+    const Index va = face.vertex[k], vb = face.vertex[next];
+    const Front<kSamples> front = front_of(edge, va, vb, face.length[k]);
+    cross(sides[0], front);
+    if (sides[1] >= 0) {
+      cross_second(sides[1], front);
+    } else if (sides[1] != kNoSideCode) {
+      const SideCode* list = p_.more - (sides[1] + 2);
+      for (SideCode i = 1; i <= list[0]; ++i) cross_second(list[i], front);
+    }
+    if (face.touching == 0) return;
+    if ((face.touching >> k & 1U) != 0) spread(va);
+    if ((face.touching >> next & 1U) != 0) spread(vb);
+  }
+
+  void cross_second(SideCode code, const Front<kSamples>& front) {
+    const bool reversed = (p_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1U) != 0;
+    cross(code, reversed ? mirrored(front) : front);
+  }
+
+  Front<kSamples> front_of(Index edge, Index va, Index vb, double length) {
+    double& a = p_.distance[va];
+    double& b = p_.distance[vb];
+    if (b > a + length) {
+      b = a + length;
+      if constexpr (kLabels) p_.label[vb] = p_.label[va];
+    }
+    if (a > b + length) {
+      a = b + length;
+      if constexpr (kLabels) p_.label[va] = p_.label[vb];
+    }
+    Front<kSamples> front;
+    front.a = a;
+    front.b = b;
+    const std::ptrdiff_t first = kSamples * static_cast<std::ptrdiff_t>(edge);
+    const double* w = p_.sample + first;
+    if constexpr (kSamples == 1) {
+      front.fits[0] = fit_wave(0, length / 2, a, w[0], b);
+    } else {
+      front.fits[0] = fit_wave(-length / 4, length / 4, a, w[0], w[1]);
+      front.fits[1] = fit_wave(length / 4, length / 4, w[1], w[2], b);
+    }
+    if constexpr (kLabels) {
+      front.label_a = p_.label[va];
+      front.label_b = p_.label[vb];
+      for (int i = 0; i < kSamples; ++i) front.labels[i] = p_.sample_label[first + i];
+    }
+    return front;
+  }
+
+  /// Carries the front to the opposite vertex of a face and to the samples of its other sides.
+  void cross(SideCode code, const Front<kSamples>& front) {
+    const WaveFace& face = p_.faces[face_of_code(code)];
+    const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1, previous = k == 0 ? 2 : k - 1;
+    const Index vc = face.vertex[previous];
+    const double nearer = least(front.a, front.b);
+    if (!(p_.distance[vc] > nearer) && vc != face.vertex[k] && vc != face.vertex[next] &&
+        face.vertex[k] != face.vertex[next]) {
+      return;  // it came from there
+    }
+    const double length = face.length[k], half = length / 2, inverse = 1 / length;
+    const double to_b = face.length[next], to_a = face.length[previous];
+    const double cx = (to_a - to_b) * (to_a + to_b) * (0.5 * inverse);
+    const double cy = face.twice_area * inverse;
+    const Values x = Targets<kSamples>::kOpposite * cx + Targets<kSamples>::kEdge * half;
+    const Values y = Targets<kSamples>::kOpposite * cy;
+    const Values best = arrival(front, half, x, y);
+    double values[kLanes];
+    __builtin_memcpy(values, &best, sizeof(values));
+    Index labels[kLanes] = {};
+    if constexpr (kLabels) {
+      for (int i = 0; i < 1 + 2 * kSamples; ++i) {
+        labels[i] = label_of(front, half, x[i], y[i], values[i]);
+      }
+    }
+
+    const double notice = kNotice * most(length, most(to_a, to_b));
+    const bool vertex_fell = lower_vertex(vc, values[0], labels[0], notice);
+    const double dc = p_.distance[vc];
+    lower_samples(face, previous, values + 1, labels + 1, notice, vertex_fell, most(dc, front.a));
+    lower_samples(face, next, values + 1 + kSamples, labels + 1 + kSamples, notice, vertex_fell,
+                  most(dc, front.b));
+  }
+
+  /// The shortest of all ways over the edge, for every target.
+  static Values arrival(const Front<kSamples>& front, double half, const Values& x,
+                        const Values& y) {
+    const Values yy = y * y;
+    Values from_a = (x + half) * (x + half) + yy, from_b = (x - half) * (x - half) + yy;
+    root<kLanes>(from_a, from_a);
+    root<kLanes>(from_b, from_b);
+    from_a += front.a;
+    from_b += front.b;
+    Values best = from_b < from_a ? from_b : from_a;
+    if constexpr (kSamples == 3) {
+      Values from_middle = x * x + yy;
+      root<kLanes>(from_middle, from_middle);
+      from_middle += front.fits[0].right;
+      best = from_middle < best ? from_middle : best;
+    }
+    for (const Fit& fit : front.fits) {
+      if (fit.kind == Fit::Kind::kWave) {
+        const Values value = wave(fit, x, y, yy);
+        best = value < best ? value : best;
+      } else if (fit.kind == Fit::Kind::kKinked) {
+        for (int i = 0; i < 1 + 2 * kSamples; ++i)
+          best[i] = least(best[i], kinked(fit, x[i], y[i]));
+      }
+    }
+    return best;
+  }
+
+  static Values wave(const Fit& fit, const Values& at, const Values& y, const Values& yy) {
+    const Values x = at - fit.centre;
+    const Values q = fit.k * (x * x + yy) + 2.0 * (fit.uy * y - fit.ux * x);
+    const Values square = 1.0 + fit.k * q;
+    const Values gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
+    const Values miss = x * gy - y * gx;
+    const Values reach = fit.half * (1 + kRayTolerance) * gy;
+    const Mask valid = (square > 0.0) & (gy > 0.0) & (miss <= reach) & (miss >= -reach);
+    Values length;
+    root<kLanes>(square, length);
+    const Values value = fit.middle + q / (1.0 + length);
+    const Values far = Values{} + kFar;
+    return valid ? value : far;
+  }
+
+  /// Two planes, one through each half.
+  static double kinked(const Fit& fit, double at, double y) {
+    const double x = at - fit.centre;
+    return least(plane_wave(fit.left, fit.middle, fit.half, x + fit.half, y),
+                 plane_wave(fit.middle, fit.right, fit.half, x, y));
+  }
+
+  /// Hands the value of a vertex to all its faces, where fans touch and no edge does it.
+  void spread(Index vertex) {
+    for (std::size_t i = p_.corner_start[vertex]; i < p_.corner_start[vertex + 1]; ++i) {
+      const SideCode code = p_.corners[i];
+      const WaveFace& face = p_.faces[face_of_code(code)];
+      const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1;
+      const Index label = kLabels ? p_.label[vertex] : kNoIndex;
+      Front<kSamples> front{};
+      front.a = p_.distance[vertex];
+      front.b = front.a + face.length[k];
+      front.label_a = front.label_b = label;
+      double values[kSamples];
+      for (int j = 0; j < kSamples; ++j) {
+        values[j] = front.a + face.length[k] * (j + 1) / (kSamples + 1);
+        front.labels[j] = label;
+      }
+      for (Fit& fit : front.fits) fit.right = kFar;
+      const bool fell = lower_vertex(face.vertex[next], front.b, label, kNotice * face.length[k]);
+      lower_samples(face, k, values, front.labels, kNotice * face.length[k], fell, front.b);
+      cross(code, front);
+    }
+  }
+
+  /// True when the value fell by more than `notice`.
+  bool lower_vertex(Index vertex, double value, Index label, double notice) {
+    double& now = p_.distance[vertex];
+    if (!(value < now)) return false;
+    const bool noticed = value < now - notice;
+    now = value;
+    if constexpr (kLabels) p_.label[vertex] = label;
+    return noticed;
+  }
+
+  void lower_samples(const WaveFace& face, int side, const double* values, const Index* labels,
+                     double notice, bool vertex_fell, double ends) {
+    const Index edge = face.edge[side];
+    const std::ptrdiff_t first = kSamples * static_cast<std::ptrdiff_t>(edge);
+    const bool reversed = kSamples > 1 && (face.reversed >> side & 1U) != 0;
+    bool fell = vertex_fell;
+    for (int i = 0; i < kSamples; ++i) {
+      const std::ptrdiff_t at = first + (reversed ? kSamples - 1 - i : i);
+      double& value = p_.sample[at];
+      if (!(values[i] < value)) continue;
+      fell = fell || values[i] < value - notice;
+      value = values[i];
+      if constexpr (kLabels) p_.sample_label[at] = labels[i];
+    }
+    if (fell) enqueue(edge, most(ends, p_.sample[first + kSamples / 2]));
+  }
+
+  /// Puts an edge into the bucket of `key`, the current one where that is past.
+  void enqueue(Index edge, double key) {
+    if (p_.queued[edge] != 0) return;
+    auto number = static_cast<std::int64_t>(key * p_.per_length);
+    if (number < p_.current) number = p_.current;
+    if (number > p_.current + p_.bucket_mask) number = p_.current + p_.bucket_mask;
+    WaveBucket& bucket = p_.buckets[number & p_.bucket_mask];
+    if (bucket.size == bucket.capacity) p_.grow(p_.context, bucket);
+    bucket.edges[bucket.size++] = edge;
+    p_.queued[edge] = 1;
+    ++p_.waiting;
+  }
+
+  /// The label of the way that gave `value` at a target: that of the point of the edge next to
+  /// where the way crosses it.
+  static Index label_of(const Front<kSamples>& front, double half, double x, double y,
+                        double value) {
+    const double margin = 1e-12 * value;
+    if (front.a + __builtin_sqrt((x + half) * (x + half) + y * y) <= value + margin) {
+      return front.label_a;
+    }
+    if (front.b + __builtin_sqrt((x - half) * (x - half) + y * y) <= value + margin) {
+      return front.label_b;
+    }
+    double at = 0;  // where it crosses, from -half to half
+    for (const Fit& fit : front.fits) {
+      if (fit.kind == Fit::Kind::kKinked) {
+        const double from = x - fit.centre;
+        if (plane_wave(fit.left, fit.middle, fit.half, from + fit.half, y) <= value + margin) {
+          at = fit.centre - fit.half / 2;
+        } else if (plane_wave(fit.middle, fit.right, fit.half, from, y) <= value + margin) {
+          at = fit.centre + fit.half / 2;
+        }
+      } else if (fit.kind == Fit::Kind::kWave) {
+        const double from = x - fit.centre;
+        const double gx = fit.k * from - fit.ux, gy = fit.k * y + fit.uy;
+        const double ray = from - y * gx / gy;
+        if (gy > 0 && ray >= -fit.half && ray <= fit.half) at = fit.centre + ray;
+      }
+    }
+    const double step = (at + half) / (2 * half) * (kSamples + 1);
+    const int node = static_cast<int>(step + 0.5);
+    if (node <= 0) return front.label_a;
+    return node > kSamples ? front.label_b : front.labels[node - 1];
+  }
+
+  WavePass& p_;
+};
+
+template <int kSamples, bool kLabels>
+std::size_t visit_bucket(WavePass& pass, std::size_t most_visits) {
+  return Wave<kSamples, kLabels>(pass).run(most_visits);
+}
+
+}  // namespace
+
+extern const WaveKernel kWaveKernels[2][2];
+const WaveKernel kWaveKernels[2][2] = {{visit_bucket<1, false>, visit_bucket<1, true>},
+                                       {visit_bucket<3, false>, visit_bucket<3, true>}};
+
+}  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE

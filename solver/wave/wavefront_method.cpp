@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "solver/wave/wavefront_method.h"
+
+#include <algorithm>
+#include <mutex>
+#include <new>
+
+#include "solver/core/stopwatch.h"
+#include "solver/method/solve_sets.h"
+#include "solver/wave/judge_wave.h"
+#include "solver/wave/wave_front.h"
+
+namespace geotherm {
+namespace {
+
+/// Fronts kept between queries: fresh memory would be handed out and cleared page by page, which at
+/// a million faces takes as long as a tenth of the query. Grows to one for each thread.
+class FrontPool {
+ public:
+  FrontPool(const WaveTables& tables, int samples) : tables_(tables), samples_(samples) {}
+
+  std::unique_ptr<WaveFront> take() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!free_.empty()) {
+        auto front = std::move(free_.back());
+        free_.pop_back();
+        return front;
+      }
+    }
+    return std::make_unique<WaveFront>(tables_, samples_);
+  }
+  void give(std::unique_ptr<WaveFront> front) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(front));
+  }
+
+ private:
+  const WaveTables& tables_;
+  int samples_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<WaveFront>> free_;
+};
+
+}  // namespace
+
+struct WavefrontMethod::State {
+  std::shared_ptr<const WaveSurface> surface;
+  Samples samples = Samples::kMidpoint;
+  int threads = 0;
+  WaveTables tables;
+  SetupTiming timing;
+  std::unique_ptr<FrontPool> pool;
+
+  Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
+                               const Progress& progress) const;
+  void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
+};
+
+Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
+                                                     const QueryOptions& query,
+                                                     const Progress& progress) const {
+  Stopwatch watch;
+  if (!report(progress, "solve", 0.0)) return cancelled_error();
+  const auto seeds = seed_sources(*surface, sources);
+  if (!seeds) return seeds.error();
+  DistanceResult result;
+  auto front = pool->take();
+  const bool done = front->run(*surface, *seeds, query.nearest, progress);
+  if (done) copy_out(*front, query.nearest, result);
+  pool->give(std::move(front));
+  if (!done) return cancelled_error();
+  result.timing.query = watch.lap();
+  if (query.quality) judge_wave(*surface, *seeds, result);
+  watch.lap();
+  for (double& distance : result.distances) distance *= surface->base.mean_edge;
+  result.timing.query += watch.lap();
+  return result;
+}
+
+/// In the order of the file, still in units of the intrinsic mesh.
+void WavefrontMethod::State::copy_out(const WaveFront& front, bool labels,
+                                      DistanceResult& result) const {
+  const std::size_t vertices = tables.rank_of_vertex.size();
+  const auto distances = front.distances();
+  result.distances.assign(vertices, kUnreached);
+  if (labels) result.nearest_source.assign(vertices, kNoIndex);
+  for (std::size_t rank = 0; rank < distances.size(); ++rank) {
+    const Index v = tables.vertex_of_rank[rank];
+    // Fitted waves may undercut the sources by rounding.
+    result.distances[v] = std::max(distances[rank], 0.0) + front.base();
+    if (labels) result.nearest_source[v] = front.labels()[rank];
+  }
+}
+
+WavefrontMethod::WavefrontMethod(std::unique_ptr<const State> state) : state_(std::move(state)) {}
+WavefrontMethod::~WavefrontMethod() = default;
+
+Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
+    std::shared_ptr<const WaveSurface> surface, Samples samples, int threads,
+    const Progress& progress) try {
+  const Stopwatch watch;
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
+  auto state = std::make_unique<State>();
+  state->surface = surface;
+  state->samples = samples;
+  state->threads = threads;
+  state->tables = build_wave_tables(*surface);
+  state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
+  if (!report(progress, "operators", 1.0)) return cancelled_error();
+  state->timing.operators = state->timing.setup = watch.milliseconds();
+  return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended in the tables of " +
+                                            std::to_string(surface->face_count()) +
+                                            " faces; take a mesh with fewer faces"};
+}
+
+MethodKind WavefrontMethod::kind() const {
+  return state_->samples == Samples::kMidpoint ? MethodKind::kWavefront
+                                               : MethodKind::kWavefrontFine;
+}
+
+Result<std::vector<DistanceResult>> WavefrontMethod::solve_each(std::span<const SourceSet> sets,
+                                                                const QueryOptions& query,
+                                                                const Progress& progress) const {
+  return solve_sets(sets, state_->threads, progress,
+                    [&](const SourceSet& sources, const Progress& part) {
+                      return state_->solve(sources, query, part);
+                    });
+}
+
+const SetupTiming& WavefrontMethod::timing() const { return state_->timing; }
+
+double WavefrontMethod::memory_mb() const {
+  return static_cast<double>(state_->tables.bytes()) / (1024.0 * 1024.0);
+}
+
+const std::vector<std::string>& WavefrontMethod::warnings() const {
+  return state_->surface->base.warnings;
+}
+
+}  // namespace geotherm

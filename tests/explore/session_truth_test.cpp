@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// Methods, the error of answers, nearest sources and paths, in a session.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/explore/apply.h"
+#include "app/explore/explored_picture.h"
+#include "app/explore/session.h"
+#include "solver/linear/backend.h"
+#include "tests/explore/session_fixture.h"
+
+namespace geotherm::app {
+namespace {
+
+class SessionTruth : public SessionFixture {
+ protected:
+  PictureData shown() const {
+    return picture_of(session.explored(), session.state().shown, session.state().picture.view);
+  }
+};
+
+TEST_F(SessionTruth, MethodsAreSwitchedLiveAndShareTheModel) {
+  run({"open " + small_model(), "source set 5"});
+  for (const std::string& name : method_names()) {
+    run({"method " + name});
+    ASSERT_TRUE(session.explored().a);
+    EXPECT_EQ(to_text(session.explored().a->method->kind()), name);
+    EXPECT_EQ(session.explored().a->result.distances[5], 0);
+  }
+}
+
+TEST_F(SessionTruth, TheErrorFollowsTheTimeFactor) {
+  run({"open " + small_model(), "source set 5"});
+  EXPECT_FALSE(session.explored().a->error) << "nobody asked";
+  run({"check exact"});
+  ASSERT_TRUE(session.explored().a->error);
+  const double usual = session.explored().a->error->figures.mean_relative;
+  run({"time-factor 100"});
+  EXPECT_GT(session.explored().a->error->figures.mean_relative, 2 * usual);
+  run({"method exact"});
+  EXPECT_EQ(session.explored().a->error->figures.max, 0);
+}
+
+TEST_F(SessionTruth, TheErrorBelongsToTheSources) {
+  run({"open " + small_model(), "source set 5", "check exact", "source set 40"});
+  EXPECT_EQ(session.explored().a->error->values[40], 0);
+}
+
+TEST_F(SessionTruth, TheViewOfTheErrorIsSignedAndAsksForIt) {
+  run({"open " + small_model(), "source set 5", "view exact-error"});
+  const PictureData data = shown();
+  EXPECT_TRUE(data.is_signed);
+  const double unit = session.explored().a->error->figures.max;
+  EXPECT_DOUBLE_EQ(data.value_unit, unit);
+  EXPECT_NE(data.value_title.find("exact"), std::string::npos);
+}
+
+TEST_F(SessionTruth, BothAnswersHaveTheirError) {
+  run({"open " + small_model(), "source set 5", "check exact", "keep", "time-factor 50"});
+  const Explored& explored = session.explored();
+  ASSERT_TRUE(explored.a->error && explored.b->error);
+  EXPECT_GT(explored.a->error->figures.mean_relative, explored.b->error->figures.mean_relative);
+}
+
+TEST_F(SessionTruth, RegionsAreNearestToTheirSources) {
+  run({"open " + small_model(), "source set 5 40", "view regions"});
+  const PictureData data = shown();
+  ASSERT_EQ(data.nearest.size(), data.positions.size());
+  EXPECT_EQ(data.nearest[5], 0);
+  EXPECT_EQ(data.nearest[40], 1);
+  run({"view contours"});
+  EXPECT_EQ(session.explored().a->result.distances[5], 0);
+}
+
+TEST_F(SessionTruth, PathsLeadFromTheTargetToTheNearestSource) {
+  run({"open " + small_model(), "source set 5 40", "target 60"});
+  const Explored& explored = session.explored();
+  ASSERT_EQ(explored.paths.size(), 3U) << session.failure();
+  const double direct = (explored.model->model.mesh->positions()[60] -
+                         position_of(*explored.model->model.mesh,
+                                     explored.paths[0].path.points.front()))
+                            .norm();
+  for (const TargetPath& path : explored.paths) {
+    const Index start = path.path.points.front().vertex;
+    EXPECT_TRUE(start == 5 || start == 40);
+    EXPECT_EQ(path.path.points.back().vertex, 60);
+    EXPECT_GE(path.path.length, direct * (1 - 1e-12)) << "nothing is shorter than a straight line";
+    EXPECT_GE(path.path.length, explored.paths[0].path.length * (1 - 1e-9))
+        << "the geodesic is the shortest of the three";
+  }
+  EXPECT_EQ(shown().lines.size(), 3U);
+  run({"target none"});
+  EXPECT_TRUE(session.explored().paths.empty());
+}
+
+TEST_F(SessionTruth, AMethodWithoutHeatHasNoPathOfHeat) {
+  run({"open " + small_model(), "source set 5", "method wavefront", "target 60"});
+  EXPECT_EQ(session.explored().paths.size(), 2U);
+}
+
+TEST_F(SessionTruth, TheStateLeadsBackFromItsCommands) {
+  run({"open " + small_model(), "source set 5@0.25 40", "method wavefront", "check exact",
+       "target face:3:0.25:0.25:0.5", "view exact-error"});
+  ViewerState again = initial_state();
+  for (const Command& command : commands_to(session.state())) {
+    again = *app::apply(again, *parse_command(to_text(command)));
+  }
+  EXPECT_EQ(again, session.state());
+}
+
+TEST_F(SessionTruth, OffsetsHoldTheDistanceBack) {
+  run({"open " + small_model(), "method wavefront", "source set 5@0.001 40"});
+  EXPECT_EQ(session.explored().a->result.distances[5], 0.001);
+  const auto failed = session.submit(*parse_command("method heat"));
+  ASSERT_FALSE(failed);
+  EXPECT_NE(session.failure().find("offset"), std::string::npos);
+}
+
+TEST_F(SessionTruth, ComparesMethodsWithTheirErrors) {
+  run({"open " + small_model(), "source set 5", "compare " + backend_names().front() + ",wavefront,exact"});
+  const auto& rows = session.compare().rows;
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[1].name(), "wavefront");
+  ASSERT_TRUE(rows[0].mean_error && rows[1].mean_error);
+  EXPECT_LT(*rows[1].mean_error, *rows[0].mean_error);
+  EXPECT_FALSE(rows[2].mean_error) << "there is nothing better to hold it against";
+}
+
+}  // namespace
+}  // namespace geotherm::app

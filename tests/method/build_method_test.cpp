@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "solver/method/build_method.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/mesh/generate.h"
+
+namespace geotherm {
+namespace {
+
+class EveryMethod : public testing::TestWithParam<std::string> {
+ protected:
+  EveryMethod() : mesh_(std::make_shared<const TriangleMesh>(*generate_model("cube", 600))) {}
+
+  std::shared_ptr<const DistanceMethod> built() const {
+    MethodOptions options;
+    options.method = *parse_method(GetParam());
+    auto method = build_method(mesh_, options);
+    EXPECT_TRUE(method) << method.error().message;
+    return *method;
+  }
+
+  std::shared_ptr<const TriangleMesh> mesh_;
+};
+
+TEST_P(EveryMethod, HasItsNameAndTheSameDistancesWithinItsError) {
+  const auto method = built();
+  EXPECT_EQ(to_text(method->kind()), GetParam());
+  MethodOptions exact;
+  exact.method = MethodKind::kExact;
+  const SourceSet source = SourceSet::of_vertices({0});
+  const auto expected = (*build_method(mesh_, exact))->solve(source);
+  const auto result = method->solve(source);
+  ASSERT_TRUE(result) << result.error().message;
+  double most = 0, off = 0;
+  for (std::size_t v = 0; v < expected->distances.size(); ++v) {
+    most = std::max(most, expected->distances[v]);
+    off = std::max(off, std::abs(result->distances[v] - expected->distances[v]));
+  }
+  constexpr double kHeatOnAThousandFaces = 0.08;  // of the range; the others are below
+  EXPECT_LE(off, kHeatOnAThousandFaces * most);
+  EXPECT_EQ(result->distances[0], 0);
+}
+
+TEST_P(EveryMethod, AnswersSetsTogetherAsAlone) {
+  const auto method = built();
+  const std::vector<SourceSet> sets = {SourceSet::of_vertices({0}), SourceSet::of_vertices({5, 9}),
+                                       SourceSet::of_vertices({17})};
+  const auto together = method->solve_each(sets);
+  ASSERT_TRUE(together);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const auto alone = method->solve(sets[i]);
+    ASSERT_TRUE(alone);
+    for (std::size_t v = 0; v < alone->distances.size(); ++v) {
+      // Blocks of right-hand sides are summed in another order.
+      EXPECT_NEAR((*together)[i].distances[v], alone->distances[v], 1e-9);
+    }
+  }
+}
+
+TEST_P(EveryMethod, RefusesWhatIsNotOnTheMesh) {
+  const auto method = built();
+  for (const SourceSet& bad :
+       {SourceSet{}, SourceSet::of_vertices({-1}), SourceSet::of_vertices({1'000'000})}) {
+    const auto result = method->solve(bad);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
+  }
+}
+
+TEST_P(EveryMethod, KnowsOffsetsOrSaysThatItDoesNot) {
+  const auto method = built();
+  SourceSet sources = SourceSet::of_vertices({0, 40});
+  sources.offsets = {0.5, 0};
+  const auto result = method->solve(sources);
+  if (method->heat() != nullptr) {
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().message.find("wavefront"), std::string::npos);
+    return;
+  }
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->distances[40], 0);
+  EXPECT_LE(result->distances[0], 0.5);
+  sources.offsets = {-1, 0};
+  EXPECT_FALSE(method->solve(sources)) << "a negative offset";
+}
+
+INSTANTIATE_TEST_SUITE_P(Names, EveryMethod, testing::ValuesIn(method_names()),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(MethodKindTest, ListsTheNamesWhereThereIsNone) {
+  const auto none = parse_method("geodesic");
+  ASSERT_FALSE(none);
+  for (const std::string& name : method_names()) {
+    EXPECT_NE(none.error().message.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(SameMethodTest, OptionsOfHeatDoNotChangeAnotherMethod) {
+  MethodOptions a, b;
+  b.time_step.factor = 2;
+  EXPECT_FALSE(same_method(a, b));
+  a.method = b.method = MethodKind::kWavefront;
+  EXPECT_TRUE(same_method(a, b));
+}
+
+TEST(SourceGroupsTest, TouchingEdgesAndTheirEndsAreOneGroup) {
+  SourceSet set = SourceSet::of_vertices({4, 9});
+  set.edges = {{1, 2}, {2, 4}, {7, 8}};
+  const SourceGroups groups = source_groups(set);
+  EXPECT_EQ(groups.count, 3);
+  EXPECT_EQ(groups.of_point, (std::vector<Index>{0, 1}));
+  EXPECT_EQ(groups.of_edge, (std::vector<Index>{0, 0, 2}));
+}
+
+}  // namespace
+}  // namespace geotherm

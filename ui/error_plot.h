@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/method/distance_error.h"
+#include "ui/frame.h"
+
+namespace geotherm::ui {
+
+/// How many vertices have which signed error, with 0 marked; shows a part's figures on hover.
+void draw_error_plot(Frame& frame, const ErrorHistogram& histogram);
+
+}  // namespace geotherm::ui
