@@ -31,9 +31,8 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::array kCommands = {"view",     "solve",    "info",    "compare",
-                                  "render",   "path",     "isolines", "study",
-                                  "generate", "backends", "devices", "models"};
+constexpr std::array kCommands = {"view",     "solve", "info",     "compare",  "render",  "path",
+                                  "isolines", "study", "generate", "backends", "devices", "models"};
 constexpr std::array kCommandsToCome = {"sample"};
 
 int fail(int code, const std::string& message) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/text.h"
-#include "solver/heat/heat_method.h"
 
 namespace geotherm::app {
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "solver/heat/heat_method.h"
 #include "solver/method/build_method.h"
 
 namespace geotherm::app {

@@ -6,6 +6,7 @@
 
 #include "engine/scene/arrow_selection.h"
 #include "engine/scene/draw_mesh.h"
+#include "engine/scene/line_set.h"
 #include "engine/vulkan/frame_recorder.h"
 #include "engine/vulkan/vulkan_error.h"
 
@@ -27,6 +28,7 @@ struct Renderer::State {
   std::vector<std::int32_t> regions;  ///< by the model's vertices; empty: none
   std::optional<ArrowPlaces> places;  ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
+  LineSet lines;
 
   /// Values and regions by drawn vertex, as they are drawn together.
   void upload_regions(std::span<const std::int32_t> from) {
@@ -75,6 +77,7 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     s.primary.clear();
     s.secondary.clear();
     s.regions.clear();
+    s.lines.set({});
     return {};
   });
 }
@@ -124,7 +127,7 @@ Result<void> Renderer::set_arrows(std::span<const glm::vec3> primary,
 
 Result<void> Renderer::set_lines(std::span<const Polyline> lines) {
   return guarded("loading lines", [&]() -> Result<void> {
-    state_->recorder.set_lines(lines);
+    state_->lines.set(lines);
     return {};
   });
 }
@@ -152,6 +155,7 @@ Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay&
       arrows = select_arrows({{s.positions, s.faces, s.solid}, *s.places}, scene.camera,
                              scene.arrows, scene.pixel_scale, s.primary, s.secondary);
     }
+    if (s.lines.fit(scene.camera)) s.recorder.set_lines(s.lines);
     TargetFrame frame;
     s.recorder.prepare(arrows, overlay, panels);
     if (auto begun = target.begin(frame); !begun) return begun;

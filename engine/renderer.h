@@ -37,8 +37,8 @@ class Renderer {
   /// One vector a face, each field empty or F long; a zero vector draws no arrow. Lengths are the
   /// arrows' share of full size, 0 to 1.
   Result<void> set_arrows(std::span<const glm::vec3> primary, std::span<const glm::vec3> secondary);
-  /// A later line lies over the earlier ones. Points as of line_pieces(). Cost: O(points); a frame
-  /// with 2,000 of them takes about as long as one without.
+  /// A later line lies over the earlier ones. Points that are not finite cut it in two;
+  /// those that a view does not resolve are not drawn (LineSet).
   Result<void> set_lines(std::span<const Polyline> lines);
   Result<void> set_markers(std::span<const Marker> markers);
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/explore/settings.h"
+#include "app/method_words.h"
 #include "app/text.h"
-#include "solver/heat/heat_method.h"
 #include "ui/number.h"
 #include "ui/panels.h"
 #include "ui/setting_rows.h"

@@ -25,13 +25,6 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Open{state.model});
     now = *app::apply(now, commands.back());
   }
-  if (now.sources != state.sources) {
-    if (state.sources.empty()) {
-      commands.emplace_back(command::ClearSources{});
-    } else {
-      commands.emplace_back(command::SetSources{state.sources});
-    }
-  }
   if (state.kept) {
     ViewerState kept = now;
     kept.options = *state.kept;
@@ -39,6 +32,14 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Keep{});
   }
   add_settings(now, state, commands);
+  // After the method: not every method takes every source.
+  if (now.sources != state.sources) {
+    if (state.sources.empty()) {
+      commands.emplace_back(command::ClearSources{});
+    } else {
+      commands.emplace_back(command::SetSources{state.sources});
+    }
+  }
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});

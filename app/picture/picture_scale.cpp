@@ -10,6 +10,8 @@ namespace {
 
 /// Labels keep their distance on a bar of any length with so many.
 constexpr int kMostTicks = 7;
+/// Isolines that are not what the picture is about are farther apart by this.
+constexpr double kFewer = 2.5;
 
 }  // namespace
 
@@ -45,11 +47,12 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   // Where all distances are 0 an isoline would be all of the surface.
   if (shown && largest > 0) {
     scale.coloured = true;
-    const double usual = data.is_signed ? 0 : round_spacing(scale.max - scale.min);
+    const double width = scale.max - scale.min;
+    const double usual = data.is_signed ? 0 : round_spacing(painted ? width : kFewer * width);
     scale.spacing = settings.line_spacing.value_or(usual);
     // More lines than pixels are no lines.
     const double pixels = std::max(settings.width, settings.height);
-    if ((scale.max - scale.min) > pixels * scale.spacing) scale.spacing = 0;
+    if (width > pixels * scale.spacing) scale.spacing = 0;
   }
   scale.bar = settings.bar && painted && (largest > 0 || has_range);
   if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMostTicks, scale.spacing);

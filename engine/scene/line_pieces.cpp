@@ -16,31 +16,35 @@ bool is_repeated(const glm::vec3& a, const glm::vec3& b) {
   return glm::length(a - b) <= kShortestPiece;
 }
 
-void add_chain(std::vector<LinePiece>& pieces, const std::vector<glm::vec3>& chain) {
+}  // namespace
+
+std::vector<std::vector<glm::vec3>> finite_runs(std::span<const glm::vec3> points) {
+  std::vector<std::vector<glm::vec3>> runs(1);
+  for (const glm::vec3& point : points) {
+    if (is_finite(point)) {
+      runs.back().push_back(point);
+    } else if (!runs.back().empty()) {
+      runs.emplace_back();
+    }
+  }
+  if (runs.back().empty()) runs.pop_back();
+  return runs;
+}
+
+std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
+  std::vector<glm::vec3> chain;
+  for (const glm::vec3& point : points) {
+    if (chain.empty() || !is_repeated(chain.back(), point)) chain.push_back(point);
+  }
   const std::size_t count = chain.size();
   const bool closed = count > 3 && is_repeated(chain.front(), chain.back());
+  std::vector<LinePiece> pieces;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const glm::vec3& at_begin = closed ? chain[count - 2] : chain[0];
     const glm::vec3& at_end = closed ? chain[1] : chain[count - 1];
     pieces.push_back({i > 0 ? chain[i - 1] : at_begin, chain[i], chain[i + 1],
                       i + 2 < count ? chain[i + 2] : at_end});
   }
-}
-
-}  // namespace
-
-std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
-  std::vector<LinePiece> pieces;
-  std::vector<glm::vec3> chain;
-  for (const glm::vec3& point : points) {
-    if (!is_finite(point)) {
-      add_chain(pieces, chain);
-      chain.clear();
-    } else if (chain.empty() || !is_repeated(chain.back(), point)) {
-      chain.push_back(point);
-    }
-  }
-  add_chain(pieces, chain);
   return pieces;
 }
 

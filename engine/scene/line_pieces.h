@@ -13,9 +13,12 @@ struct LinePiece {
   glm::vec3 before, from, to, after;
 };
 
-/// The pieces of a polyline. Points that are not finite cut it in two; points that repeat the one
-/// before them, up to rounding in scene space, are left out; where it ends in the point that it
-/// begins with it is closed. Cost: O(points).
+/// A polyline without the points that are not finite, which cut it in two.
+std::vector<std::vector<glm::vec3>> finite_runs(std::span<const glm::vec3> points);
+
+/// The pieces of a polyline. Points that repeat the one before them, up to rounding in scene space,
+/// are left out; where it ends in the point that it begins with it is closed. Points are finite.
+/// Cost: O(points).
 std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points);
 
 }  // namespace geotherm::engine

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "engine/scene/line_pieces.h"
 #include "engine/vulkan/frame_uniforms.h"
 #include "engine/vulkan/upload.h"
 #include "shaders/shared.h"
@@ -91,18 +90,9 @@ void FrameRecorder::set_colours(const ColourTable& table) {
   device_->update(colours_, bytes_of(packed(table)));
 }
 
-void FrameRecorder::set_lines(std::span<const Polyline> lines) {
-  std::vector<LinePiece> pieces;
-  std::vector<LineRange> ranges;
-  for (const Polyline& line : lines) {
-    const std::vector<LinePiece> own = line_pieces(line.points);
-    if (own.empty()) continue;
-    ranges.push_back({static_cast<std::uint32_t>(pieces.size()),
-                      static_cast<std::uint32_t>(own.size()), line.colour});
-    pieces.insert(pieces.end(), own.begin(), own.end());
-  }
-  if (!pieces.empty()) lines_ = device_->upload(bytes_of(pieces), Usage::eVertexBuffer);
-  line_ranges_ = std::move(ranges);
+void FrameRecorder::set_lines(const LineSet& lines) {
+  write_host(*device_, lines_, bytes_of(lines.pieces()), Usage::eVertexBuffer);
+  line_ranges_ = lines.ranges();
 }
 
 void FrameRecorder::set_markers(std::span<const Marker> markers) {
@@ -230,7 +220,7 @@ void FrameRecorder::record_lines(const vk::raii::CommandBuffer& commands, const 
   const float with_rim = half + style.rim * scene.pixel_scale;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.lines());
   commands.bindVertexBuffers(0, *lines_.buffer, {0});
-  for (const LineRange& line : line_ranges_) {
+  for (const LineSet::Range& line : line_ranges_) {
     const auto draw = [&](const glm::vec3& colour, float half_width) {
       push(commands, shared::LinePush{glm::vec4(colour, 1), half_width});
       commands.draw(4, line.count, 0, line.first);

@@ -8,6 +8,7 @@
 #include "engine/scene/arrow_selection.h"
 #include "engine/scene/colour_map.h"
 #include "engine/scene/draw_mesh.h"
+#include "engine/scene/line_set.h"
 #include "engine/vulkan/attachments.h"
 #include "engine/vulkan/descriptors.h"
 #include "engine/vulkan/device_state.h"
@@ -32,7 +33,7 @@ class FrameRecorder {
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
   void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
   void set_colours(const ColourTable& table);
-  void set_lines(std::span<const Polyline> lines);
+  void set_lines(const LineSet& lines);
   void set_markers(std::span<const Marker> markers);
   void set_panel_font(const PanelFont& font) { panels_.set_font(font); }
 
@@ -53,12 +54,6 @@ class FrameRecorder {
   template <class Push>
   void push(const vk::raii::CommandBuffer& commands, const Push& values);
 
-  /// What is drawn of one line.
-  struct LineRange {
-    std::uint32_t first = 0, count = 0;  ///< pieces
-    glm::vec3 colour{0};
-  };
-
   // Members are destroyed from the last to the first.
   std::shared_ptr<Device::State> device_;
   vk::SampleCountFlagBits samples_;
@@ -66,7 +61,7 @@ class FrameRecorder {
   std::array<Attachments, 2> attachments_;  ///< with one sample a pixel, with four
   Buffer frame_, colours_, vertices_, values_, regions_, indices_;
   Buffer lines_, markers_, arrows_, overlay_;
-  std::vector<LineRange> line_ranges_;
+  std::vector<LineSet::Range> line_ranges_;
   vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_
   vk::raii::Sampler sampler_;
   Texture atlas_;

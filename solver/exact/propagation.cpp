@@ -15,7 +15,7 @@ constexpr double kBucketWidth = 0.25;
 /// Windows between two calls of progress: a few milliseconds.
 constexpr std::int64_t kWindowsBetweenChecks = 1 << 14;
 
-/// Windows in all, and waiting at once. Meshes as they come have tens to hundreds a face in all.
+/// Windows in all, and kept at once. Meshes as they come have tens to hundreds a face in all.
 constexpr std::int64_t kMostWindowsPerFace = 100'000;
 constexpr std::int64_t kMostWindowsAtLeast = 100'000'000;
 constexpr std::size_t kMostBytes = std::size_t{3} << 29;  // 1.5 GiB
@@ -55,14 +55,15 @@ Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress
 }
 
 Result<void> Propagation::check(const Progress& progress) {
-  peak_bytes_ = std::max(peak_bytes_, queue_.bytes());
+  const std::size_t bytes = queue_.bytes() + crossed_ * sizeof(Window);
+  peak_bytes_ = std::max(peak_bytes_, bytes);
   const Index faces = mesh_.side_count() / 3;
   const double all = std::max(mesh_.vertices_in_use(), Index{1});
   if (!report(progress, "exact", static_cast<double>(reached_) / all)) return cancelled_error();
-  if (queue_.bytes() > kMostBytes) {
+  if (bytes > kMostBytes) {
     return Error{ErrorCode::kOutOfMemory,
-                 "exact distances on " + std::to_string(faces) +
-                     " faces: " + std::to_string(queue_.size()) + " windows wait and fill " +
+                 "exact distances on " + std::to_string(faces) + " faces: " +
+                     std::to_string(bytes / sizeof(Window)) + " windows are kept and fill " +
                      std::to_string(kMostBytes >> 20) + " MiB; use the method wavefront-fine"};
   }
   if (windows_ > std::max(kMostWindowsAtLeast, kMostWindowsPerFace * faces)) {
@@ -147,6 +148,7 @@ bool Propagation::is_early_at_branch(Side side, Window& window, bool against) {
     if (!cut_late_ends(in_edge, other, frame.length)) return false;
   }
   others.push_back(in_edge);
+  ++crossed_;
   window.begin = reversed ? frame.length - in_edge.end : in_edge.begin;
   window.end = reversed ? frame.length - in_edge.begin : in_edge.end;
   window.label |= Window::kBranched;

@@ -33,7 +33,7 @@ class Propagation {
 
   const std::vector<VertexState>& vertices() const { return vertices_; }
   std::int64_t windows() const { return windows_; }       ///< that were followed
-  std::size_t peak_bytes() const { return peak_bytes_; }  ///< of windows that waited
+  std::size_t peak_bytes() const { return peak_bytes_; }  ///< of windows that were kept
 
  private:
   void seed_point(const SourceSeeds::Piece& piece);
@@ -59,6 +59,7 @@ class Propagation {
   std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what has crossed
   std::int64_t windows_ = 0;
   Index reached_ = 0;
+  std::size_t crossed_ = 0;  ///< windows in at_branches_
   std::size_t peak_bytes_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAtSource = 1e-12;
 
 /// Windows need some seconds there.
-constexpr Index kMostFacesExact = 50'000;
+constexpr Index kMostFacesExact = 200'000;
 
 }  // namespace
 

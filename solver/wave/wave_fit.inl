@@ -23,11 +23,38 @@ constexpr double kHalfRayTolerance = 1e-6;
 inline double least(double a, double b) { return b < a ? b : a; }
 inline double most(double a, double b) { return b > a ? b : a; }
 
+#ifdef __AVX__
+constexpr int kWidest = 4;
+#else
+constexpr int kWidest = 2;
+#endif
+
+/// A register of doubles.
 template <int N>
-struct VectorOf {
+struct Register {
   typedef double Values __attribute__((vector_size(8 * N)));
   typedef long long Mask __attribute__((vector_size(8 * N)));
 };
+
+template <class Values>
+Values load(const double* from) {
+  Values out;
+  __builtin_memcpy(&out, from, sizeof(out));
+  return out;
+}
+
+template <class Values>
+void store(const Values& values, double* to) {
+  __builtin_memcpy(to, &values, sizeof(values));
+}
+
+template <class Values>
+Values root(const Values& x) {
+  double values[sizeof(Values) / sizeof(double)];
+  store(x, values);
+  for (double& value : values) value = __builtin_sqrt(value);
+  return load<Values>(values);
+}
 
 /// What a face's targets are, as shares of its opposite vertex (cx, cy) and of the half edge (h,
 /// 0): that vertex first, then the samples of the side that ends at a, then of that which begins at
@@ -37,23 +64,15 @@ struct Targets;
 template <>
 struct Targets<1> {
   static constexpr int kLanes = 4;
-  static constexpr VectorOf<4>::Values kOpposite = {1, 0.5, 0.5, 1};
-  static constexpr VectorOf<4>::Values kEdge = {0, -0.5, 0.5, 0};
+  static constexpr double kOpposite[kLanes] = {1, 0.5, 0.5, 1};
+  static constexpr double kEdge[kLanes] = {0, -0.5, 0.5, 0};
 };
 template <>
 struct Targets<3> {
   static constexpr int kLanes = 8;
-  static constexpr VectorOf<8>::Values kOpposite = {1, 0.75, 0.5, 0.25, 0.25, 0.5, 0.75, 1};
-  static constexpr VectorOf<8>::Values kEdge = {0, -0.25, -0.5, -0.75, 0.75, 0.5, 0.25, 0};
+  static constexpr double kOpposite[kLanes] = {1, 0.75, 0.5, 0.25, 0.25, 0.5, 0.75, 1};
+  static constexpr double kEdge[kLanes] = {0, -0.25, -0.5, -0.75, 0.75, 0.5, 0.25, 0};
 };
-
-template <int N>
-inline void root(const typename VectorOf<N>::Values& x, typename VectorOf<N>::Values& out) {
-  double values[N];
-  __builtin_memcpy(values, &x, sizeof(values));
-  for (int i = 0; i < N; ++i) values[i] = __builtin_sqrt(values[i]);
-  __builtin_memcpy(&out, values, sizeof(values));
-}
 
 /// One wave through the values at three points of a line, `half` apart, the middle one at `centre`:
 /// d(T) = w + (sqrt(1 + k q) - 1) / k with q = k |T|^2 + 2 (uy y - ux x), T from the centre.
@@ -123,6 +142,86 @@ Front<kSamples> mirrored(const Front<kSamples>& front) {
   for (int i = 0; i < kFits; ++i) out.fits[i] = mirrored(front.fits[kFits - 1 - i]);
   for (int i = 0; i < kSamples; ++i) out.labels[i] = front.labels[kSamples - 1 - i];
   return out;
+}
+
+/// The wave's arrival at targets; far where its ray misses the edge.
+template <class Values, class Mask>
+Values wave(const Fit& fit, const Values& at, const Values& y, const Values& yy) {
+  const Values x = at - fit.centre;
+  const Values q = fit.k * (x * x + yy) + 2.0 * (fit.uy * y - fit.ux * x);
+  const Values square = 1.0 + fit.k * q;
+  const Values gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
+  const Values miss = x * gy - y * gx;
+  const Values reach = fit.half * (1 + kRayTolerance) * gy;
+  const Mask valid = (square > 0.0) & (gy > 0.0) & (miss <= reach) & (miss >= -reach);
+  const Values value = fit.middle + q / (1.0 + root(square));
+  const Values far = Values{} + kFar;
+  return valid ? value : far;
+}
+
+/// Two planes, one through each half.
+inline double kinked(const Fit& fit, double at, double y) {
+  const double x = at - fit.centre;
+  return least(plane_wave(fit.left, fit.middle, fit.half, x + fit.half, y),
+               plane_wave(fit.middle, fit.right, fit.half, x, y));
+}
+
+/// The shortest of all ways over the edge, for every target of a register.
+template <int kWidth, int kSamples>
+typename Register<kWidth>::Values arrival(const Front<kSamples>& front, double half,
+                                          const typename Register<kWidth>::Values& x,
+                                          const typename Register<kWidth>::Values& y) {
+  using Values = typename Register<kWidth>::Values;
+  const Values yy = y * y;
+  const Values from_a = front.a + root((x + half) * (x + half) + yy);
+  const Values from_b = front.b + root((x - half) * (x - half) + yy);
+  Values best = from_b < from_a ? from_b : from_a;
+  if constexpr (kSamples == 3) {
+    const Values from_middle = front.fits[0].right + root(x * x + yy);
+    best = from_middle < best ? from_middle : best;
+  }
+  for (const Fit& fit : front.fits) {
+    if (fit.kind == Fit::Kind::kWave) {
+      const Values value = wave<Values, typename Register<kWidth>::Mask>(fit, x, y, yy);
+      best = value < best ? value : best;
+    } else if (fit.kind == Fit::Kind::kKinked) {
+      for (int i = 0; i < kWidth; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));
+    }
+  }
+  return best;
+}
+
+/// The label of the way that gave `value` at a target: that of the point of the edge next to
+/// where the way crosses it.
+template <int kSamples>
+Index label_of(const Front<kSamples>& front, double half, double x, double y, double value) {
+  const double margin = 1e-12 * value;
+  if (front.a + __builtin_sqrt((x + half) * (x + half) + y * y) <= value + margin) {
+    return front.label_a;
+  }
+  if (front.b + __builtin_sqrt((x - half) * (x - half) + y * y) <= value + margin) {
+    return front.label_b;
+  }
+  double at = 0;  // where it crosses, from -half to half
+  for (const Fit& fit : front.fits) {
+    if (fit.kind == Fit::Kind::kKinked) {
+      const double from = x - fit.centre;
+      if (plane_wave(fit.left, fit.middle, fit.half, from + fit.half, y) <= value + margin) {
+        at = fit.centre - fit.half / 2;
+      } else if (plane_wave(fit.middle, fit.right, fit.half, from, y) <= value + margin) {
+        at = fit.centre + fit.half / 2;
+      }
+    } else if (fit.kind == Fit::Kind::kWave) {
+      const double from = x - fit.centre;
+      const double gx = fit.k * from - fit.ux, gy = fit.k * y + fit.uy;
+      const double ray = from - y * gx / gy;
+      if (gy > 0 && ray >= -fit.half && ray <= fit.half) at = fit.centre + ray;
+    }
+  }
+  const double step = (at + half) / (2 * half) * (kSamples + 1);
+  const int node = static_cast<int>(step + 0.5);
+  if (node <= 0) return front.label_a;
+  return node > kSamples ? front.label_b : front.labels[node - 1];
 }
 
 }  // namespace

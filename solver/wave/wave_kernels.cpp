@@ -14,9 +14,6 @@ extern const WaveKernel kWaveKernels[2][2];
 namespace kernels_avx2 {
 extern const WaveKernel kWaveKernels[2][2];
 }  // namespace kernels_avx2
-namespace kernels_avx512 {
-extern const WaveKernel kWaveKernels[2][2];
-}  // namespace kernels_avx512
 #endif
 
 std::size_t visit_current_bucket(WavePass& pass, int samples, std::size_t most,
@@ -25,8 +22,7 @@ std::size_t visit_current_bucket(WavePass& pass, int samples, std::size_t most,
   const int labels = pass.label != nullptr ? 1 : 0;
 #ifdef GEOTHERM_X86_KERNELS
   set = std::min(set, best_instruction_set());
-  if (set == InstructionSet::kAvx512) return kernels_avx512::kWaveKernels[fine][labels](pass, most);
-  if (set == InstructionSet::kAvx2) return kernels_avx2::kWaveKernels[fine][labels](pass, most);
+  if (set != InstructionSet::kPlain) return kernels_avx2::kWaveKernels[fine][labels](pass, most);
 #else
   static_cast<void>(set);
 #endif

@@ -37,12 +37,9 @@ class Wave {
   }
 
  private:
-  static constexpr int kLanes = Targets<kSamples>::kLanes;
-  using Values = typename VectorOf<kLanes>::Values;
-  using Mask = typename VectorOf<kLanes>::Mask;
-
   /// Each step needs what the one before brought: first the sides, then the faces, then the values.
-  void fetch_ahead(const WaveBucket& bucket, std::int64_t place) const {
+  /// Inlined by force: the compiler takes a function that only fetches for one that does nothing.
+  [[gnu::always_inline]] void fetch_ahead(const WaveBucket& bucket, std::int64_t place) const {
     if (place + 8 < bucket.size) __builtin_prefetch(&p_.sides[bucket.edges[place + 8]]);
     if (place + 4 < bucket.size) {
       const auto& sides = p_.sides[bucket.edges[place + 4]];
@@ -55,7 +52,7 @@ class Wave {
       if (sides[1] >= 0) fetch_values(sides[1]);
     }
   }
-  void fetch_values(SideCode code) const {
+  [[gnu::always_inline]] void fetch_values(SideCode code) const {
     const WaveFace& face = p_.faces[face_of_code(code)];
     for (int k = 0; k < 3; ++k) {
       __builtin_prefetch(&p_.distance[face.vertex[k]]);
@@ -131,15 +128,20 @@ class Wave {
     const double to_b = face.length[next], to_a = face.length[previous];
     const double cx = (to_a - to_b) * (to_a + to_b) * (0.5 * inverse);
     const double cy = face.twice_area * inverse;
-    const Values x = Targets<kSamples>::kOpposite * cx + Targets<kSamples>::kEdge * half;
-    const Values y = Targets<kSamples>::kOpposite * cy;
-    const Values best = arrival(front, half, x, y);
-    double values[kLanes];
-    __builtin_memcpy(values, &best, sizeof(values));
-    Index labels[kLanes] = {};
+    using Goals = Targets<kSamples>;
+    constexpr int kWidth = Goals::kLanes < kWidest ? Goals::kLanes : kWidest;
+    using Values = typename Register<kWidth>::Values;
+    double values[Goals::kLanes];
+    for (int i = 0; i < Goals::kLanes; i += kWidth) {
+      const auto opposite = load<Values>(Goals::kOpposite + i);
+      const Values x = opposite * cx + load<Values>(Goals::kEdge + i) * half, y = opposite * cy;
+      store(arrival<kWidth>(front, half, x, y), values + i);
+    }
+    Index labels[Goals::kLanes] = {};
     if constexpr (kLabels) {
       for (int i = 0; i < 1 + 2 * kSamples; ++i) {
-        labels[i] = label_of(front, half, x[i], y[i], values[i]);
+        labels[i] = label_of(front, half, Goals::kOpposite[i] * cx + Goals::kEdge[i] * half,
+                             Goals::kOpposite[i] * cy, values[i]);
       }
     }
 
@@ -149,56 +151,6 @@ class Wave {
     lower_samples(face, previous, values + 1, labels + 1, notice, vertex_fell, most(dc, front.a));
     lower_samples(face, next, values + 1 + kSamples, labels + 1 + kSamples, notice, vertex_fell,
                   most(dc, front.b));
-  }
-
-  /// The shortest of all ways over the edge, for every target.
-  static Values arrival(const Front<kSamples>& front, double half, const Values& x,
-                        const Values& y) {
-    const Values yy = y * y;
-    Values from_a = (x + half) * (x + half) + yy, from_b = (x - half) * (x - half) + yy;
-    root<kLanes>(from_a, from_a);
-    root<kLanes>(from_b, from_b);
-    from_a += front.a;
-    from_b += front.b;
-    Values best = from_b < from_a ? from_b : from_a;
-    if constexpr (kSamples == 3) {
-      Values from_middle = x * x + yy;
-      root<kLanes>(from_middle, from_middle);
-      from_middle += front.fits[0].right;
-      best = from_middle < best ? from_middle : best;
-    }
-    for (const Fit& fit : front.fits) {
-      if (fit.kind == Fit::Kind::kWave) {
-        const Values value = wave(fit, x, y, yy);
-        best = value < best ? value : best;
-      } else if (fit.kind == Fit::Kind::kKinked) {
-        for (int i = 0; i < 1 + 2 * kSamples; ++i)
-          best[i] = least(best[i], kinked(fit, x[i], y[i]));
-      }
-    }
-    return best;
-  }
-
-  static Values wave(const Fit& fit, const Values& at, const Values& y, const Values& yy) {
-    const Values x = at - fit.centre;
-    const Values q = fit.k * (x * x + yy) + 2.0 * (fit.uy * y - fit.ux * x);
-    const Values square = 1.0 + fit.k * q;
-    const Values gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
-    const Values miss = x * gy - y * gx;
-    const Values reach = fit.half * (1 + kRayTolerance) * gy;
-    const Mask valid = (square > 0.0) & (gy > 0.0) & (miss <= reach) & (miss >= -reach);
-    Values length;
-    root<kLanes>(square, length);
-    const Values value = fit.middle + q / (1.0 + length);
-    const Values far = Values{} + kFar;
-    return valid ? value : far;
-  }
-
-  /// Two planes, one through each half.
-  static double kinked(const Fit& fit, double at, double y) {
-    const double x = at - fit.centre;
-    return least(plane_wave(fit.left, fit.middle, fit.half, x + fit.half, y),
-                 plane_wave(fit.middle, fit.right, fit.half, x, y));
   }
 
   /// Hands the value of a vertex to all its faces, where fans touch and no edge does it.
@@ -262,39 +214,6 @@ class Wave {
     bucket.edges[bucket.size++] = edge;
     p_.queued[edge] = 1;
     ++p_.waiting;
-  }
-
-  /// The label of the way that gave `value` at a target: that of the point of the edge next to
-  /// where the way crosses it.
-  static Index label_of(const Front<kSamples>& front, double half, double x, double y,
-                        double value) {
-    const double margin = 1e-12 * value;
-    if (front.a + __builtin_sqrt((x + half) * (x + half) + y * y) <= value + margin) {
-      return front.label_a;
-    }
-    if (front.b + __builtin_sqrt((x - half) * (x - half) + y * y) <= value + margin) {
-      return front.label_b;
-    }
-    double at = 0;  // where it crosses, from -half to half
-    for (const Fit& fit : front.fits) {
-      if (fit.kind == Fit::Kind::kKinked) {
-        const double from = x - fit.centre;
-        if (plane_wave(fit.left, fit.middle, fit.half, from + fit.half, y) <= value + margin) {
-          at = fit.centre - fit.half / 2;
-        } else if (plane_wave(fit.middle, fit.right, fit.half, from, y) <= value + margin) {
-          at = fit.centre + fit.half / 2;
-        }
-      } else if (fit.kind == Fit::Kind::kWave) {
-        const double from = x - fit.centre;
-        const double gx = fit.k * from - fit.ux, gy = fit.k * y + fit.uy;
-        const double ray = from - y * gx / gy;
-        if (gy > 0 && ray >= -fit.half && ray <= fit.half) at = fit.centre + ray;
-      }
-    }
-    const double step = (at + half) / (2 * half) * (kSamples + 1);
-    const int node = static_cast<int>(step + 0.5);
-    if (node <= 0) return front.label_a;
-    return node > kSamples ? front.label_b : front.labels[node - 1];
   }
 
   WavePass& p_;

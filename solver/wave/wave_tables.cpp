@@ -78,11 +78,13 @@ std::vector<Index> face_order(const WaveTables& tables, const std::vector<Face>&
   for (std::size_t f = 0; f < faces.size(); ++f) {
     order[next[static_cast<std::size_t>(sorted[f][0])]++] = static_cast<Index>(f);
   }
-  const auto before = [&sorted](Index f, Index g) { return sorted[f] < sorted[g]; };
+  const auto before = [&sorted](Index f, Index g) {
+    return sorted[f] != sorted[g] ? sorted[f] < sorted[g] : f < g;
+  };
   std::size_t begin = 0;
   for (std::size_t v = 0; v + 1 < next.size(); ++v) {  // next[v] is now where v's faces end
-    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
-                     order.begin() + static_cast<std::ptrdiff_t>(next[v]), before);
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+              order.begin() + static_cast<std::ptrdiff_t>(next[v]), before);
     begin = next[v];
   }
   return order;
@@ -101,16 +103,17 @@ void add_sides(const WaveSurface& surface, Index old, Side first, WaveTables& ta
   const auto code = [&](Side side) {
     return static_cast<SideCode>(4 * tables.rank_of_face[face_of(side)] + corner_of(side));
   };
-  std::vector<SideCode> others;
-  for (const Side side : surface.sides_of(old)) {
-    if (side != first) others.push_back(code(side));
-  }
-  std::ranges::sort(others);
-  SideCode second = others.empty() ? kNoSideCode : others.front();
-  if (others.size() > 1) {
+  const auto sides = surface.sides_of(old);
+  SideCode second = kNoSideCode;
+  if (sides.size() == 2) {
+    second = code(sides[0] == first ? sides[1] : sides[0]);
+  } else if (sides.size() > 2) {
     second = -2 - static_cast<SideCode>(tables.more.size());
-    tables.more.push_back(static_cast<SideCode>(others.size()));
-    tables.more.insert(tables.more.end(), others.begin(), others.end());
+    tables.more.push_back(static_cast<SideCode>(sides.size()) - 1);
+    for (const Side side : sides) {
+      if (side != first) tables.more.push_back(code(side));
+    }
+    std::sort(tables.more.end() - static_cast<std::ptrdiff_t>(sides.size()) + 1, tables.more.end());
   }
   tables.sides.push_back({code(first), second});
 }

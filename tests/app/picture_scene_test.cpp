@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "engine/scene/oklab.h"
+
 namespace geotherm::test {
 namespace {
 
@@ -49,6 +53,48 @@ TEST(PictureSceneOfView, ShowsWhatTheViewIsCalled) {
     EXPECT_EQ(scene_of(view).surface.line_spacing, 0);
   }
   EXPECT_EQ(scene_of(View::kContours).surface.paint, engine::Paint::kMap);
+}
+
+TEST(PictureSceneOfView, PaintsErrorsByTheMapAndRegionsWhereTheyAreKnown) {
+  EXPECT_EQ(scene_of(View::kExactError).surface.paint, engine::Paint::kMap);
+  EXPECT_EQ(scene_of(View::kRegions).surface.paint, engine::Paint::kPlain);
+  PictureData data = solved();
+  data.model_per_scene = 4;
+  data.nearest = {0, kNoIndex};
+  PictureSettings settings;
+  settings.view = View::kRegions;
+  const auto style = app::scene_of(data, settings, app::picture_scale(data, settings)).surface;
+  EXPECT_EQ(style.paint, engine::Paint::kRegions);
+  EXPECT_EQ(style.scene_per_value, 2);  // values are eighths of 8 model units, which are 2 here
+  EXPECT_GT(style.line_spacing, 0);
+  EXPECT_TRUE(scene_of(View::kRegions).markers.visible);
+  EXPECT_TRUE(scene_of(View::kExactError).markers.visible);
+}
+
+/// What is 0 is neutral, and errors of both signs look equally large.
+TEST(PictureSceneOfView, ShowsNoErrorWithoutColourAndBothSignsAlike) {
+  PictureData data;
+  app::add_error(data, std::vector<double>{-3, 0, 2}, "error of d");
+  PictureSettings settings;
+  settings.view = View::kExactError;
+  for (const char* name : {"red-blue", "cool-warm"}) {
+    settings.colour_map = name;
+    const auto scale = app::picture_scale(data, settings);
+    const engine::Legend legend = app::legend_of(data, settings, scale);
+    EXPECT_EQ(legend.title, "error of d");
+    EXPECT_EQ(legend.ticks[legend.ticks.size() / 2].label, "0");
+    EXPECT_NEAR(legend.ticks[legend.ticks.size() / 2].position, 0.5F, kFloat);
+    const auto& colours = legend.colours;
+    const glm::vec3 zero = engine::oklab_of(colours[colours.size() / 2]);
+    constexpr float kNeutral = 0.01F;  // of OKLab: not to be told from grey
+    EXPECT_LE(std::hypot(zero.y, zero.z), kNeutral);
+    constexpr float kAlike = 0.02F;
+    for (std::size_t i = 0; i < colours.size() / 2; i += 64) {
+      const float below = engine::oklab_of(colours[i]).x;
+      const float above = engine::oklab_of(colours[colours.size() - 1 - i]).x;
+      EXPECT_NEAR(below, above, kAlike) << i;
+    }
+  }
 }
 
 TEST(PictureSceneOfView, TakesRangeAndSpacingInModelUnits) {
@@ -125,6 +171,33 @@ TEST(PictureLegend, SaysWhatTheColoursOfArrowsAre) {
   EXPECT_EQ(legend_of(settings).keys.size(), 2U);
   settings.bar = false;
   EXPECT_TRUE(legend_of(settings).keys.empty());
+}
+
+TEST(PictureLegend, SaysHowManyRegionsThereAre) {
+  PictureData data = solved();
+  data.nearest = {0, 3, 3, kNoIndex, 7};
+  PictureSettings settings;
+  settings.view = View::kRegions;
+  const auto scale = app::picture_scale(data, settings);
+  const engine::Legend legend = app::legend_of(data, settings, scale);
+  EXPECT_FALSE(legend.bar);
+  ASSERT_EQ(legend.keys.size(), 1U);
+  EXPECT_EQ(legend.keys[0].label, "nearest source (3)");
+  EXPECT_EQ(legend.keys[0].patches.size(), 3U);
+}
+
+TEST(PictureLegend, NamesEachLineOnce) {
+  PictureData data = solved();
+  const std::vector<Vec3> points = {Vec3::Zero(), Vec3::Ones()};
+  for (const char* name : {"heat", "geodesic", "heat", ""}) app::add_line(data, points, name);
+  const PictureSettings settings;
+  const auto scale = app::picture_scale(data, settings);
+  const engine::Legend legend = app::legend_of(data, settings, scale);
+  ASSERT_EQ(legend.keys.size(), 2U);
+  EXPECT_EQ(legend.keys[0].label, "heat");
+  EXPECT_EQ(legend.keys[1].label, "geodesic");
+  EXPECT_NE(legend.keys[0].colour, legend.keys[1].colour);
+  EXPECT_TRUE(app::scene_of(data, settings, scale).lines.visible);
 }
 
 TEST(PictureCamera, LeavesAMarginAboutTheModel) {

@@ -51,7 +51,6 @@ const std::vector<Failure>& failures() {
       {"ViewOutput", {"view", "bunny", "-o", "a.jpg"}, 2, {".png"}},
       {"ViewMissingScript", {"view", "--replay", "none.log"}, 1, {"none.log", "No such file"}},
       {"CommandToCome", {"sample", "bunny"}, 2, {"no command 'sample'", "there are view, solve"}},
-      {"CommandToComePath", {"path", "bunny"}, 2, {"no command 'path'"}},
       {"UnknownCommand", {"frobnicate"}, 2, {"'frobnicate'", "there are view, solve"}},
       {"UnknownFlag", {"--frob"}, 2, {"--frob", "--help"}},
       {"UnknownOption", {"solve", "bunny", "--frob"}, 2, {"--frob", "geotherm solve --help"}},

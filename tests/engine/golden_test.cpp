@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/region_colours.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/heat/heat_method.h"
 #include "solver/mesh/generate.h"
@@ -19,11 +20,31 @@ struct Solved {
   Model model;
   std::vector<float> values;  ///< 0 to 1
   std::vector<glm::vec3> heat, error;
+  std::vector<std::int32_t> regions;  ///< bands of distance
+  std::vector<glm::vec3> path;        ///< down the distance, along edges
   Marker source;
 };
 
 /// Length of the second arrows for an angle of 1 between the fields: so that some can be seen.
 constexpr double kErrorScale = 5;
+
+/// From the vertex of the largest value along edges, always to the lowest neighbour.
+std::vector<glm::vec3> steepest_edges(const Model& model, const std::vector<float>& values) {
+  const auto end = std::max_element(values.begin(), values.end());
+  auto at = static_cast<std::uint32_t>(end - values.begin());
+  std::vector<glm::vec3> path;
+  for (bool lower = true; lower;) {
+    path.push_back(model.positions[at]);
+    std::uint32_t next = at;
+    for (const auto& face : model.faces) {
+      if (std::find(face.begin(), face.end(), at) == face.end()) continue;
+      for (const std::uint32_t v : face) next = values[v] < values[next] ? v : next;
+    }
+    lower = next != at;
+    at = next;
+  }
+  return path;
+}
 
 Solved solve_bunny() {
   const auto mesh = std::make_shared<const TriangleMesh>(must(generate_model("bunny", 2000)));
@@ -44,6 +65,10 @@ Solved solve_bunny() {
     solved.heat.emplace_back(x.x(), x.y(), x.z());
     solved.error.emplace_back(scaled.x(), scaled.y(), scaled.z());
   }
+  for (const float value : solved.values) {
+    solved.regions.push_back(static_cast<std::int32_t>(value * 5));
+  }
+  solved.path = steepest_edges(solved.model, solved.values);
   solved.source = {solved.model.positions[kSource], solved.model.positions[kSource]};
   return solved;
 }
@@ -79,6 +104,17 @@ const std::vector<View>& views() {
          s.surface.paint = Paint::kMap;
          s.surface.line_spacing = 0.05F;
        }},
+      {"lines", kLines,
+       [](Scene& s) {
+         s.markers.visible = s.lines.visible = true;
+         s.surface.paint = Paint::kMap;
+       }},
+      {"regions", kLines,
+       [](Scene& s) {
+         s.markers.visible = true;
+         s.surface.paint = Paint::kRegions;
+         s.surface.line_spacing = 0.1F;
+       }},
   };
   return kViews;
 }
@@ -91,11 +127,18 @@ TEST_P(GoldenView, LooksAsItDid) {
   must(stage.renderer.set_values(solved.values));
   must(stage.renderer.set_arrows(solved.heat, solved.error));
   must(stage.renderer.set_markers({&solved.source, 1}));
+  const Polyline path{solved.path, {1, 0.84F, 0.1F}};
+  must(stage.renderer.set_lines({&path, 1}));
+  stage.scene.lines.visible = false;
   stage.look({});
   stage.scene.light = Light::kThreePoint;
   stage.scene.markers.visible = false;
   stage.scene.pixel_scale = 0.75F;
   GetParam().change(stage.scene);
+  if (stage.scene.surface.paint == Paint::kRegions) {
+    must(stage.renderer.set_regions(solved.regions));
+    must(stage.renderer.set_colours(region_table()));
+  }
   expect_golden(stage.draw(), GetParam().name, GetParam().share);
 }
 

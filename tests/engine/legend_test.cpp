@@ -211,6 +211,22 @@ TEST(Legend, CutsACaptionThatIsTooLong) {
   EXPECT_LT(letters.back().max.y - letters.back().min.y, 4);  // dots, not an m
 }
 
+TEST(Legend, ShowsTheColoursOfItsKeys) {
+  const std::vector<vec3> patches = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  Legend legend;
+  legend.ink = kInk;
+  legend.keys = {{vec3(1, 1, 0), "path", vec3(0)}, {{}, "regions", {}, patches}};
+  const LegendLayout layout = lay_out(legend, {1280, 720});
+  EXPECT_EQ(bar_quads(layout.overlay), 2 + 3);  // the stroke, its rim, the patches
+  EXPECT_GT(layout.insets.top, 30);
+  float right = 0;
+  for (const Box& box : quads(layout.overlay, false)) {
+    EXPECT_GE(box.min.x, 0);
+    right = std::max(right, box.max.x);
+  }
+  EXPECT_LT(right, 80);
+}
+
 TEST(Legend, WithLabelsTooWideForThePictureHasNoBar) {
   Legend legend = sample();
   legend.ticks[2].label.assign(60, '8');

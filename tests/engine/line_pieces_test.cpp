@@ -8,6 +8,7 @@
 namespace geotherm::test {
 namespace {
 
+using engine::finite_runs;
 using engine::line_pieces;
 using engine::LinePiece;
 using glm::vec3;
@@ -50,13 +51,13 @@ TEST(LinePieces, LeaveOutRepeatedPoints) {
   EXPECT_TRUE(line_pieces({}).empty());
 }
 
-TEST(LinePieces, AreCutAtPointsThatAreNone) {
+TEST(FiniteRuns, AreCutAtPointsThatAreNone) {
   const vec3 none(std::numeric_limits<float>::quiet_NaN(), 0, 0);
   const vec3 far(0, std::numeric_limits<float>::infinity(), 0);
-  const auto pieces = line_pieces(std::vector{none, kA, kB, far, kC, kD, none});
-  ASSERT_EQ(pieces.size(), 2U);
-  expect_piece(pieces[0], kA, kA, kB, kB);
-  expect_piece(pieces[1], kC, kC, kD, kD);
+  const auto runs = finite_runs(std::vector{none, kA, kB, far, far, kC, none});
+  EXPECT_EQ(runs, (std::vector{std::vector{kA, kB}, std::vector{kC}}));
+  EXPECT_TRUE(finite_runs(std::vector{none}).empty());
+  EXPECT_TRUE(finite_runs({}).empty());
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "tests/exact/exact_fixture.h"
-#include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {
 namespace {

@@ -100,7 +100,7 @@ TEST_F(SessionTruth, AMethodWithoutHeatHasNoPathOfHeat) {
 }
 
 TEST_F(SessionTruth, TheStateLeadsBackFromItsCommands) {
-  run({"open " + small_model(), "source set 5@0.25 40", "method wavefront", "check exact",
+  run({"open " + small_model(), "method wavefront", "source set 5@0.25 40", "check exact",
        "target face:3:0.25:0.25:0.5", "view exact-error"});
   ViewerState again = initial_state();
   for (const Command& command : commands_to(session.state())) {

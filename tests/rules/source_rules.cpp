@@ -54,7 +54,7 @@ const std::vector<Permission>& permissions() {
        {"std", "vulkan", "glm"},
        {"posix", "stb", "embedded", "glfw", "imgui", "imgui end"}},
       {"shaders", {"shaders"}, {"std", "glm"}, {}},
-      {"app", {"app", "solver"}, {"std", "cli11", "json"}, {"posix", "png"}},
+      {"app", {"app", "solver"}, {"std", "cli11", "json", "eigen"}, {"posix", "png"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
       {"bench", {"solver", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
       {"tests", {"solver", "engine", "shaders", "app", "ui", "tests", "bench"}, {"any"}, {}},

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "engine/scene/line_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace geotherm::engine {
+namespace {
+
+/// Of a pixel: nobody sees it, and antialiasing hides the rest.
+constexpr float kTolerance = 0.2F;
+constexpr std::size_t kLongestRun = 256;
+
+float distance_to_segment(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b) {
+  const glm::vec3 way = b - a;
+  const float square = glm::dot(way, way);
+  const float along = square > 0 ? std::clamp(glm::dot(p - a, way) / square, 0.0F, 1.0F) : 0.0F;
+  return glm::length(p - a - along * way);
+}
+
+/// Marks what is needed between two points that are kept.
+void mark_needed(std::span<const glm::vec3> points, std::size_t first, std::size_t last,
+                 float tolerance, std::vector<char>& needed) {
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{first, last}};
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    float farthest = tolerance;
+    std::size_t at = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const float away = distance_to_segment(points[i], points[from], points[to]);
+      if (away <= farthest) continue;
+      farthest = away;
+      at = i;
+    }
+    if (at == from) continue;
+    needed[at] = 1;
+    open.emplace_back(from, at);
+    open.emplace_back(at, to);
+  }
+}
+
+/// Scene units of a pixel where a point of the lines is nearest to the eye.
+float smallest_pixel(const Camera& camera, float nearest) {
+  const float per_unit = 0.5F * camera.extent.y * std::abs(camera.projection[1][1]);
+  return nearest / std::max(per_unit, 1.0F);
+}
+
+}  // namespace
+
+std::vector<glm::vec3> simplified(std::span<const glm::vec3> points, float tolerance) {
+  std::vector<char> needed(points.size(), 0);
+  for (std::size_t from = 0; from < points.size(); from += kLongestRun) {
+    const std::size_t to = std::min(from + kLongestRun, points.size() - 1);
+    needed[from] = needed[to] = 1;
+    mark_needed(points, from, to, tolerance, needed);
+  }
+  std::vector<glm::vec3> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (needed[i] != 0) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+void LineSet::set(std::span<const Polyline> lines) {
+  std::vector<Line> made;
+  for (const Polyline& line : lines) made.push_back({finite_runs(line.points), line.colour});
+  lines_ = std::move(made);
+  level_.reset();
+}
+
+bool LineSet::fit(const Camera& camera) {
+  const glm::mat4 clip = camera.projection * camera.view;
+  constexpr float kAtTheEye = 1e-4F;  // what is nearer is not drawn
+  float nearest = std::numeric_limits<float>::max();
+  for (const Line& line : lines_) {
+    for (const auto& run : line.runs) {
+      for (const glm::vec3& p : run) {
+        const float w = clip[0].w * p.x + clip[1].w * p.y + clip[2].w * p.z + clip[3].w;
+        nearest = std::min(nearest, std::max(w, kAtTheEye));
+      }
+    }
+  }
+  if (lines_.empty()) nearest = 1;
+  const float tolerance = kTolerance * smallest_pixel(camera, nearest);
+  const int level = static_cast<int>(std::floor(std::log2(std::max(tolerance, 1e-12F))));
+  if (level_ == level) return false;
+  std::vector<LinePiece> pieces;
+  std::vector<Range> ranges;
+  for (const Line& line : lines_) {
+    const auto first = static_cast<std::uint32_t>(pieces.size());
+    for (const auto& run : line.runs) {
+      const std::vector<LinePiece> own = line_pieces(simplified(run, std::ldexp(1.0F, level)));
+      pieces.insert(pieces.end(), own.begin(), own.end());
+    }
+    const auto count = static_cast<std::uint32_t>(pieces.size()) - first;
+    if (count > 0) ranges.push_back({first, count, line.colour});
+  }
+  pieces_ = std::move(pieces);
+  ranges_ = std::move(ranges);
+  level_ = level;
+  return true;
+}
+
+}  // namespace geotherm::engine

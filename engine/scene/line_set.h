@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/scene/line_pieces.h"
+#include "engine/scene/scene.h"
+
+namespace geotherm::engine {
+
+/// The points of a polyline that are needed to stay within `tolerance` of all of them; both ends
+/// are kept, and at least every 256th point (D. Douglas, T. Peucker 1973, in runs of that length).
+/// Points are finite. Cost: O(points), times 256 at worst.
+std::vector<glm::vec3> simplified(std::span<const glm::vec3> points, float tolerance);
+
+/// Lines on the surface, and what of them a view resolves: points that lie closer than pixels would
+/// cost much and show nothing.
+class LineSet {
+ public:
+  /// The pieces of one line among those of all.
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+    glm::vec3 colour{0};
+  };
+
+  void set(std::span<const Polyline> lines);
+
+  /// Makes the pieces for this view, true to a fifth of a pixel; false: those there are will do.
+  /// Cost: O(points), and that of simplified() where the zoom has changed by a factor of 2.
+  bool fit(const Camera& camera);
+
+  const std::vector<LinePiece>& pieces() const { return pieces_; }
+  const std::vector<Range>& ranges() const { return ranges_; }
+
+ private:
+  struct Line {
+    std::vector<std::vector<glm::vec3>> runs;  ///< of finite points
+    glm::vec3 colour;
+  };
+  std::vector<Line> lines_;
+  std::optional<int> level_;  ///< binary logarithm of the tolerance that pieces_ were made with
+  std::vector<LinePiece> pieces_;
+  std::vector<Range> ranges_;
+};
+
+}  // namespace geotherm::engine
