@@ -19,7 +19,9 @@ std::string range_of(const PictureScale& scale) {
   return number_text(scale.min) + ":" + number_text(scale.max);
 }
 
-bool has_colours(const PictureFigures& f) { return f.solve && f.settings.view == View::kContours; }
+bool has_colours(const PictureFigures& f) {
+  return f.solve && maps_values(f.settings.view);
+}
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
 void add(std::vector<PngText>& texts, const std::string& name, const std::string& value) {
@@ -65,7 +67,7 @@ Json settings_json(const PictureFigures& f) {
                  {"projection", s.camera.orthographic ? "orthographic" : "perspective"}}},
                {"turntable", s.turntable}};
   if (has_colours(f)) {
-    json.update({{"colour_map", s.colour_map},
+    json.update({{"colour_map", f.scale.colour_map},
                  {"reverse", s.reverse},
                  {"range", {f.scale.min, f.scale.max}},
                  {"spacing", f.scale.spacing}});
@@ -76,7 +78,7 @@ Json settings_json(const PictureFigures& f) {
 std::string view_in_words(const PictureFigures& f) {
   std::string text = to_text(f.settings.view);
   if (!has_colours(f)) return text;
-  text += ", " + f.settings.colour_map + (f.settings.reverse ? " reversed" : "") + " from " +
+  text += ", " + f.scale.colour_map + (f.settings.reverse ? " reversed" : "") + " from " +
           significant(f.scale.min) + " to " + significant(f.scale.max);
   if (f.scale.spacing > 0) text += ", isolines every " + significant(f.scale.spacing);
   return text;
@@ -104,6 +106,7 @@ std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
   PictureSettings settings = f.settings;
   settings.camera = frame_camera(f.settings, frame);
   for (auto& [name, value] : settings_in_words(settings)) {
+    if (name == "colour-map" && has_colours(f)) value = f.scale.colour_map;
     if (name == "range" && has_colours(f)) value = range_of(f.scale);
     if (name == "spacing" && has_colours(f)) value = number_text(f.scale.spacing);
     add(texts, name, value);

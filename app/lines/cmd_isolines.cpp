@@ -181,7 +181,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
 
   CommandOutput out{"", figures->warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
-                                        *settings, progress, outputs, out.text);
+                                        *settings, progress, outputs, out);
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json = outputs.write_text(

@@ -208,7 +208,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
 
   CommandOutput out{"", figures.warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_paths(figures), *settings,
-                                        progress, outputs, out.text);
+                                        progress, outputs, out);
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json =

@@ -51,7 +51,7 @@ Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments
 
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
                               const LinePictureSettings& settings, const Progress& progress,
-                              Outputs& outputs, std::string& standard_output) {
+                              Outputs& outputs, CommandOutput& out) {
   const TriangleMesh& mesh = *picture.mesh;
   for (const std::string& path : arguments.outputs) {
     if (!report(progress, "writing " + path, 1.0)) {
@@ -60,14 +60,19 @@ Result<void> write_line_files(const LineFileArguments& arguments, const LinePict
     }
     Result<void> written;
     if (path == "-") {
-      written = outputs.write_text(path, polyline_csv(mesh, picture.lines), standard_output);
+      written = outputs.write_text(path, polyline_csv(mesh, picture.lines), out.text);
     } else if (is_picture(path)) {
       auto svg = line_picture_svg(picture, settings, progress);
       if (!svg) {
         outputs.remove_written();
         return svg.error();
       }
-      written = outputs.write_text(path, *std::move(svg), standard_output);
+      if (!svg->shows_lines && !picture.lines.empty()) {
+        out.warnings.push_back(one_line(path) +
+                               " shows no line: all are behind the surface; look from another side "
+                               "with --azimuth and --elevation");
+      }
+      written = outputs.write_text(path, std::move(svg->text), out.text);
     } else {
       written = outputs.write(path, [&] { return write_polylines(path, mesh, picture.lines); });
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/cli_app.h"
+#include "app/command_output.h"
 #include "app/lines/line_picture.h"
 #include "app/outputs.h"
 #include "solver/core/progress.h"
@@ -27,10 +28,11 @@ void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
 /// Errors: kBadInput and kNotAvailable (an ending, a picture's option), those of Outputs::expect().
 Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments, Outputs& outputs);
 
-/// Writes the lines to every output; "-" is CSV, which `standard_output` takes.
+/// Writes the lines to every output; "-" is CSV, which the output's text takes. Warns of pictures
+/// that show none of them.
 /// Errors: kBadFile, kCancelled, those of line_picture_svg().
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
                               const LinePictureSettings& settings, const Progress& progress,
-                              Outputs& outputs, std::string& standard_output);
+                              Outputs& outputs, CommandOutput& out);
 
 }  // namespace geotherm::app

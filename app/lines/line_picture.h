@@ -42,10 +42,15 @@ void add_line_picture_options(CLI::App& command, LinePictureArguments& arguments
 /// Errors: kBadInput, with the option's name.
 Result<LinePictureSettings> line_picture_settings(const LinePictureArguments& arguments);
 
+struct LinePictureSvg {
+  std::string text;
+  bool shows_lines = false;  ///< or the surface hides all of them
+};
+
 /// The lines where the surface does not hide them, over its shape in a few tones and its outline.
 /// Errors: those of RayTree::build(), kCancelled.
-Result<std::string> line_picture_svg(const LinePicture& picture,
-                                     const LinePictureSettings& settings,
-                                     const Progress& progress = {});
+Result<LinePictureSvg> line_picture_svg(const LinePicture& picture,
+                                        const LinePictureSettings& settings,
+                                        const Progress& progress = {});
 
 }  // namespace geotherm::app

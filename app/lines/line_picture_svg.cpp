@@ -81,7 +81,7 @@ class SvgDrawing {
         view_(*picture.mesh, settings.camera, settings.width, settings.height, 48 * unit_),
         sight_(tree, view_) {}
 
-  Result<std::string> text(const Progress& progress) {
+  Result<LinePictureSvg> draw(const Progress& progress) {
     open();
     auto tones =
         surface_tones(*picture_.mesh, tree_, view_, settings_.width, settings_.height, progress);
@@ -91,7 +91,7 @@ class SvgDrawing {
     draw_markers();
     if (picture_.largest_value > 0) draw_bar();
     draw_title();
-    return svg_ + "</svg>\n";
+    return LinePictureSvg{svg_ + "</svg>\n", shows_lines_};
   }
 
  private:
@@ -125,6 +125,7 @@ class SvgDrawing {
       const auto points = positions_of(*picture_.mesh, *line.path);
       const auto parts = sight_.visible_parts(points);
       if (parts.empty()) continue;
+      shows_lines_ = true;
       const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
       const std::string d = commands(parts, false);
       if (!valued) stroke(d, style_.background, 2 * width);  // a rim sets it off
@@ -185,16 +186,17 @@ class SvgDrawing {
   LineView view_;
   LineSight sight_;
   std::string svg_;
+  bool shows_lines_ = false;
 };
 
 }  // namespace
 
-Result<std::string> line_picture_svg(const LinePicture& picture,
-                                     const LinePictureSettings& settings,
-                                     const Progress& progress) {
+Result<LinePictureSvg> line_picture_svg(const LinePicture& picture,
+                                        const LinePictureSettings& settings,
+                                        const Progress& progress) {
   const auto tree = RayTree::build(picture.mesh, progress);
   if (!tree) return tree.error();
-  return SvgDrawing(picture, settings, *tree).text(progress);
+  return SvgDrawing(picture, settings, *tree).draw(progress);
 }
 
 }  // namespace geotherm::app

@@ -31,6 +31,7 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   const double largest = data.largest_value * data.value_unit;
   const bool has_range = settings.range_min || settings.range_max;
   PictureScale scale;
+  scale.colour_map = colour_map_of(data, settings);
   const double smallest = data.is_signed ? -(largest > 0 ? largest : 1) : 0;
   scale.min = settings.range_min.value_or(smallest);
   scale.max = settings.range_max.value_or(largest > 0 ? largest : 1);

@@ -14,6 +14,7 @@ struct PictureScale {
   double spacing = 0;       ///< of isolines; 0: none
   bool coloured = false;    ///< the view shows distances and there are some above 0
   bool bar = false;         ///< there is something to read off a colour bar, and it is wanted
+  std::string colour_map;   ///< the one that is drawn
   Ticks ticks;              ///< of the bar
 };
 

@@ -84,6 +84,18 @@ TEST_F(Program, PathWritesEveryFormat) {
   EXPECT_EQ(csv.out, bytes_of(folder.path("a.csv")));
 }
 
+TEST_F(Program, PathSaysWhenItsPictureShowsNothingOfIt) {
+  folder.write("square.obj", kSquare + std::string("v 0 0 1\nv 2 0 1\nv 2 2 1\nv 0 2 1\n"
+                                                   "f 6 7 8\nf 6 8 9\n"));
+  const std::vector<std::string> path = {"path",        "square.obj",  "--from", "4",  "--to",
+                                         "xyz:1:0.8:0", "--elevation", "0",      "-o", "a.svg"};
+  auto behind = path, before = path;
+  behind.insert(behind.end(), {"--azimuth", "0"});
+  before.insert(before.end(), {"--azimuth", "180"});
+  EXPECT_NE(run(behind).err.find("--azimuth"), std::string::npos);
+  EXPECT_EQ(run(before).err, "");
+}
+
 TEST_F(Program, IsolinesAreReportedAndWritten) {
   folder.write("square.obj", kSquare);
   const Json lines =
@@ -93,7 +105,9 @@ TEST_F(Program, IsolinesAreReportedAndWritten) {
   ASSERT_EQ(lines["lines"].size(), 2U);
   for (const Json& line : lines["lines"]) {
     EXPECT_EQ(line["closed"], true);
-    EXPECT_NEAR(line["length"].get<double>(), 4 * line["value"].get<double>(), 1e-9);
+    // A square with its corners on the diagonals.
+    const double expected = 4 * std::numbers::sqrt2 * line["value"].get<double>();
+    EXPECT_NEAR(line["length"].get<double>(), expected, 1e-9);
     EXPECT_EQ(line["points"], 5);
   }
   EXPECT_TRUE(

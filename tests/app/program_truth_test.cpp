@@ -58,7 +58,7 @@ TEST_F(ProgramTruth, CheckHoldsHeatAgainstExact) {
 
 TEST_F(ProgramTruth, OffsetsHoldSourcesBack) {
   const Json solved = json(
-      {"solve", "small.ply", "-s", "3@0.001,400", "--method", "wavefront", "--json", "-"});
+      {"solve", "small.ply", "-s", "3,400@0.001", "--method", "wavefront", "--json", "-"});
   EXPECT_EQ(solved["source_offsets"], Json::array({0.001, 0.001}));
   const ProgramRun heat = run_program(folder.path("."), {"solve", "small.ply", "-s", "3@0.5"});
   EXPECT_NE(heat.code, 0);

@@ -20,6 +20,12 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 SourceSet at(const SurfacePoint& point) { return {{SurfacePoint::at_vertex(0), point}, {}}; }
 
+SourceSet with_offset(double offset) {
+  SourceSet set = SourceSet::of_vertices({3});
+  set.offsets = {offset};
+  return set;
+}
+
 // The mesh: 162 vertices of a sphere, vertex 162 in no face, face 320 with a repeated corner.
 const BadSource kBadSources[] = {
     {"none", {}, "no source"},
@@ -33,6 +39,8 @@ const BadSource kBadSources[] = {
     {"weight_that_is_no_number", at(SurfacePoint::in_face(7, {kNan, 0.5, 0.5})), "7"},
     {"face_without_an_inside", at(SurfacePoint::in_face(320, {0.2, 0.3, 0.5})), "320"},
     {"edge_with_a_vertex_beyond_the_last", {{}, {{0, 500}}}, "500"},
+    {"offset", with_offset(0.25), "wavefront"},
+    {"negative_offset", with_offset(-0.25), "-0.25"},
 };
 
 void PrintTo(const BadSource& bad, std::ostream* out) { *out << bad.name; }
