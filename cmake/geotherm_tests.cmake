@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# How tests reach ctest. Several build trees (release, asan, tsan, nocholmod) may run in one ctest,
+# How tests reach ctest. Several build trees (release, asan, tsan) may run in one ctest,
 # so each gives its tests a prefix and a label of its own.
 include(GoogleTest)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs what is missing, builds four ways and runs all tests in one ctest, whose summary comes
-# last: release (all tests), asan (address and undefined behaviour), tsan (threads), nocholmod
-# (without SuiteSparse and without the renderer). Pictures are drawn and checked with Vulkan's
+# Installs what is missing, builds three ways and runs all tests in one ctest, whose summary comes
+# last: release (all tests), asan (address and undefined behaviour), tsan (threads, and without
+# SuiteSparse). Pictures are drawn and checked with Vulkan's
 # software device; --require-vulkan makes their tests fail, not skip, where there is none.
 # Other arguments go to ctest: scripts/test.sh -R Reader
 set -euo pipefail
@@ -25,7 +25,7 @@ use_data() {
 use_data GEOTHERM_TEST_MESHES "$root/../shared/meshes" "tests on scanned meshes"
 use_data GEOTHERM_TEST_EXACT "$root/../shared/exact" "tests against exact distances"
 
-suites=(release nocholmod asan tsan)
+suites=(release asan tsan)
 for suite in "${suites[@]}"; do
   build "$suite"
   # A suite without tests is a mistake, not a success.

@@ -48,7 +48,7 @@ bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_
   const auto front = surface_at(frame, seen_at[0], seen_at[1]);
   if (!front) return false;
   const Vec3 size = frame.model()->mesh.box_max - frame.model()->mesh.box_min;
-  const Vec3 between = position_of(*frame.model()->model.mesh, *front) - place;
+  const Vec3 between = position_at(*frame.model()->model.mesh, *front) - place;
   return between.norm() > kHidden * size.norm();
 }
 

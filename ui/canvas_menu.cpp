@@ -38,7 +38,7 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
     case MouseAction::kRemoveSource:
       // Places belong to what is shown: while other sources are on their way, none can be named.
       if (frame.explored().sources != frame.state().sources) return;
-      if (const auto place = nearest_place(frame.explored(), position_of(mesh, point))) {
+      if (const auto place = nearest_place(frame.explored(), position_at(mesh, point))) {
         frame.send(removal(frame.explored(), *place));
       }
       return;
@@ -47,7 +47,7 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
     case MouseAction::kTarget:
       return frame.send(app::command::Target{point_text(point)});
     case MouseAction::kCentre: {
-      const Vec3 at = position_of(mesh, point);
+      const Vec3 at = position_at(mesh, point);
       return frame.send(app::command::Centre{at.x(), at.y(), at.z()});
     }
     default:

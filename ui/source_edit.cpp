@@ -29,7 +29,7 @@ std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, In
 
 Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
   if (point.is_vertex()) return point.vertex;
-  const Vec3 position = position_of(mesh, point);
+  const Vec3 position = position_at(mesh, point);
   const Face& face = mesh.faces()[point.face];
   return *std::min_element(face.begin(), face.end(), [&](Index a, Index b) {
     return (mesh.positions()[a] - position).squaredNorm() <

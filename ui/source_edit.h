@@ -19,8 +19,6 @@ std::string point_text(const SurfacePoint& point);
 /// texts and what does not lie on it.
 std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces);
 
-using app::position_of;
-
 /// The corner that lies nearest to a point of a face.
 Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);
 

@@ -56,7 +56,7 @@ PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoin
   const TriangleMesh& mesh = *explored.model->model.mesh;
   PointFigures figures;
   figures.point = point;
-  figures.position = position_of(mesh, point);
+  figures.position = position_at(mesh, point);
   figures.nearest_vertex = point.vertex;
   if (!point.is_vertex()) {
     const auto largest = std::ranges::max_element(point.weights) - point.weights.begin();

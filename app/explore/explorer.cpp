@@ -38,7 +38,7 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
                 std::vector<SourcePlace>& places) {
   const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
   for (const SurfacePoint& point : placed.set.points) {
-    places.push_back({entry, point, position_of(mesh, point), alone});
+    places.push_back({entry, point, position_at(mesh, point), alone});
   }
   for (const auto& edge : placed.set.edges) {
     for (const Index v : edge) {

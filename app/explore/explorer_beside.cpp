@@ -54,7 +54,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
     return {};
   }
   const SurfacePoint& point = placed->set.points.front();
-  explored.target = position_of(*model_->model.mesh, point);
+  explored.target = position_at(*model_->model.mesh, point);
   if (!paths_ || paths_->method != explored.a->method) {
     MethodOptions options;
     options.method = MethodKind::kWavefront;

@@ -64,15 +64,6 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
-  if (point.is_vertex()) return mesh.positions()[point.vertex];
-  Vec3 place = Vec3::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
-    place += point.weights[i] * mesh.positions()[mesh.faces()[point.face][i]];
-  }
-  return place;
-}
-
 PictureData picture_of(const TriangleMesh& mesh) {
   PictureData data;
   const SceneSpace scene(mesh);
@@ -115,7 +106,7 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   }
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
-    const PictureData::Vector place = scene.of(position_of(mesh, point));
+    const PictureData::Vector place = scene.of(position_at(mesh, point));
     data.sources.push_back({place, place});
   }
 }

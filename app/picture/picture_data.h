@@ -13,6 +13,7 @@
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
+#include "solver/path/surface_path.h"
 #include "solver/method/distance_result.h"
 
 namespace geotherm::app {
@@ -56,9 +57,6 @@ struct PictureData {
   std::string caption;      ///< model, faces, t, backend
   std::string value_title;  ///< over the colour bar
 };
-
-/// Where a point of the mesh lies, model units. Precondition: it lies on the mesh.
-Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point);
 
 /// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
 /// that belong to no face are put on one that does.

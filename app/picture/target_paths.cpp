@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 namespace geotherm::app {
@@ -13,7 +14,7 @@ namespace {
 double distance_at(const TriangleMesh& mesh, std::span<const double> distances,
                    const SurfacePoint& point) {
   if (point.is_vertex()) return distances[point.vertex];
-  const Vec3 at = position_of(mesh, point);
+  const Vec3 at = position_at(mesh, point);
   double least = kUnreached;
   for (const Index corner : mesh.faces()[point.face]) {
     least = std::min(least, distances[corner] + (mesh.positions()[corner] - at).norm());
@@ -112,7 +113,8 @@ Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const Surfa
 }
 
 void add_paths(PictureData& data, const TriangleMesh& mesh, std::span<const TargetPath> paths) {
-  for (const TargetPath& path : paths) {
+  // What comes last lies on top, where paths run together: the geodesic, which is the first.
+  for (const TargetPath& path : std::views::reverse(paths)) {
     add_line(data, positions_of(mesh, path.path), to_text(path.field));
   }
 }

@@ -84,7 +84,7 @@ Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& 
 
 Result<void> check_edge(const IntrinsicSurface& surface, const std::array<Index, 2>& edge) {
   for (const Index v : edge) {
-    if (const auto valid = check_vertex(surface, v); !valid) return valid;
+    if (auto valid = check_vertex(surface, v); !valid) return valid;
   }
   if (edge[0] == edge[1] || find_clean_edge(surface, edge[0], edge[1]) != kNoIndex) return {};
   return Error{ErrorCode::kBadInput,
@@ -146,12 +146,12 @@ Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sou
     return Error{ErrorCode::kBadInput, "there is no source; name at least one"};
   }
   for (const SurfacePoint& point : sources.points) {
-    const auto valid =
+    auto valid =
         point.is_vertex() ? check_vertex(surface, point.vertex) : check_in_face(surface, point);
     if (!valid) return valid;
   }
   for (const auto& edge : sources.edges) {
-    if (const auto valid = check_edge(surface, edge); !valid) return valid;
+    if (auto valid = check_edge(surface, edge); !valid) return valid;
   }
   return check_offsets(surface, sources);
 }

@@ -35,7 +35,7 @@ void BucketRing::begin(WavePass& pass) {
   pass.grow = [](void* ring, WaveBucket& bucket) { static_cast<BucketRing*>(ring)->grow(bucket); };
 }
 
-void BucketRing::add_seeds(std::vector<std::pair<double, Index>> seeds) {
+void BucketRing::add_seeds(const std::vector<std::pair<double, Index>>& seeds) {
   for (const auto& [key, edge] : seeds) {
     outside_.emplace_back(static_cast<std::int64_t>(std::min(key * per_length_, kLast)), edge);
   }

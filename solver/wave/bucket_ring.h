@@ -21,7 +21,7 @@ class BucketRing {
   void begin(WavePass& pass);
 
   /// Adds edges with keys, which may be anywhere: beyond the ring they wait outside.
-  void add_seeds(std::vector<std::pair<double, Index>> seeds);
+  void add_seeds(const std::vector<std::pair<double, Index>>& seeds);
 
   /// Goes on to the next bucket that holds something, or to what waits outside; false when all is
   /// empty. Precondition: the current bucket is empty.

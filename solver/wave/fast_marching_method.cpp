@@ -134,20 +134,21 @@ FastMarchingMethod::FastMarchingMethod(std::unique_ptr<const State> state)
 FastMarchingMethod::~FastMarchingMethod() = default;
 
 Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
-    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
+    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) {
   const Stopwatch watch;
+  const Index faces = surface->face_count();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  auto state = std::make_unique<State>();
-  state->surface = surface;
-  state->threads = threads;
-  state->supports = build_march_supports(*surface);
-  if (!report(progress, "operators", 1.0)) return cancelled_error();
-  state->timing.operators = state->timing.setup = watch.milliseconds();
-  return std::shared_ptr<const FastMarchingMethod>(new FastMarchingMethod(std::move(state)));
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended in the tables of " +
-                                            std::to_string(surface->face_count()) +
-                                            " faces; take a mesh with fewer faces"};
+  try {
+    auto state = std::make_unique<State>();
+    state->surface = std::move(surface);
+    state->threads = threads;
+    state->supports = build_march_supports(*state->surface);
+    if (!report(progress, "operators", 1.0)) return cancelled_error();
+    state->timing.operators = state->timing.setup = watch.milliseconds();
+    return std::shared_ptr<const FastMarchingMethod>(new FastMarchingMethod(std::move(state)));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("tables", faces);
+  }
 }
 
 Result<std::vector<DistanceResult>> FastMarchingMethod::solve_each(std::span<const SourceSet> sets,

@@ -59,7 +59,7 @@ Values root(const Values& x) {
 /// What a face's targets are, as shares of its opposite vertex (cx, cy) and of the half edge (h,
 /// 0): that vertex first, then the samples of the side that ends at a, then of that which begins at
 /// b, each in the direction of the side. The last lane only fills the register.
-template <int kSamples>
+template <int Samples>
 struct Targets;
 template <>
 struct Targets<1> {
@@ -102,6 +102,20 @@ inline Fit fit_wave(double centre, double half, double left, double middle, doub
   return fit;
 }
 
+constexpr double kDisagree = 0.03;
+
+inline void agree(Fit& first, Fit& second) {
+  if (first.kind != Fit::Kind::kWave || second.kind != Fit::Kind::kWave) return;
+  const double rise = first.k * first.half - first.ux;
+  const double run = 1 + first.k * (first.right - first.middle);
+  const double other_rise = -second.k * second.half - second.ux;
+  const double other_run = 1 + second.k * (second.left - second.middle);
+  const double off = rise * other_run - other_rise * run;
+  const double bound = kDisagree * run * other_run;
+  if (off <= bound && off >= -bound) return;
+  first.kind = second.kind = Fit::Kind::kKinked;
+}
+
 /// The same seen from a face whose side runs the other way.
 inline Fit mirrored(const Fit& fit) {
   Fit out = fit;
@@ -123,24 +137,24 @@ inline double plane_wave(double at_0, double at_length, double length, double x,
 }
 
 /// An edge as one of its faces sees it: a and b where its side begins and ends.
-template <int kSamples>
+template <int Samples>
 struct Front {
   double a, b;
   Index label_a, label_b;
-  Fit fits[(kSamples + 1) / 2];
-  Index labels[kSamples];
+  Fit fits[(Samples + 1) / 2];
+  Index labels[Samples];
 };
 
-template <int kSamples>
-Front<kSamples> mirrored(const Front<kSamples>& front) {
-  Front<kSamples> out;
+template <int Samples>
+Front<Samples> mirrored(const Front<Samples>& front) {
+  Front<Samples> out;
   out.a = front.b;
   out.b = front.a;
   out.label_a = front.label_b;
   out.label_b = front.label_a;
-  constexpr int kFits = (kSamples + 1) / 2;
+  constexpr int kFits = (Samples + 1) / 2;
   for (int i = 0; i < kFits; ++i) out.fits[i] = mirrored(front.fits[kFits - 1 - i]);
-  for (int i = 0; i < kSamples; ++i) out.labels[i] = front.labels[kSamples - 1 - i];
+  for (int i = 0; i < Samples; ++i) out.labels[i] = front.labels[Samples - 1 - i];
   return out;
 }
 
@@ -167,25 +181,25 @@ inline double kinked(const Fit& fit, double at, double y) {
 }
 
 /// The shortest of all ways over the edge, for every target of a register.
-template <int kWidth, int kSamples>
-typename Register<kWidth>::Values arrival(const Front<kSamples>& front, double half,
-                                          const typename Register<kWidth>::Values& x,
-                                          const typename Register<kWidth>::Values& y) {
-  using Values = typename Register<kWidth>::Values;
+template <int Width, int Samples>
+typename Register<Width>::Values arrival(const Front<Samples>& front, double half,
+                                         const typename Register<Width>::Values& x,
+                                         const typename Register<Width>::Values& y) {
+  using Values = typename Register<Width>::Values;
   const Values yy = y * y;
   const Values from_a = front.a + root((x + half) * (x + half) + yy);
   const Values from_b = front.b + root((x - half) * (x - half) + yy);
   Values best = from_b < from_a ? from_b : from_a;
-  if constexpr (kSamples == 3) {
+  if constexpr (Samples == 3) {
     const Values from_middle = front.fits[0].right + root(x * x + yy);
     best = from_middle < best ? from_middle : best;
   }
   for (const Fit& fit : front.fits) {
     if (fit.kind == Fit::Kind::kWave) {
-      const Values value = wave<Values, typename Register<kWidth>::Mask>(fit, x, y, yy);
+      const Values value = wave<Values, typename Register<Width>::Mask>(fit, x, y, yy);
       best = value < best ? value : best;
     } else if (fit.kind == Fit::Kind::kKinked) {
-      for (int i = 0; i < kWidth; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));
+      for (int i = 0; i < Width; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));
     }
   }
   return best;
@@ -193,8 +207,8 @@ typename Register<kWidth>::Values arrival(const Front<kSamples>& front, double h
 
 /// The label of the way that gave `value` at a target: that of the point of the edge next to
 /// where the way crosses it.
-template <int kSamples>
-Index label_of(const Front<kSamples>& front, double half, double x, double y, double value) {
+template <int Samples>
+Index label_of(const Front<Samples>& front, double half, double x, double y, double value) {
   const double margin = 1e-12 * value;
   if (front.a + __builtin_sqrt((x + half) * (x + half) + y * y) <= value + margin) {
     return front.label_a;
@@ -218,10 +232,10 @@ Index label_of(const Front<kSamples>& front, double half, double x, double y, do
       if (gy > 0 && ray >= -fit.half && ray <= fit.half) at = fit.centre + ray;
     }
   }
-  const double step = (at + half) / (2 * half) * (kSamples + 1);
-  const int node = static_cast<int>(step + 0.5);
+  const double step = (at + half) / (2 * half) * (Samples + 1);
+  const int node = static_cast<int>(__builtin_lround(step));
   if (node <= 0) return front.label_a;
-  return node > kSamples ? front.label_b : front.labels[node - 1];
+  return node > Samples ? front.label_b : front.labels[node - 1];
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 /// An edge is visited again when a value of it fell by this share of the face's longest side.
 constexpr double kNotice = 1e-4;
 
-template <int kSamples, bool kLabels>
+template <int Samples, bool Labels>
 class Wave {
  public:
   explicit Wave(WavePass& pass) : p_(pass) {}
@@ -56,7 +56,7 @@ class Wave {
     const WaveFace& face = p_.faces[face_of_code(code)];
     for (int k = 0; k < 3; ++k) {
       __builtin_prefetch(&p_.distance[face.vertex[k]]);
-      __builtin_prefetch(&p_.sample[kSamples * static_cast<std::ptrdiff_t>(face.edge[k])]);
+      __builtin_prefetch(&p_.sample[Samples * static_cast<std::ptrdiff_t>(face.edge[k])]);
     }
   }
 
@@ -66,7 +66,7 @@ class Wave {
     const int k = corner_of_code(sides[0]);
     const int next = k == 2 ? 0 : k + 1;
     const Index va = face.vertex[k], vb = face.vertex[next];
-    const Front<kSamples> front = front_of(edge, va, vb, face.length[k]);
+    const Front<Samples> front = front_of(edge, va, vb, face.length[k]);
     cross(sides[0], front);
     if (sides[1] >= 0) {
       cross_second(sides[1], front);
@@ -79,43 +79,44 @@ class Wave {
     if ((face.touching >> next & 1U) != 0) spread(vb);
   }
 
-  void cross_second(SideCode code, const Front<kSamples>& front) {
+  void cross_second(SideCode code, const Front<Samples>& front) {
     const bool reversed = (p_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1U) != 0;
     cross(code, reversed ? mirrored(front) : front);
   }
 
-  Front<kSamples> front_of(Index edge, Index va, Index vb, double length) {
+  Front<Samples> front_of(Index edge, Index va, Index vb, double length) {
     double& a = p_.distance[va];
     double& b = p_.distance[vb];
     if (b > a + length) {
       b = a + length;
-      if constexpr (kLabels) p_.label[vb] = p_.label[va];
+      if constexpr (Labels) p_.label[vb] = p_.label[va];
     }
     if (a > b + length) {
       a = b + length;
-      if constexpr (kLabels) p_.label[va] = p_.label[vb];
+      if constexpr (Labels) p_.label[va] = p_.label[vb];
     }
-    Front<kSamples> front;
+    Front<Samples> front;
     front.a = a;
     front.b = b;
-    const std::ptrdiff_t first = kSamples * static_cast<std::ptrdiff_t>(edge);
+    const std::ptrdiff_t first = Samples * static_cast<std::ptrdiff_t>(edge);
     const double* w = p_.sample + first;
-    if constexpr (kSamples == 1) {
+    if constexpr (Samples == 1) {
       front.fits[0] = fit_wave(0, length / 2, a, w[0], b);
     } else {
       front.fits[0] = fit_wave(-length / 4, length / 4, a, w[0], w[1]);
       front.fits[1] = fit_wave(length / 4, length / 4, w[1], w[2], b);
+      agree(front.fits[0], front.fits[1]);
     }
-    if constexpr (kLabels) {
+    if constexpr (Labels) {
       front.label_a = p_.label[va];
       front.label_b = p_.label[vb];
-      for (int i = 0; i < kSamples; ++i) front.labels[i] = p_.sample_label[first + i];
+      for (int i = 0; i < Samples; ++i) front.labels[i] = p_.sample_label[first + i];
     }
     return front;
   }
 
   /// Carries the front to the opposite vertex of a face and to the samples of its other sides.
-  void cross(SideCode code, const Front<kSamples>& front) {
+  void cross(SideCode code, const Front<Samples>& front) {
     const WaveFace& face = p_.faces[face_of_code(code)];
     const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1, previous = k == 0 ? 2 : k - 1;
     const Index vc = face.vertex[previous];
@@ -128,7 +129,7 @@ class Wave {
     const double to_b = face.length[next], to_a = face.length[previous];
     const double cx = (to_a - to_b) * (to_a + to_b) * (0.5 * inverse);
     const double cy = face.twice_area * inverse;
-    using Goals = Targets<kSamples>;
+    using Goals = Targets<Samples>;
     constexpr int kWidth = Goals::kLanes < kWidest ? Goals::kLanes : kWidest;
     using Values = typename Register<kWidth>::Values;
     double values[Goals::kLanes];
@@ -138,8 +139,8 @@ class Wave {
       store(arrival<kWidth>(front, half, x, y), values + i);
     }
     Index labels[Goals::kLanes] = {};
-    if constexpr (kLabels) {
-      for (int i = 0; i < 1 + 2 * kSamples; ++i) {
+    if constexpr (Labels) {
+      for (int i = 0; i < 1 + 2 * Samples; ++i) {
         labels[i] = label_of(front, half, Goals::kOpposite[i] * cx + Goals::kEdge[i] * half,
                              Goals::kOpposite[i] * cy, values[i]);
       }
@@ -149,7 +150,7 @@ class Wave {
     const bool vertex_fell = lower_vertex(vc, values[0], labels[0], notice);
     const double dc = p_.distance[vc];
     lower_samples(face, previous, values + 1, labels + 1, notice, vertex_fell, most(dc, front.a));
-    lower_samples(face, next, values + 1 + kSamples, labels + 1 + kSamples, notice, vertex_fell,
+    lower_samples(face, next, values + 1 + Samples, labels + 1 + Samples, notice, vertex_fell,
                   most(dc, front.b));
   }
 
@@ -159,14 +160,14 @@ class Wave {
       const SideCode code = p_.corners[i];
       const WaveFace& face = p_.faces[face_of_code(code)];
       const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1;
-      const Index label = kLabels ? p_.label[vertex] : kNoIndex;
-      Front<kSamples> front{};
+      const Index label = Labels ? p_.label[vertex] : kNoIndex;
+      Front<Samples> front{};
       front.a = p_.distance[vertex];
       front.b = front.a + face.length[k];
       front.label_a = front.label_b = label;
-      double values[kSamples];
-      for (int j = 0; j < kSamples; ++j) {
-        values[j] = front.a + face.length[k] * (j + 1) / (kSamples + 1);
+      double values[Samples];
+      for (int j = 0; j < Samples; ++j) {
+        values[j] = front.a + face.length[k] * (j + 1) / (Samples + 1);
         front.labels[j] = label;
       }
       for (Fit& fit : front.fits) fit.right = kFar;
@@ -182,25 +183,25 @@ class Wave {
     if (!(value < now)) return false;
     const bool noticed = value < now - notice;
     now = value;
-    if constexpr (kLabels) p_.label[vertex] = label;
+    if constexpr (Labels) p_.label[vertex] = label;
     return noticed;
   }
 
   void lower_samples(const WaveFace& face, int side, const double* values, const Index* labels,
                      double notice, bool vertex_fell, double ends) {
     const Index edge = face.edge[side];
-    const std::ptrdiff_t first = kSamples * static_cast<std::ptrdiff_t>(edge);
-    const bool reversed = kSamples > 1 && (face.reversed >> side & 1U) != 0;
+    const std::ptrdiff_t first = Samples * static_cast<std::ptrdiff_t>(edge);
+    const bool reversed = Samples > 1 && (face.reversed >> side & 1U) != 0;
     bool fell = vertex_fell;
-    for (int i = 0; i < kSamples; ++i) {
-      const std::ptrdiff_t at = first + (reversed ? kSamples - 1 - i : i);
+    for (int i = 0; i < Samples; ++i) {
+      const std::ptrdiff_t at = first + (reversed ? Samples - 1 - i : i);
       double& value = p_.sample[at];
       if (!(values[i] < value)) continue;
       fell = fell || values[i] < value - notice;
       value = values[i];
-      if constexpr (kLabels) p_.sample_label[at] = labels[i];
+      if constexpr (Labels) p_.sample_label[at] = labels[i];
     }
-    if (fell) enqueue(edge, most(ends, p_.sample[first + kSamples / 2]));
+    if (fell) enqueue(edge, most(ends, p_.sample[first + Samples / 2]));
   }
 
   /// Puts an edge into the bucket of `key`, the current one where that is past.
@@ -219,9 +220,9 @@ class Wave {
   WavePass& p_;
 };
 
-template <int kSamples, bool kLabels>
+template <int Samples, bool Labels>
 std::size_t visit_bucket(WavePass& pass, std::size_t most_visits) {
-  return Wave<kSamples, kLabels>(pass).run(most_visits);
+  return Wave<Samples, Labels>(pass).run(most_visits);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <new>
+#include <string>
+#include <utility>
 
 namespace geotherm {
 namespace {
@@ -72,20 +74,28 @@ void list_sides(WaveSurface& surface) {
 
 }  // namespace
 
+Error wave_out_of_memory(const char* stage, Index faces) {
+  return {ErrorCode::kOutOfMemory, "the memory ended in the " + std::string(stage) + " of " +
+                                       std::to_string(faces) +
+                                       " faces; take a mesh with fewer faces"};
+}
+
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) try {
-  auto base = build_intrinsic_surface(mesh, FlipRule::kAlways, part_of(progress, 0.0, 0.9));
-  if (!base) return base.error();
-  if (!report(progress, "operators", 0.9)) return cancelled_error();
-  auto surface = std::make_shared<WaveSurface>();
-  surface->base = std::move(*base);
-  name_edges_by_first_side(*surface);
-  list_sides(*surface);
-  return std::shared_ptr<const WaveSurface>(std::move(surface));
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended in the triangulation of " +
-                                            std::to_string(mesh->face_count()) +
-                                            " faces; take a mesh with fewer faces"};
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) {
+  const Index faces = mesh->face_count();
+  try {
+    auto base =
+        build_intrinsic_surface(std::move(mesh), FlipRule::kAlways, part_of(progress, 0.0, 0.9));
+    if (!base) return base.error();
+    if (!report(progress, "operators", 0.9)) return cancelled_error();
+    auto surface = std::make_shared<WaveSurface>();
+    surface->base = std::move(*base);
+    name_edges_by_first_side(*surface);
+    list_sides(*surface);
+    return std::shared_ptr<const WaveSurface>(std::move(surface));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("triangulation", faces);
+  }
 }
 
 }  // namespace geotherm

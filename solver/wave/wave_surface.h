@@ -26,9 +26,12 @@ struct WaveSurface {
   Index face_count() const { return base.intrinsic.face_count(); }
 };
 
-/// Errors: those of build_intrinsic_surface(). Cost: O(F + flips).
+/// Errors: those of build_intrinsic_surface(), kOutOfMemory. Cost: O(F + flips).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {});
+
+/// `stage`: what the memory ended in.
+Error wave_out_of_memory(const char* stage, Index faces);
 
 /// A source set as the triangulation sees it. Lengths and places in units of `intrinsic`.
 struct SourceSeeds {

@@ -98,22 +98,23 @@ WavefrontMethod::~WavefrontMethod() = default;
 
 Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     std::shared_ptr<const WaveSurface> surface, Samples samples, int threads,
-    const Progress& progress) try {
+    const Progress& progress) {
   const Stopwatch watch;
+  const Index faces = surface->face_count();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  auto state = std::make_unique<State>();
-  state->surface = surface;
-  state->samples = samples;
-  state->threads = threads;
-  state->tables = build_wave_tables(*surface);
-  state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
-  if (!report(progress, "operators", 1.0)) return cancelled_error();
-  state->timing.operators = state->timing.setup = watch.milliseconds();
-  return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended in the tables of " +
-                                            std::to_string(surface->face_count()) +
-                                            " faces; take a mesh with fewer faces"};
+  try {
+    auto state = std::make_unique<State>();
+    state->surface = std::move(surface);
+    state->samples = samples;
+    state->threads = threads;
+    state->tables = build_wave_tables(*state->surface);
+    state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
+    if (!report(progress, "operators", 1.0)) return cancelled_error();
+    state->timing.operators = state->timing.setup = watch.milliseconds();
+    return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("tables", faces);
+  }
 }
 
 MethodKind WavefrontMethod::kind() const {

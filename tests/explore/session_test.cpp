@@ -32,7 +32,7 @@ TEST_F(SessionTest, ASourceIsTheExactPoint) {
   const SurfacePoint point = SurfacePoint::in_face(10, {0.2, 0.3, 0.5});
   ASSERT_EQ(explored.places.size(), 1U);
   EXPECT_TRUE(explored.places[0].alone);
-  const Vec3 place = position_of(*explored.model->model.mesh, point);
+  const Vec3 place = position_at(*explored.model->model.mesh, point);
   EXPECT_EQ((explored.places[0].position - place).norm(), 0);
 }
 

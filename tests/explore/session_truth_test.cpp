@@ -78,7 +78,7 @@ TEST_F(SessionTruth, PathsLeadFromTheTargetToTheNearestSource) {
   const Explored& explored = session.explored();
   ASSERT_EQ(explored.paths.size(), 3U) << session.failure();
   const double direct = (explored.model->model.mesh->positions()[60] -
-                         position_of(*explored.model->model.mesh,
+                         position_at(*explored.model->model.mesh,
                                      explored.paths[0].path.points.front()))
                             .norm();
   for (const TargetPath& path : explored.paths) {

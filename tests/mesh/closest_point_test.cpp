@@ -19,7 +19,7 @@ TriangleMesh one_triangle() {
   return *TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}, {{0, 1, 2}});
 }
 
-Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+Vec3 position_at(const TriangleMesh& mesh, const SurfacePoint& point) {
   if (point.is_vertex()) return mesh.positions()[static_cast<std::size_t>(point.vertex)];
   Vec3 p = Vec3::Zero();
   const Face& face = mesh.faces()[static_cast<std::size_t>(point.face)];
@@ -40,7 +40,7 @@ TEST_P(ClosestPoints, AreFoundInFacesOnSidesAndAtCorners) {
   const TriangleMesh mesh = one_triangle();
   const auto found = closest_point(mesh, GetParam().query);
   ASSERT_TRUE(found);
-  EXPECT_LE((position_of(mesh, found->point) - GetParam().closest).norm(), 4 * kRoundOff);
+  EXPECT_LE((position_at(mesh, found->point) - GetParam().closest).norm(), 4 * kRoundOff);
   EXPECT_NEAR(found->distance, (GetParam().query - GetParam().closest).norm(), 10 * kRoundOff);
 }
 

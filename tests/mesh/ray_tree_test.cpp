@@ -53,7 +53,7 @@ double first_of_all_faces(const TriangleMesh& mesh, const Vec3& origin, const Ve
   return static_cast<double>(first);
 }
 
-Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+Vec3 position_at(const TriangleMesh& mesh, const SurfacePoint& point) {
   Vec3 p = Vec3::Zero();
   const Face& face = mesh.faces()[static_cast<std::size_t>(point.face)];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -101,7 +101,7 @@ void expect_same_as_all_faces(const TriangleMesh& mesh, const RayTree& tree, con
   if (!hit) return;
   const double tolerance = kRoundOff * (size + expected * direction.norm());
   EXPECT_NEAR(hit->distance * direction.norm(), expected * direction.norm(), tolerance);
-  EXPECT_LE((position_of(mesh, hit->point) - origin - hit->distance * direction).norm(), tolerance);
+  EXPECT_LE((position_at(mesh, hit->point) - origin - hit->distance * direction).norm(), tolerance);
   expect_valid_weights(hit->point);
 }
 

@@ -14,7 +14,7 @@ TEST(DistanceErrorTest, IsRelativeToTheBetterDistanceAndToTheRange) {
   EXPECT_DOUBLE_EQ(error.max, 0.2);
   EXPECT_DOUBLE_EQ(error.max_of_range, 0.05);
   EXPECT_EQ(error.worst, 2);
-  EXPECT_DOUBLE_EQ(error.mean_signed, (0.1 - 0.2) / 4);
+  EXPECT_NEAR(error.mean_signed, (0.1 - 0.2) / 4, 1e-15);  // differences of decimals
 }
 
 TEST(DistanceErrorTest, LeavesOutWhatIsNotReachedAndCountsDisagreement) {

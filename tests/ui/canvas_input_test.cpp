@@ -38,7 +38,7 @@ class CanvasMouse : public UiTest {
     const auto point = point_in(source, (kCells + 1) * (kCells + 1), 2 * kCells * kCells);
     EXPECT_TRUE(point) << source;
     if (!point) return Vec3::Zero();
-    return position_of(*session_.explored().model->model.mesh, *point);
+    return position_at(*session_.explored().model->model.mesh, *point);
   }
 };
 

@@ -62,7 +62,7 @@ std::array<float, 2> FlatCanvas::lens_centre() const {
 Layout everything_open() {
   Layout layout;
   for (const char* section : {"Model", "Size and triangles", "Sources", "Solver", "A and B", "View",
-                              "Timings", "Quality", "Point", "Compare backends"}) {
+                              "Timings", "Quality", "Exact error", "Point", "Compare backends"}) {
     layout.open[section] = true;
   }
   return layout;
