@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include <optional>
 #include <utility>
 
 #include "bench/contender.h"
-#include "solver/heat/heat_method.h"
+#include "solver/method/build_method.h"
 
 namespace geotherm::bench {
 namespace {
 
 class BackendContender final : public Contender {
  public:
-  BackendContender(std::string backend, int threads) {
-    options_.backend = std::move(backend);
+  BackendContender(std::string name, int threads) : name_(std::move(name)) {
+    const auto method = parse_method(name_);
+    if (method && *method != MethodKind::kHeat) {
+      options_.method = *method;
+    } else {
+      options_.backend = name_;
+    }
     options_.threads = threads;
   }
 
-  std::string name() const override { return options_.backend; }
+  std::string name() const override { return name_; }
 
   Result<void> set_up(std::shared_ptr<const TriangleMesh> mesh) override {
     method_.reset();
-    auto built = HeatMethod::build(std::move(mesh), options_);
+    auto built = build_method(std::move(mesh), options_);
     if (!built) return built.error();
-    method_ = std::move(*built);
+    method_ = *std::move(built);
     return {};
   }
 
@@ -41,20 +45,21 @@ class BackendContender final : public Contender {
     return {};
   }
 
-  double memory_mb() const override { return method_->memory_mb(); }
+  double factor_mb() const override { return method_->memory_mb(); }
 
  private:
   /// Other libraries compute no quality figures.
   static constexpr QueryOptions kDistancesOnly{.quality = false, .fields = false};
 
-  HeatOptions options_;
-  std::optional<HeatMethod> method_;
+  std::string name_;
+  MethodOptions options_;
+  std::shared_ptr<const DistanceMethod> method_;
 };
 
 }  // namespace
 
-std::unique_ptr<Contender> make_backend_contender(std::string backend, int threads) {
-  return std::make_unique<BackendContender>(std::move(backend), threads);
+std::unique_ptr<Contender> make_contender(std::string name, int threads) {
+  return std::make_unique<BackendContender>(std::move(name), threads);
 }
 
 }  // namespace geotherm::bench

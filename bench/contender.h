@@ -34,8 +34,9 @@ class Contender {
   virtual double factor_mb() const = 0;
 };
 
-/// geotherm with this backend and its default options. `threads` 0: all cores.
-std::unique_ptr<Contender> make_backend_contender(std::string backend, int threads);
+/// geotherm with this backend of the heat method, or with another method, and default options.
+/// `threads` 0: all cores.
+std::unique_ptr<Contender> make_contender(std::string name, int threads);
 
 /// What the backends are held against; null in a build without CHOLMOD.
 std::unique_ptr<Contender> make_baseline_contender();

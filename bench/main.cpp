@@ -19,6 +19,13 @@
 namespace geotherm::bench {
 namespace {
 
+/// The backends of the heat method, and the methods without one that may serve instead of it.
+std::vector<std::string> solver_names() {
+  std::vector<std::string> names = backend_names();
+  names.insert(names.end(), {"wavefront", "wavefront-fine"});
+  return names;
+}
+
 constexpr Index kLoadFaces = 1'000'000;
 
 struct Arguments {
@@ -52,7 +59,7 @@ int run(const Arguments& arguments) {
 
   const SolvePlan plan{.quick = arguments.quick,
                        .threads = arguments.threads,
-                       .backends = backend_names(),
+                       .backends = solver_names(),
                        .only = std::regex(arguments.only)};
   print(solve_heading(), out);
   const auto groups = measure_solves(plan, say, [&](const SolveGroup& group) {

@@ -91,7 +91,7 @@ SolveGroup measure_case(const Case& c, const std::vector<std::string>& backends,
   std::vector<std::unique_ptr<Contender>> contenders;
   contenders.reserve(backends.size() + 1);
   for (const std::string& backend : backends) {
-    contenders.push_back(make_backend_contender(backend, plan.threads));
+    contenders.push_back(make_contender(backend, plan.threads));
   }
   if (auto baseline = make_baseline_contender()) contenders.push_back(std::move(baseline));
 

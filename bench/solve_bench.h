@@ -32,7 +32,7 @@ struct Growth {
 struct SolvePlan {
   bool quick = false;
   int threads = 0;                    ///< 0: all cores
-  std::vector<std::string> backends;  ///< that this build has
+  std::vector<std::string> backends;  ///< that this build has, and other methods
   std::regex only;                    ///< rows "MESH-THOUSANDSk/BACKEND" in which it is found
 };
 

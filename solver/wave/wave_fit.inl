@@ -102,20 +102,6 @@ inline Fit fit_wave(double centre, double half, double left, double middle, doub
   return fit;
 }
 
-constexpr double kDisagree = 0.03;
-
-inline void agree(Fit& first, Fit& second) {
-  if (first.kind != Fit::Kind::kWave || second.kind != Fit::Kind::kWave) return;
-  const double rise = first.k * first.half - first.ux;
-  const double run = 1 + first.k * (first.right - first.middle);
-  const double other_rise = -second.k * second.half - second.ux;
-  const double other_run = 1 + second.k * (second.left - second.middle);
-  const double off = rise * other_run - other_rise * run;
-  const double bound = kDisagree * run * other_run;
-  if (off <= bound && off >= -bound) return;
-  first.kind = second.kind = Fit::Kind::kKinked;
-}
-
 /// The same seen from a face whose side runs the other way.
 inline Fit mirrored(const Fit& fit) {
   Fit out = fit;
@@ -142,6 +128,7 @@ struct Front {
   double a, b;
   Index label_a, label_b;
   Fit fits[(Samples + 1) / 2];
+  Fit whole;
   Index labels[Samples];
 };
 
@@ -154,6 +141,7 @@ Front<Samples> mirrored(const Front<Samples>& front) {
   out.label_b = front.label_a;
   constexpr int kFits = (Samples + 1) / 2;
   for (int i = 0; i < kFits; ++i) out.fits[i] = mirrored(front.fits[kFits - 1 - i]);
+  out.whole = mirrored(front.whole);
   for (int i = 0; i < Samples; ++i) out.labels[i] = front.labels[Samples - 1 - i];
   return out;
 }
@@ -196,7 +184,14 @@ typename Register<Width>::Values arrival(const Front<Samples>& front, double hal
   }
   for (const Fit& fit : front.fits) {
     if (fit.kind == Fit::Kind::kWave) {
-      const Values value = wave<Values, typename Register<Width>::Mask>(fit, x, y, yy);
+      Values value = wave<Values, typename Register<Width>::Mask>(fit, x, y, yy);
+      if constexpr (Samples == 3) {
+        if (front.whole.kind == Fit::Kind::kWave) {
+          const Values far = Values{} + kFar;
+          const Values other = wave<Values, typename Register<Width>::Mask>(front.whole, x, y, yy);
+          value = (other > value) & (other < far) ? other : value;
+        }
+      }
       best = value < best ? value : best;
     } else if (fit.kind == Fit::Kind::kKinked) {
       for (int i = 0; i < Width; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));
