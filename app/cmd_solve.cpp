@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "app/error_check.h"
+#include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/report_table.h"
 #include "app/solve_model.h"
-#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
 
@@ -25,12 +25,6 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
-}
-
-/// Files with the mesh, to which a property can be added without harm.
-bool holds_mesh(const std::string& path) {
-  const std::string extension = io::file_extension(path);
-  return extension == ".ply" || extension == ".vtp";
 }
 
 bool needs_nearest(const std::vector<std::string>& paths) {

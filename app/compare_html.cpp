@@ -4,6 +4,7 @@
 
 #include "app/compare_report.h"
 #include "app/error_check.h"
+#include "app/markup.h"
 #include "app/text.h"
 
 namespace geotherm::app {
@@ -27,29 +28,6 @@ th, td { padding: .35rem .6rem; white-space: nowrap; } .name { text-align: left;
 svg text { font: 12px system-ui, sans-serif; fill: var(--ink); } svg .soft { fill: var(--soft); }
 .setup { fill: var(--setup); } .query { fill: var(--query); } .grid { stroke: var(--line); }
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string cell(const std::optional<double>& value) {
   return "<td>" + (value ? milliseconds(*value) : std::string("&ndash;")) + "</td>";

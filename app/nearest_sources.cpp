@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/mesh/io/file_extension.h"
+
 namespace geotherm::app {
 
 Result<std::vector<Index>> nearest_sources(const std::shared_ptr<const TriangleMesh>& mesh,
@@ -25,6 +27,11 @@ Result<std::vector<Index>> nearest_sources(const std::shared_ptr<const TriangleM
   auto result = (*method)->solve(sources, {.quality = false, .nearest = true}, progress);
   if (!result) return result.error();
   return std::move(result->nearest_source);
+}
+
+bool holds_mesh(const std::string& path) {
+  const std::string extension = io::file_extension(path);
+  return extension == ".ply" || extension == ".vtp";
 }
 
 std::vector<Region> regions_of(const SourceSet& sources, std::span<const Index> nearest) {

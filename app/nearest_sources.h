@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solver/method/build_method.h"
@@ -18,6 +19,10 @@ Result<std::vector<Index>> nearest_sources(const std::shared_ptr<const TriangleM
                                            const SourceSet& sources,
                                            std::span<const double> distances, int threads,
                                            const Progress& progress);
+
+/// Whether a file of distances holds the mesh as well, so that a property can be added to it without
+/// harm: .ply and .vtp.
+bool holds_mesh(const std::string& path);
 
 /// One source with what it is nearest to.
 struct Region {

@@ -3,6 +3,7 @@
 #include "app/explore/session_state.h"
 #include "app/load_model.h"
 #include "app/machine.h"
+#include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/report_json.h"
 #include "app/text.h"
@@ -49,8 +50,16 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
       difference ? explored.difference->values : answer->result.distances;
   auto outputs = output_file(session.state().model, save.path, "save distances");
   if (!outputs) return outputs.error();
-  return outputs->write(
-      save.path, [&] { return write_distances(save.path, *explored.model->model.mesh, values); });
+  const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
+  std::vector<Index> nearest;
+  if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
+    auto found =
+        nearest_sources(mesh, explored.set, answer->result.distances, answer->options.threads, {});
+    if (!found) return found.error();
+    nearest = *std::move(found);
+  }
+  return outputs->write(save.path,
+                        [&] { return write_distances(save.path, *mesh, values, nearest); });
 }
 
 Result<void> save_figures(const command::SaveFigures& save, const Session& session) {

@@ -5,6 +5,7 @@
 
 #include "app/lines/line_picture.h"
 #include "app/lines/visible_lines.h"
+#include "app/markup.h"
 #include "app/picture/ticks.h"
 #include "app/text.h"
 
@@ -48,14 +49,6 @@ Colour colour_at(double share, const Style& style) {
   const auto i = static_cast<std::size_t>(std::min(at, kLast - 1));
   return between(between(kNearToFar[i], kNearToFar[i + 1], at - static_cast<double>(i)),
                  {255, 255, 255}, style.towards_white);
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : one_line(text)) {
-    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return out;
 }
 
 /// The commands of a path; two decimals are a fiftieth of what the eye sees.
@@ -151,7 +144,7 @@ class SvgDrawing {
   void write(double x, double y, const std::string& text, const char* anchor) {
     svg_ += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" font-size=\"" +
             fixed(13 * unit_, 1) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
-            text_of(style_.text) + "\">" + escaped(text) + "</text>\n";
+            text_of(style_.text) + "\">" + escaped(one_line(text)) + "</text>\n";
   }
 
   /// The colours of the distances, 0 at the bottom.

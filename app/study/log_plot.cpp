@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/markup.h"
 #include "app/text.h"
 
 namespace geotherm::app {
@@ -59,7 +60,7 @@ std::string line(double x1, double y1, double x2, double y2, const char* kind) {
 std::string label(double x, double y, const char* anchor, const std::string& text,
                   const char* kind = "soft") {
   return std::string("<text class=\"") + kind + "\" text-anchor=\"" + anchor + "\" x=\"" +
-         number(x) + "\" y=\"" + number(y) + "\">" + xml_text(text) + "</text>\n";
+         number(x) + "\" y=\"" + number(y) + "\">" + escaped(text) + "</text>\n";
 }
 
 std::string stroke(const Curve& curve) {
@@ -95,29 +96,6 @@ std::string names(const LogPlot& plot, double x, double y) {
 }
 
 }  // namespace
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string plot_svg(const LogPlot& plot, double x, double y, double width, double height) {
   const Axis across = x_axis(plot, x, x + width);

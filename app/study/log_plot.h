@@ -25,7 +25,4 @@ struct LogPlot {
 /// and the curves' names below.
 std::string plot_svg(const LogPlot& plot, double x, double y, double width, double height);
 
-/// &, <, > and quotes as entities.
-std::string xml_text(const std::string& text);
-
 }  // namespace geotherm::app

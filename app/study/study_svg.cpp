@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/error_check.h"
+#include "app/markup.h"
 #include "app/study/log_plot.h"
 #include "app/study/study_report.h"
 #include "app/text.h"
@@ -116,7 +117,7 @@ std::string study_svg(const std::string& model, const Study& study) {
          std::string(kStyle) +
          "</style>\n<rect width=\"1110\" height=\"540\" fill=\"#ffffff\"/>\n" +
          "<text class=\"head\" x=\"62\" y=\"36\">Mean error of the heat method on " +
-         xml_text(one_line(model)) + "</text>\n<text class=\"soft\" x=\"62\" y=\"58\">against " +
+         escaped(one_line(model)) + "</text>\n<text class=\"soft\" x=\"62\" y=\"58\">against " +
          to_text(study.reference) + found + "</text>\n" + body + "</svg>\n";
 }
 

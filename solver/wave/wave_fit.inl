@@ -128,7 +128,6 @@ struct Front {
   double a, b;
   Index label_a, label_b;
   Fit fits[(Samples + 1) / 2];
-  Fit whole;
   Index labels[Samples];
 };
 
@@ -141,7 +140,6 @@ Front<Samples> mirrored(const Front<Samples>& front) {
   out.label_b = front.label_a;
   constexpr int kFits = (Samples + 1) / 2;
   for (int i = 0; i < kFits; ++i) out.fits[i] = mirrored(front.fits[kFits - 1 - i]);
-  out.whole = mirrored(front.whole);
   for (int i = 0; i < Samples; ++i) out.labels[i] = front.labels[Samples - 1 - i];
   return out;
 }
@@ -184,14 +182,7 @@ typename Register<Width>::Values arrival(const Front<Samples>& front, double hal
   }
   for (const Fit& fit : front.fits) {
     if (fit.kind == Fit::Kind::kWave) {
-      Values value = wave<Values, typename Register<Width>::Mask>(fit, x, y, yy);
-      if constexpr (Samples == 3) {
-        if (front.whole.kind == Fit::Kind::kWave) {
-          const Values far = Values{} + kFar;
-          const Values other = wave<Values, typename Register<Width>::Mask>(front.whole, x, y, yy);
-          value = (other > value) & (other < far) ? other : value;
-        }
-      }
+      const Values value = wave<Values, typename Register<Width>::Mask>(fit, x, y, yy);
       best = value < best ? value : best;
     } else if (fit.kind == Fit::Kind::kKinked) {
       for (int i = 0; i < Width; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));

@@ -103,7 +103,6 @@ class Wave {
     if constexpr (Samples == 1) {
       front.fits[0] = fit_wave(0, length / 2, a, w[0], b);
     } else {
-      front.whole = fit_wave(0, length / 2, a, w[1], b);
       front.fits[0] = fit_wave(-length / 4, length / 4, a, w[0], w[1]);
       front.fits[1] = fit_wave(length / 4, length / 4, w[1], w[2], b);
     }

@@ -12,8 +12,8 @@ class ProgramTruthRender : public Program {
   ProgramTruthRender() { run({"generate", "terrain", "--faces", "800", "-o", "small.ply"}); }
 
   Json picture(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {"render", "small.ply", "--size", "320x240", "-o",
-                                          "p.png",  "--json",    "-"};
+    std::vector<std::string> arguments = {"render", "small.ply", "--size", "320x240",
+                                          "-o",     "p.png",     "--json", "-"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return json(arguments);
   }

@@ -24,11 +24,11 @@ TEST_F(ProgramTruth, EveryMethodHasAllKeysOfSolve) {
                 keys({"method", "backend", "time_step", "time_factor", "t", "constraint", "heat",
                       "boundary", "laplacian", "threads"}),
                 name + " options.");
-    expect_keys(solved["quality"],
-                keys({"heat_residual", "poisson_residual", "max_source_distance",
-                      "eikonal_error_mean", "zero_gradient_faces", "iterations_heat",
-                      "iterations_poisson"}),
-                name + " quality.");
+    expect_keys(
+        solved["quality"],
+        keys({"heat_residual", "poisson_residual", "max_source_distance", "eikonal_error_mean",
+              "zero_gradient_faces", "iterations_heat", "iterations_poisson"}),
+        name + " quality.");
     EXPECT_EQ(solved["options"]["method"], name);
     EXPECT_EQ(solved["options"]["t"].is_null(), name != "heat");
     EXPECT_EQ(solved["distance"]["min"], 0.0);
@@ -57,8 +57,8 @@ TEST_F(ProgramTruth, CheckHoldsHeatAgainstExact) {
 }
 
 TEST_F(ProgramTruth, OffsetsHoldSourcesBack) {
-  const Json solved = json(
-      {"solve", "small.ply", "-s", "3,400@0.001", "--method", "wavefront", "--json", "-"});
+  const Json solved =
+      json({"solve", "small.ply", "-s", "3,400@0.001", "--method", "wavefront", "--json", "-"});
   EXPECT_EQ(solved["source_offsets"], Json::array({0.001, 0.001}));
   const ProgramRun heat = run_program(folder.path("."), {"solve", "small.ply", "-s", "3@0.5"});
   EXPECT_NE(heat.code, 0);
@@ -107,7 +107,8 @@ TEST_F(ProgramTruth, CompareHasErrorsAndOtherMethods) {
 }
 
 TEST_F(ProgramTruth, StudySweepsRulesModesAndBoundaries) {
-  const Json study = json({"study", "small.ply", "-s", "3", "--factors", "0.1:10:3", "--json", "-"});
+  const Json study =
+      json({"study", "small.ply", "-s", "3", "--factors", "0.1:10:3", "--json", "-"});
   constexpr std::size_t kRules = 2, kFactors = 3, kBoundaries = 3;  // the terrain has a border
   EXPECT_EQ(study["rows"].size(),
             kRules * kFactors * kBoundaries * app::study_constraints().size());
@@ -126,11 +127,11 @@ TEST_F(ProgramTruth, StudyRowsAreWhatSolveGives) {
   for (const Json& row : study["rows"]) {
     if (row["time_factor"] != 10 || row["boundary"] != "dirichlet") continue;
     if (row["constraint"] != "conserve-energy" || row["time_step"] != "mean-face-area") continue;
-    const Json solved = json({"solve", "small.ply", "-s", "3", "--check", "-m", "10", "--boundary",
-                              "dirichlet", "--constraint", "conserve-energy", "--time-step",
-                              "mean-face-area", "--json", "-"});
-    EXPECT_NEAR(row["mean_relative"].get<double>(),
-                solved["error"]["mean_relative"].get<double>(), 1e-9);
+    const Json solved =
+        json({"solve", "small.ply", "-s", "3", "--check", "-m", "10", "--boundary", "dirichlet",
+              "--constraint", "conserve-energy", "--time-step", "mean-face-area", "--json", "-"});
+    EXPECT_NEAR(row["mean_relative"].get<double>(), solved["error"]["mean_relative"].get<double>(),
+                1e-9);
     EXPECT_NEAR(row["t"].get<double>(), solved["options"]["t"].get<double>(), 1e-12);
     return;
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "app/explore/apply.h"
 #include "app/explore/explored_picture.h"
@@ -77,10 +79,10 @@ TEST_F(SessionTruth, PathsLeadFromTheTargetToTheNearestSource) {
   run({"open " + small_model(), "source set 5 40", "target 60"});
   const Explored& explored = session.explored();
   ASSERT_EQ(explored.paths.size(), 3U) << session.failure();
-  const double direct = (explored.model->model.mesh->positions()[60] -
-                         position_at(*explored.model->model.mesh,
-                                     explored.paths[0].path.points.front()))
-                            .norm();
+  const double direct =
+      (explored.model->model.mesh->positions()[60] -
+       position_at(*explored.model->model.mesh, explored.paths[0].path.points.front()))
+          .norm();
   for (const TargetPath& path : explored.paths) {
     const Index start = path.path.points.front().vertex;
     EXPECT_TRUE(start == 5 || start == 40);
@@ -92,6 +94,17 @@ TEST_F(SessionTruth, PathsLeadFromTheTargetToTheNearestSource) {
   EXPECT_EQ(shown().lines.size(), 3U);
   run({"target none"});
   EXPECT_TRUE(session.explored().paths.empty());
+}
+
+TEST_F(SessionTruth, SavedDistancesNameTheNearestSource) {
+  run({"open " + small_model(), "source set 5 40", "save distances " + folder() + "d.ply",
+       "save distances " + folder() + "d.csv"});
+  const auto text = [&](const char* name) {
+    std::ifstream file(folder() + name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_NE(text("d.ply").find("property int nearest_source"), std::string::npos);
+  EXPECT_EQ(text("d.csv").find("nearest_source"), std::string::npos);
 }
 
 TEST_F(SessionTruth, AMethodWithoutHeatHasNoPathOfHeat) {
@@ -118,7 +131,8 @@ TEST_F(SessionTruth, OffsetsHoldTheDistanceBack) {
 }
 
 TEST_F(SessionTruth, ComparesMethodsWithTheirErrors) {
-  run({"open " + small_model(), "source set 5", "compare " + backend_names().front() + ",wavefront,exact"});
+  run({"open " + small_model(), "source set 5",
+       "compare " + backend_names().front() + ",wavefront,exact"});
   const auto& rows = session.compare().rows;
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_EQ(rows[1].name(), "wavefront");

@@ -143,6 +143,12 @@ TEST_F(CanvasMouse, ControlAndClickPicksAPoint) {
   EXPECT_TRUE(only<app::command::Pick>().point);
 }
 
+TEST_F(CanvasMouse, ControlShiftAndClickSetsTheTargetOfPaths) {
+  hold(true, true, false);
+  click(seen(0.5, 0.6).x, seen(0.5, 0.6).y);
+  EXPECT_TRUE(only<app::command::Target>().point);
+}
+
 TEST_F(CanvasMouse, DoubleClickSetsTheCentreAndGivesTheSourcesBack) {
   run("source set 3 5");
   sent();
@@ -262,6 +268,7 @@ INSTANTIATE_TEST_SUITE_P(Entries, PointMenu,
                                                      "source remove 0"},
                                            MenuEntry{"Turn about this point", "camera centre"},
                                            MenuEntry{"Show figures here", "pick face:"},
+                                           MenuEntry{"Paths from here", "target face:"},
                                            MenuEntry{"Whole model", "camera frame"},
                                            MenuEntry{"Clear sources", "source clear"}));
 

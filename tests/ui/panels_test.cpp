@@ -82,11 +82,10 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     ExactError, PanelClicks,
-    ::testing::Values(
-        Click{"", {"Exact error/check", "Exact error/check=auto"}, {"check auto"}},
-        Click{"check exact", {"Exact error/show"}, {"view exact-error"}},
-        Click{"", {"Menu/View", "Menu/Exact error"}, {"view exact-error"}},
-        Click{"", {"Menu/View", "Menu/Nearest sources"}, {"view regions"}}));
+    ::testing::Values(Click{"", {"Exact error/check", "Exact error/check=auto"}, {"check auto"}},
+                      Click{"check exact", {"Exact error/show"}, {"view exact-error"}},
+                      Click{"", {"Menu/View", "Menu/Exact error"}, {"view exact-error"}},
+                      Click{"", {"Menu/View", "Menu/Nearest sources"}, {"view regions"}}));
 
 INSTANTIATE_TEST_SUITE_P(
     Others, PanelClicks,
