@@ -182,7 +182,10 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
     if (!some) return some.error();
     rows.insert(rows.end(), some->begin(), some->end());
   }
-  note_unused_options(arguments.method, plan->task.solvers.front(), out.warnings);
+  const auto& solvers = plan->task.solvers;
+  const auto heat = std::ranges::find(solvers, MethodKind::kHeat, &MethodOptions::method);
+  note_unused_options(arguments.method, heat == solvers.end() ? solvers.front() : *heat,
+                      out.warnings);
   if (auto done = write_reports(arguments, rows, outputs, out); !done) return done.error();
   out.made = outputs.made();
   return out;

@@ -13,6 +13,7 @@
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
 #include "app/solve_model.h"
+#include "app/solve_steps.h"
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/io/file_extension.h"
@@ -62,7 +63,8 @@ bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
 /// Adds the paths to one target; gives what is to be said about them.
 Result<std::vector<std::string>> draw_paths(const std::string& text, const SolveFigures& solved,
-                                            PictureData& data, const Progress& progress) {
+                                            PictureData& data, const Progress& progress,
+                                            PictureFigures& figures) {
   auto spec = parse_source(text);
   if (!spec) return Error{ErrorCode::kBadInput, "--path: " + spec.error().message};
   if (!is_single_point(*spec)) {
@@ -80,8 +82,14 @@ Result<std::vector<std::string>> draw_paths(const std::string& text, const Solve
   if (!near_exact) return near_exact.error();
   const TargetPathFinder finder(solved.model.mesh, *std::move(near_exact), solved.method);
   auto found = finder.find(solved.sources, placed->set.points.front(), progress);
-  if (!found) return Error{found.error().code, target.where + ": " + found.error().message};
+  if (!found) {
+    return about_model(solved.model.name,
+                       {found.error().code, target.where + ": " + found.error().message});
+  }
   add_paths(data, mesh, found->paths);
+  for (const TargetPath& path : found->paths) {
+    figures.lines.push_back({text, to_text(path.field), path.path.length});
+  }
   placed->warnings.insert(placed->warnings.end(), found->warnings.begin(), found->warnings.end());
   return placed->warnings;
 }
@@ -122,11 +130,16 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
     auto report = check_error(mesh, options.method, solved->result.distances, solved->sources,
                               options.threads, with_prefix(progress, "checking: "));
     if (!report) return report.error();
+    if (report->values.empty()) {
+      return Error{ErrorCode::kBadInput, "--view exact-error: there is nothing to hold --method " +
+                                             to_text(options.method) + " against: " +
+                                             report->verdict + "; choose another view"};
+    }
     add_error(data, report->values, error_title(*report));
     solved->error = *std::move(report);
   }
   for (const std::string& target : arguments.targets) {
-    auto warned = draw_paths(target, *solved, data, progress);
+    auto warned = draw_paths(target, *solved, data, progress, figures);
     if (!warned) return warned.error();
     solved->warnings.insert(solved->warnings.end(), warned->begin(), warned->end());
   }

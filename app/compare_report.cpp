@@ -15,7 +15,7 @@ Json row_json(const CompareRow& row) {
   return {{"model", row.model},
           {"vertices", row.vertices},
           {"faces", row.faces},
-          {"backend", row.backend.empty() ? Json(nullptr) : Json(row.backend)},
+          {"backend", row.name()},
           {"setup_ms", figure(row.setup_ms)},
           {"query_ms_median", figure(row.query_ms_median)},
           {"query_ms_min", figure(row.query_ms_min)},

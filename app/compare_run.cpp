@@ -177,22 +177,6 @@ void measure_difference(const Answers& answers, const Answers& reference, Compar
   row.mean_difference = sum / count;
 }
 
-/// Which method is the more accurate, by rank.
-int rank(MethodKind kind) {
-  switch (kind) {
-    case MethodKind::kHeat:
-    case MethodKind::kFastMarching:
-      return 0;
-    case MethodKind::kWavefront:
-      return 1;
-    case MethodKind::kWavefrontFine:
-      return 2;
-    case MethodKind::kExact:
-      break;
-  }
-  return 3;
-}
-
 /// Better distances for the first queries; empty where they could not be had.
 Answers better_answers(const Model& model, const CompareTask& task, MethodKind kind,
                        const Progress& progress) {
@@ -260,7 +244,7 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
     Answers answers = Runner(task, named).run(model, task.solvers[i], row);
     if (row.status == "cancelled") return cancelled_error();
     if (row.status != "ok") continue;
-    if (rank(row.method) < rank(best)) measure_error(answers, better, row);
+    if (is_better(best, row.method)) measure_error(answers, better, row);
     const bool is_reference = row.name() == task.reference;
     if (is_reference) reference = std::move(answers);
     if (reference.empty()) {

@@ -16,12 +16,11 @@ constexpr double kNearExact = 1e-3, kGood = 0.02, kFair = 0.05;
 constexpr int kBins = 41;
 
 std::string cure(MethodKind checked) {
-  if (checked != MethodKind::kHeat) return "the mesh is too coarse for this method";
-  return "try another --time-factor, or --method wavefront";
+  if (checked != MethodKind::kHeat) return "the method wavefront is nearer";
+  return "try another time factor, or the method wavefront";
 }
 
-std::string verdict_of(MethodKind checked, MethodKind reference, const DistanceError& e) {
-  if (checked == reference) return "this is the most accurate method there is";
+std::string verdict_of(MethodKind checked, const DistanceError& e) {
   if (e.worst == kNoIndex) return "no vertex has both distances";
   if (e.differently_reached > 0) {
     return counted(e.differently_reached, "vertex is", "vertices are") +
@@ -29,7 +28,7 @@ std::string verdict_of(MethodKind checked, MethodKind reference, const DistanceE
   }
   if (e.mean_relative <= kNearExact) return "near exact";
   if (e.mean_relative <= kGood) return "good";
-  if (e.mean_relative <= kFair) return "fair: " + cure(checked) + " for less";
+  if (e.mean_relative <= kFair) return "fair: " + cure(checked);
   return "poor: " + cure(checked);
 }
 
@@ -41,16 +40,23 @@ std::string error_title(const ErrorReport& report) {
 
 std::string percent(double share) { return significant(100 * share, 2) + " %"; }
 
-ErrorReport error_report(MethodKind checked, std::span<const double> distances,
-                         MethodKind reference, std::span<const double> better,
-                         double milliseconds) {
+ErrorReport error_report(std::span<const double> distances, MethodKind reference,
+                         std::span<const double> better, MethodKind checked, double milliseconds) {
   ErrorReport report;
   report.reference = reference;
   report.figures = distance_error(distances, better);
   report.values = signed_error(distances, better);
   report.histogram = error_histogram(report.values, kBins);
-  report.verdict = verdict_of(checked, reference, report.figures);
+  report.verdict = verdict_of(checked, report.figures);
   report.milliseconds = milliseconds;
+  return report;
+}
+
+ErrorReport unchecked(MethodKind checked) {
+  ErrorReport report;
+  report.reference = checked;
+  report.verdict = checked == MethodKind::kExact ? "this is the most accurate method there is"
+                                                 : "nothing more accurate fits a mesh of this size";
   return report;
 }
 
@@ -60,19 +66,13 @@ Result<ErrorReport> check_error(const std::shared_ptr<const TriangleMesh>& mesh,
   MethodOptions options;
   options.method = reference_for(checked, mesh->face_count());
   options.threads = threads;
-  if (options.method == checked) {  // nothing to hold it against
-    ErrorReport itself;
-    itself.reference = checked;
-    itself.values = signed_error(distances, distances);
-    itself.verdict = verdict_of(checked, checked, itself.figures);
-    return itself;
-  }
+  if (!is_better(options.method, checked)) return unchecked(checked);
   const Stopwatch watch;
   const auto method = build_method(mesh, options, part_of(progress, 0.0, 0.1));
   if (!method) return method.error();
   const auto better = (*method)->solve(sources, {.quality = false}, part_of(progress, 0.1, 1.0));
   if (!better) return better.error();
-  return error_report(checked, distances, options.method, better->distances, watch.milliseconds());
+  return error_report(distances, options.method, better->distances, checked, watch.milliseconds());
 }
 
 }  // namespace geotherm::app

@@ -13,7 +13,7 @@
 namespace geotherm::app {
 
 struct ErrorReport {
-  MethodKind reference = MethodKind::kExact;
+  MethodKind reference = MethodKind::kExact;  ///< the method itself: there is nothing better
   DistanceError figures;
   ErrorHistogram histogram;    ///< of the values
   std::vector<double> values;  ///< V: d - d_reference; infinite where either is
@@ -21,9 +21,12 @@ struct ErrorReport {
   double milliseconds = 0;     ///< that the reference took, set-up and query
 };
 
-/// Holds distances of `checked` against distances of `reference`.
-ErrorReport error_report(MethodKind checked, std::span<const double> distances,
-                         MethodKind reference, std::span<const double> better, double milliseconds);
+/// Holds distances of `checked` against those of a better method.
+ErrorReport error_report(std::span<const double> distances, MethodKind reference,
+                         std::span<const double> better, MethodKind checked, double milliseconds);
+
+/// What is to be said where there is nothing better to hold the method against; no values.
+ErrorReport unchecked(MethodKind checked);
 
 /// Solves with the more accurate method that fits the mesh (reference_for()). Errors: those of
 /// build_method() and its queries.

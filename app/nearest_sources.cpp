@@ -22,9 +22,10 @@ Result<std::vector<Index>> nearest_sources(const std::shared_ptr<const TriangleM
   MethodOptions options;
   options.method = MethodKind::kWavefront;
   options.threads = threads;
-  const auto method = build_method(mesh, options, progress);
+  const auto method = build_method(mesh, options, part_of(progress, 0.0, 0.5));
   if (!method) return method.error();
-  auto result = (*method)->solve(sources, {.quality = false, .nearest = true}, progress);
+  auto result =
+      (*method)->solve(sources, {.quality = false, .nearest = true}, part_of(progress, 0.5, 1.0));
   if (!result) return result.error();
   return std::move(result->nearest_source);
 }

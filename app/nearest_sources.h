@@ -20,8 +20,8 @@ Result<std::vector<Index>> nearest_sources(const std::shared_ptr<const TriangleM
                                            std::span<const double> distances, int threads,
                                            const Progress& progress);
 
-/// Whether a file of distances holds the mesh as well, so that a property can be added to it without
-/// harm: .ply and .vtp.
+/// Whether a file of distances holds the mesh as well, so that a property can be added to it
+/// without harm: .ply and .vtp.
 bool holds_mesh(const std::string& path);
 
 /// One source with what it is nearest to.

@@ -61,10 +61,12 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
 
 void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command
-      .add_option("-s,--source", arguments.sources,
-                  "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
-                  "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z; may be "
-                  "repeated, all are one source set")
+      .add_option(
+          "-s,--source", arguments.sources,
+          "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
+          "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z; points may "
+          "end in @OFFSET, the distance there; may be "
+          "repeated, all are one source set")
       ->type_name("SOURCES")
       ->expected(1)
       ->allow_extra_args(false)
@@ -104,6 +106,25 @@ Result<MethodOptions> method_options(const MethodArguments& a) {
 
 void note_unused_options(const MethodArguments& arguments, const MethodOptions& options,
                          std::vector<std::string>& warnings) {
+  if (options.method != MethodKind::kHeat) {
+    const MethodArguments usual;
+    std::vector<std::string> unused;
+    const auto look = [&](const char* name, const std::string& typed, const std::string& standard) {
+      if (typed != standard) unused.emplace_back(name);
+    };
+    look("--backend", arguments.backend, usual.backend);
+    look("--time-step", arguments.time_step, usual.time_step);
+    look("--time-factor", arguments.time_factor, usual.time_factor);
+    look("--constraint", arguments.constraint, usual.constraint);
+    look("--heat", arguments.heat, usual.heat);
+    look("--boundary", arguments.boundary, usual.boundary);
+    look("--laplacian", arguments.laplacian, usual.laplacian);
+    look("--variant", arguments.variant, usual.variant);
+    if (unused.empty()) return;
+    warnings.push_back("the method " + to_text(options.method) + " does not use " + joined(unused) +
+                       "; these are options of --method heat");
+    return;
+  }
   if (options.time_step.rule != TimeRule::kAbsolute || arguments.time_factor.empty()) return;
   warnings.push_back("--time-factor " + arguments.time_factor + " is not used: --time-step " +
                      arguments.time_step + " is the time itself; leave one of them out");

@@ -19,9 +19,7 @@ std::string range_of(const PictureScale& scale) {
   return number_text(scale.min) + ":" + number_text(scale.max);
 }
 
-bool has_colours(const PictureFigures& f) {
-  return f.solve && maps_values(f.settings.view);
-}
+bool has_colours(const PictureFigures& f) { return f.solve && maps_values(f.settings.view); }
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
 void add(std::vector<PngText>& texts, const std::string& name, const std::string& value) {
@@ -127,6 +125,10 @@ Json picture_json(const PictureFigures& f) {
   picture["device"] = {
       {"name", f.device.name}, {"kind", f.device.kind}, {"software", f.device.software}};
   picture["timing_ms"] = {{"draw", f.draw_ms}, {"write", f.write_ms}};
+  for (const PictureFigures::Line& line : f.lines) {
+    picture["paths"].push_back(
+        {{"to", line.target}, {"field", line.field}, {"length", line.length}});
+  }
   json["picture"] = std::move(picture);
   return json;
 }
@@ -142,6 +144,10 @@ std::string picture_table(const PictureFigures& f) {
                      counted(s.samples, "sample", "samples") + " a pixel"});
   table.add_row({"view", view_in_words(f)});
   table.add_row({"model", caption_of(f)});
+  for (const PictureFigures::Line& line : f.lines) {
+    table.add_row({"path", line.field + " to " + one_line(line.target) + ": " +
+                               significant(line.length, 6) + " long"});
+  }
   table.add_row({"device", device_in_words(f.device)});
   std::string time;
   if (f.solve) {

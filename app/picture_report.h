@@ -23,7 +23,12 @@ struct PictureFigures {
   PictureSettings settings;
   PictureScale scale;
   DrawingDevice device;
-  std::vector<std::string> paths;    ///< one a frame
+  std::vector<std::string> paths;  ///< one a frame
+  struct Line {
+    std::string target, field;
+    double length = 0;  ///< model units
+  };
+  std::vector<Line> lines;           ///< paths that are drawn
   double draw_ms = 0, write_ms = 0;  ///< all frames together
 };
 

@@ -64,12 +64,27 @@ void draw_picked(Frame& frame) {
   }
 }
 
+void draw_paths(Frame& frame) {
+  if (!frame.state().target) return;
+  draw_heading(frame, "Paths");
+  for (const app::TargetPath& path : frame.explored().paths) {
+    draw_value(frame, to_text(path.field), app::significant(path.path.length, 5), "",
+               "Length from the nearest source to the target, model units.");
+  }
+  const std::string& failure = frame.explored().path_failure;
+  if (!failure.empty()) draw_note(failure, frame.colours().warning);
+  if (draw_button(frame, "forget paths", "Forget paths")) {
+    frame.send(app::command::Target{std::nullopt});
+  }
+}
+
 }  // namespace
 
 void draw_point_panel(Frame& frame) {
   if (!draw_section(frame, "Point")) return;
   if (!frame.model()) return draw_dim(frame, "No model is open.");
   draw_picked(frame);
+  draw_paths(frame);
   draw_heading(frame, "Under the pointer");
   if (const auto& hovered = frame.ui.input.hovered()) {
     draw_figures(frame, *hovered);

@@ -14,6 +14,9 @@ namespace geotherm::app {
 /// Larger numbers mean nothing in a command.
 inline constexpr double kLargestNumber = 1e300;
 
+/// Values of Shown, in its order.
+inline constexpr const char* kShownNames[] = {"a", "b", "difference"};
+
 /// A word as it stands in a command: in quotes where it has to.
 std::string command_word(const std::string& word);
 

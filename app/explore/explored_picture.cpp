@@ -44,8 +44,10 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   if (answer == nullptr) return;
   add_sources(data, mesh, explored.set);
   add_paths(data, mesh, explored.paths);
-  if (view == View::kExactError && answer->error) {
-    add_error(data, answer->error->values, error_title(*answer->error));
+  if (view == View::kExactError) {  // nothing, where nothing is known of the error
+    if (answer->error && !answer->error->values.empty()) {
+      add_error(data, answer->error->values, error_title(*answer->error));
+    }
   } else if (shown == Shown::kDifference && explored.difference) {
     add_difference(data, explored.difference->values);
   } else {

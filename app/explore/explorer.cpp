@@ -127,6 +127,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   b_.reset();
   placed_.clear();
   waves_.reset();
+  on_waves_.clear();
   reference_.reset();
   paths_.reset();
   model_.reset();

@@ -66,6 +66,7 @@ class Explorer {
   Result<void> find_nearest(Explored& explored, const Progress& progress);
   Result<void> find_paths(const ExploreRequest& request, Explored& explored,
                           const Progress& progress);
+  MethodKind reference_of(const ExploreRequest& request, const Answer& answer) const;
   Result<void> check(const ExploreRequest& request, const SourceSet& sources, Answer& answer,
                      const Progress& progress);
 
@@ -84,6 +85,11 @@ class Explorer {
   std::optional<Method> a_, b_;
   std::map<std::string, ResolvedSources> placed_;  ///< of the last request, by entry
   std::shared_ptr<const WaveSurface> waves_;       ///< of the model; null: not needed so far
+  struct OnWaves {
+    std::shared_ptr<const DistanceMethod> method;
+    int threads = 0;
+  };
+  std::map<MethodKind, OnWaves> on_waves_;  ///< methods on them that were needed so far
   /// The last distances that others were held against.
   struct Reference {
     MethodKind kind;

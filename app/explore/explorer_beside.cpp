@@ -27,16 +27,23 @@ Result<std::shared_ptr<const DistanceMethod>> Explorer::make(const MethodOptions
     return std::shared_ptr<const DistanceMethod>(
         std::make_shared<const HeatMethod>(*std::move(made)));
   }
+  auto& kept = on_waves_[options.method];
+  if (kept.method && kept.threads == options.threads) return kept.method;
   if (auto made = make_waves(part_of(progress, 0.0, 0.5)); !made) return made.error();
-  return build_method(model_->model.mesh, options, part_of(progress, 0.5, 1.0), waves_);
+  auto made = build_method(model_->model.mesh, options, part_of(progress, 0.5, 1.0), waves_);
+  if (made) kept = {*made, options.threads};
+  return made;
 }
 
+/// By the method of A itself, where that carries them along.
 Result<void> Explorer::find_nearest(Explored& explored, const Progress& progress) {
   MethodOptions options;
-  options.method = MethodKind::kWavefront;
-  auto method = make(options, nullptr, progress);
+  options.threads = explored.a->options.threads;
+  options.method = explored.a->method->heat() ? MethodKind::kWavefront : explored.a->options.method;
+  auto method = make(options, nullptr, part_of(progress, 0.0, 0.5));
   if (!method) return method.error();
-  auto result = (*method)->solve(explored.set, {.quality = false, .nearest = true}, progress);
+  auto result = (*method)->solve(explored.set, {.quality = false, .nearest = true},
+                                 part_of(progress, 0.5, 1.0));
   if (!result) return about_model(model_->model.name, result.error());
   explored.nearest = std::move(result->nearest_source);
   return {};
@@ -57,14 +64,15 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
   explored.target = position_at(*model_->model.mesh, point);
   if (!paths_ || paths_->method != explored.a->method) {
     MethodOptions options;
+    options.threads = explored.a->options.threads;
     options.method = MethodKind::kWavefront;
-    auto near_exact = make(options, nullptr, progress);
+    auto near_exact = make(options, nullptr, part_of(progress, 0.0, 0.2));
     if (!near_exact) return near_exact.error();
     paths_ = Paths{explored.a->method,
                    std::make_shared<const TargetPathFinder>(
                        model_->model.mesh, *std::move(near_exact), explored.a->method)};
   }
-  auto found = paths_->finder->find(explored.set, point, progress);
+  auto found = paths_->finder->find(explored.set, point, part_of(progress, 0.2, 1.0));
   if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
   if (!found) {
     explored.path_failure = found.error().message;
@@ -74,28 +82,46 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
   return {};
 }
 
+MethodKind Explorer::reference_of(const ExploreRequest& request, const Answer& answer) const {
+  const Index faces = model_->model.mesh->face_count();
+  if (request.check == Check::kExact) return MethodKind::kExact;
+  if (request.check == Check::kWavefrontFine) return MethodKind::kWavefrontFine;
+  // While a source is dragged exact distances must take no longer than a frame or two.
+  constexpr Index kMostFacesDragged = 10'000;
+  const bool dragged = !request.quality && faces > kMostFacesDragged;
+  return dragged ? MethodKind::kWavefrontFine : reference_for(answer.options.method, faces);
+}
+
 /// Holds an answer against a better one, which is kept for the next answer from the same sources.
+/// What cannot be checked is a matter of its own: the distances are good all the same.
 Result<void> Explorer::check(const ExploreRequest& request, const SourceSet& sources,
                              Answer& answer, const Progress& progress) {
+  const MethodKind checked = answer.options.method;
   MethodOptions options;
   options.threads = answer.options.threads;
-  options.method = request.check == Check::kExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
-  if (request.check == Check::kAuto && request.quality) {  // while a source is dragged: the quicker
-    options.method = reference_for(answer.options.method, model_->model.mesh->face_count());
+  options.method = reference_of(request, answer);
+  if (!is_better(options.method, checked)) {
+    if (request.quality) answer.error = std::make_shared<const ErrorReport>(unchecked(checked));
+    return {};
   }
   if (!reference_ || reference_->kind != options.method || reference_->sources != request.sources) {
     reference_.reset();
     const Stopwatch watch;
-    auto method = make(options, nullptr, progress);
-    if (!method) return method.error();
-    auto result = (*method)->solve(sources, {.quality = false}, progress);
-    if (!result) return about_model(model_->model.name, result.error());
+    auto method = make(options, nullptr, part_of(progress, 0.0, 0.3));
+    auto result = method
+                      ? (*method)->solve(sources, {.quality = false}, part_of(progress, 0.3, 1.0))
+                      : Result<DistanceResult>(method.error());
+    if (!result && result.error().code == ErrorCode::kCancelled) return result.error();
+    if (!result) {
+      answer.warnings.push_back("the distances were not checked: " + result.error().message);
+      return {};
+    }
     reference_ = Reference{options.method, request.sources, std::move(result->distances),
                            watch.milliseconds()};
   }
   answer.error = std::make_shared<const ErrorReport>(
-      error_report(answer.options.method, answer.result.distances, reference_->kind,
-                   reference_->distances, reference_->milliseconds));
+      error_report(answer.result.distances, reference_->kind, reference_->distances, checked,
+                   reference_->milliseconds));
   return {};
 }
 

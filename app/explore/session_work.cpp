@@ -7,6 +7,7 @@
 #include "app/explore/explored_picture.h"
 #include "app/explore/session_state.h"
 #include "app/method_words.h"
+#include "app/picture/picture_text.h"
 #include "app/resolve_sources.h"
 #include "app/solver_names.h"
 #include "app/text.h"
@@ -172,6 +173,12 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   queries.push_back({solver_name(explored.a->options), explored.a->result.timing});
   if (!request.quality) return;  // a drag goes on
   note(LogLine::Kind::kNote, summary(explored, before));
+  const View view = state.picture.view;
+  if (needs_fields(view) && explored.a->method->heat() == nullptr) {
+    note(LogLine::Kind::kWarning, "the view " + to_text(view) + " shows the heat u, which the method " +
+                                      to_text(explored.a->options.method) +
+                                      " has not; set method heat");
+  }
   if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
     note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);
   }

@@ -26,8 +26,8 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
   if (arguments.spacing.empty() == arguments.count.empty()) {
     return Error{ErrorCode::kBadInput,
                  std::string("--spacing and --count: ") +
-                     (arguments.spacing.empty() ? "neither" : "both") +
-                     " of them was given; give one, such as --spacing 0.1 or --count 20"};
+                     (arguments.spacing.empty() ? "neither was" : "both were") +
+                     " given; give one of them, such as --spacing 0.1 or --count 20"};
   }
   Levels levels;
   if (!arguments.count.empty()) {
@@ -179,6 +179,10 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!levels) return levels.error();
   const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
 
+  if (lines.empty()) {
+    figures->warnings.push_back("there is no line: the largest distance is " +
+                                significant(figures->distance.max));
+  }
   CommandOutput out{"", figures->warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
                                         *settings, progress, outputs, out);

@@ -60,6 +60,11 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   auto options = method_options(method);
   if (!options) return options.error();
   task.method = *std::move(options);
+  if (task.options.field == PathField::kHeat && task.method.method != MethodKind::kHeat) {
+    return Error{ErrorCode::kBadInput, "--field heat follows the heat u, which --method " +
+                                           to_text(task.method.method) +
+                                           " has not; use --method heat"};
+  }
   if (arguments.closed && arguments.to.size() != 1) {
     return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
                                            std::to_string(arguments.to.size()) +
@@ -111,8 +116,10 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, const Progres
     auto found =
         finder.find(stops, task.options, part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
     if (!found) {
-      return Error{found.error().code,
-                   task.points[shared + i].where + ": " + found.error().message};
+      // The points are on the mesh: that no way leads there is a failure of the work.
+      return about_model(
+          figures.model.name,
+          {found.error().code, task.points[shared + i].where + ": " + found.error().message});
     }
     figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
     figures.paths.push_back({std::move(stops), std::move(found->path)});

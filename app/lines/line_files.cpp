@@ -25,7 +25,7 @@ void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
   command
       .add_option("-o,--output", arguments.outputs,
                   "where " + what +
-                      " is written: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
+                      " go: .obj .csv .vtp, .svg (a picture), or - for CSV on standard "
                       "output; may be repeated")
       ->type_name("FILE")
       ->expected(1)

@@ -29,15 +29,19 @@ bool shows_regions(const PictureData& data, const PictureSettings& settings) {
 
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
   const double largest = data.largest_value * data.value_unit;
-  const bool has_range = settings.range_min || settings.range_max;
+  // A range is one of distances: an error keeps its 0 in the middle of the map.
+  const bool is_error = settings.view == View::kExactError;
+  const std::optional<double> range_min = is_error ? std::nullopt : settings.range_min;
+  const std::optional<double> range_max = is_error ? std::nullopt : settings.range_max;
+  const bool has_range = range_min || range_max;
   PictureScale scale;
   scale.colour_map = colour_map_of(data, settings);
   const double smallest = data.is_signed ? -(largest > 0 ? largest : 1) : 0;
-  scale.min = settings.range_min.value_or(smallest);
-  scale.max = settings.range_max.value_or(largest > 0 ? largest : 1);
+  scale.min = range_min.value_or(smallest);
+  scale.max = range_max.value_or(largest > 0 ? largest : 1);
   if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
     const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
-    if (settings.range_max) {
+    if (range_max) {
       scale.min = scale.max - width;
     } else {
       scale.max = scale.min + width;

@@ -9,29 +9,52 @@
 namespace geotherm::app {
 namespace {
 
-/// The distance at a point of a face, from straight lines to its corners: too long rather than
-/// too short, which is enough to tell sources apart.
+/// Where a circular wave with these distances at the ends of an edge comes from: its place along
+/// the edge and its height over it, unfolded into a plane with it.
+std::pair<double, double> wave_centre(double at_low, double at_high, double length) {
+  const double along = (at_low * at_low - at_high * at_high + length * length) / (2 * length);
+  return {along, std::sqrt(std::max(0.0, at_low * at_low - along * along))};
+}
+
+/// The distance of a point of a face from the target: straight where the face holds both, else by
+/// the best of the waves that come in through its sides.
 double distance_at(const TriangleMesh& mesh, std::span<const double> distances,
-                   const SurfacePoint& point) {
+                   const SurfacePoint& point, const SurfacePoint& target) {
   if (point.is_vertex()) return distances[point.vertex];
+  const Face& face = mesh.faces()[point.face];
   const Vec3 at = position_at(mesh, point);
   double least = kUnreached;
-  for (const Index corner : mesh.faces()[point.face]) {
-    least = std::min(least, distances[corner] + (mesh.positions()[corner] - at).norm());
+  if (!target.is_vertex() && target.face == point.face) {
+    least = (position_at(mesh, target) - at).norm();
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Index low = face[k], high = face[(k + 1) % 3];
+    const Vec3& origin = mesh.positions()[low];
+    const Vec3 side = mesh.positions()[high] - origin;
+    const double length = side.norm();
+    least = std::min(least, distances[low] + (at - origin).norm());
+    if (!(length > 0) || !std::isfinite(distances[low] + distances[high])) continue;
+    // The wave's centre and the point, on either side of this one unfolded into a plane.
+    const auto [along, height] = wave_centre(distances[low], distances[high], length);
+    const double x = (at - origin).dot(side) / length;
+    const double y = std::sqrt(std::max(0.0, (at - origin).squaredNorm() - x * x));
+    const double crossing = y + height > 0 ? along + (x - along) * height / (y + height) : x;
+    if (crossing >= 0 && crossing <= length) {
+      least = std::min(least, std::hypot(x - along, y + height));
+    }
   }
   return least;
 }
 
 /// The nearest point of an edge whose ends have these distances, as a share of its length, and its
-/// distance: the source of a circular wave unfolded into a plane with the edge.
+/// distance.
 std::pair<double, double> nearest_on_edge(double at_low, double at_high, double length) {
   if (!(length > 0) || !std::isfinite(at_low + at_high)) {
     return {at_low <= at_high ? 0.0 : 1.0, std::min(at_low, at_high)};
   }
-  const double along = (at_low * at_low - at_high * at_high + length * length) / (2 * length);
+  const auto [along, height] = wave_centre(at_low, at_high, length);
   const double foot = std::clamp(along, 0.0, length);
-  const double height2 = std::max(0.0, at_low * at_low - along * along);
-  return {foot / length, std::hypot(std::sqrt(height2), foot - along)};
+  return {foot / length, std::hypot(height, foot - along)};
 }
 
 /// The point of an edge as one of a face that has it.
@@ -54,12 +77,12 @@ SurfacePoint point_on_edge(const TriangleMesh& mesh, Index low, Index high, doub
 }  // namespace
 
 SurfacePoint nearest_source_point(const TriangleMesh& mesh, const SourceSet& sources,
-                                  std::span<const double> distances) {
+                                  const SurfacePoint& target, std::span<const double> distances) {
   double least = kUnreached;
   SurfacePoint nearest;
   for (std::size_t i = 0; i < sources.points.size(); ++i) {
     const double offset = sources.offsets.empty() ? 0 : sources.offsets[i];
-    const double distance = distance_at(mesh, distances, sources.points[i]) + offset;
+    const double distance = distance_at(mesh, distances, sources.points[i], target) + offset;
     if (distance < least) {
       least = distance;
       nearest = sources.points[i];
@@ -92,9 +115,10 @@ Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const Surfa
                                            const Progress& progress) const {
   SourceSet from_target;
   from_target.points = {target};
-  const auto distances = near_exact_->solve(from_target, {.quality = false}, progress);
+  const auto distances =
+      near_exact_->solve(from_target, {.quality = false}, part_of(progress, 0.0, 0.2));
   if (!distances) return distances.error();
-  const SurfacePoint source = nearest_source_point(*mesh_, sources, distances->distances);
+  const SurfacePoint source = nearest_source_point(*mesh_, sources, target, distances->distances);
   if (!source.is_vertex() && source.face == kNoIndex) {
     return Error{ErrorCode::kBadInput,
                  "no source can be reached from the target: they lie in different components"};
@@ -104,7 +128,8 @@ Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const Surfa
   for (const PathField field : {PathField::kGeodesic, PathField::kDistance, PathField::kHeat}) {
     if (field == PathField::kHeat && !heat_) continue;
     const PathFinder& finder = field == PathField::kGeodesic ? geodesics_ : streamlines_;
-    auto path = finder.find(ends, {.field = field}, progress);
+    const double begun = 0.2 + 0.25 * static_cast<double>(found.paths.size());
+    auto path = finder.find(ends, {.field = field}, part_of(progress, begun, begun + 0.25));
     if (!path) return path.error();
     found.paths.push_back({field, std::move(path->path)});
     found.warnings.insert(found.warnings.end(), path->warnings.begin(), path->warnings.end());

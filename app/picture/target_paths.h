@@ -23,10 +23,11 @@ struct TargetPaths {
   std::vector<std::string> warnings;
 };
 
-/// The point of the source set that is nearest to where `distances` (V) were computed from: a
-/// point, or one on a curve's edge. Offsets count. Precondition: a source that is reached.
+/// The point of the source set that is nearest to `target`: a point, or one on a curve's edge.
+/// `distances`: V, from the target. Offsets count. A point without vertex and face, where no source
+/// is reached.
 SurfacePoint nearest_source_point(const TriangleMesh& mesh, const SourceSet& sources,
-                                  std::span<const double> distances);
+                                  const SurfacePoint& target, std::span<const double> distances);
 
 /// What finds paths on one mesh, ready for many targets. Immutable.
 class TargetPathFinder {

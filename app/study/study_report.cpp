@@ -14,6 +14,8 @@ namespace {
 
 using Align = TextTable::Align;
 
+constexpr double kRoundOff = 1e-6;
+
 std::string rule_text(TimeRule rule) { return to_text(TimeStep{rule, 1, 0}); }
 
 std::string constraint_name(ConstraintMode mode) {
@@ -112,7 +114,8 @@ const StudyRow* best_row(const Study& study) {
   const StudyRow* best = nullptr;
   for (const StudyRow& row : study.rows) {
     if (!row.mean_error) continue;
-    if (best == nullptr || *row.mean_error < *best->mean_error) best = &row;
+    // What differs by round-off is as good: the first of them has the default constraint.
+    if (best == nullptr || *row.mean_error < *best->mean_error * (1 - kRoundOff)) best = &row;
   }
   return best;
 }

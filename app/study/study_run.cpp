@@ -83,17 +83,25 @@ std::vector<Constraint> study_constraints() {
 }
 
 std::vector<double> study_factors(double least, double most, int count) {
-  std::vector<double> factors;
-  for (int i = 0; i < count; ++i) {
-    const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
-    const double factor = least * std::pow(most / least, share);
-    const double unit = std::pow(10.0, std::floor(std::log10(factor)) - 1);
-    factors.push_back(std::round(factor / unit) * unit);
+  // As many digits as tell neighbours apart, two at least.
+  const double ratio = std::pow(most / least, 1.0 / (count - 1));
+  const int digits = 2 + std::max(0, static_cast<int>(std::ceil(-std::log10(ratio - 1))));
+  std::vector<double> factors = {least};
+  for (int i = 1; i + 1 < count; ++i) {
+    const double factor = least * std::pow(most / least, static_cast<double>(i) / (count - 1));
+    const double unit = std::pow(10.0, std::floor(std::log10(factor)) + 1 - digits);
+    const double rounded = std::round(factor / unit) * unit;
+    if (rounded > factors.back() && rounded < most) factors.push_back(rounded);
   }
+  factors.push_back(most);
   return factors;
 }
 
 Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress) {
+  if (!task.sources.offsets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the heat method takes no offsets of sources; leave out what follows the @"};
+  }
   Study study;
   study.reference = reference_for(MethodKind::kHeat, model.mesh->face_count());
   MethodOptions better;
@@ -127,6 +135,11 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
         }
       }
     }
+  }
+  const auto failed = [](const StudyRow& row) { return !row.mean_error; };
+  if (std::ranges::all_of(study.rows, failed) && !study.rows.front().message.empty()) {
+    return Error{ErrorCode::kNumericalFailure,
+                 "no answer could be had: " + study.rows.front().message};
   }
   return study;
 }

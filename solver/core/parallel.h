@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace geotherm {
@@ -15,8 +17,19 @@ inline int thread_count(int requested) {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// Runs both functions, the first on a second thread when `threads` > 1. Exceptions are rethrown
-/// after both have ended.
+/// A thread that runs `work`. Where the system has none left it is not joinable, and `work` does
+/// not run. Throws std::bad_alloc.
+template <class Work>
+std::jthread try_thread(Work&& work) {
+  try {
+    return std::jthread(std::forward<Work>(work));
+  } catch (const std::system_error&) {
+    return {};
+  }
+}
+
+/// Runs both functions, the first on a second thread when `threads` > 1 and the system has one.
+/// Exceptions are rethrown after both have ended.
 template <class First, class Second>
 void run_both(int threads, First&& first, Second&& second) {
   if (threads <= 1) {
@@ -25,21 +38,24 @@ void run_both(int threads, First&& first, Second&& second) {
     return;
   }
   std::exception_ptr failure;
+  const auto guarded = [&] {
+    try {
+      first();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
   {
-    const std::jthread helper([&] {
-      try {
-        first();
-      } catch (...) {
-        failure = std::current_exception();
-      }
-    });
+    const std::jthread helper = try_thread(guarded);
+    if (!helper.joinable()) guarded();
     second();
   }
   if (failure) std::rethrow_exception(failure);
 }
 
 /// Calls body(begin, end) on contiguous pieces of [0, count), one a thread, none shorter than
-/// `grain`. The body must not throw and must give the same result however the range is cut.
+/// `grain`; what threads the system does not have is done by the caller's. The body must not throw
+/// and must give the same result however the range is cut. Throws std::bad_alloc.
 template <class Body>
 void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& body) {
   const std::int64_t pieces =
@@ -50,11 +66,16 @@ void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& bo
   }
   std::vector<std::jthread> helpers;
   helpers.reserve(static_cast<std::size_t>(pieces - 1));
-  for (std::int64_t p = 1; p < pieces; ++p) {
-    helpers.emplace_back(
-        [&body, p, pieces, count] { body(count * p / pieces, count * (p + 1) / pieces); });
+  std::int64_t begun = 1;
+  for (; begun < pieces; ++begun) {
+    auto helper = try_thread([&body, begun, pieces, count] {
+      body(count * begun / pieces, count * (begun + 1) / pieces);
+    });
+    if (!helper.joinable()) break;
+    helpers.push_back(std::move(helper));
   }
   body(std::int64_t{0}, count / pieces);
+  if (begun < pieces) body(count * begun / pieces, count);
 }
 
 }  // namespace geotherm

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "solver/exact/exact_method.h"
 
-#include <algorithm>
-#include <atomic>
 #include <new>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/exact/propagation.h"
+#include "solver/method/solve_sets.h"
 #include "solver/wave/judge_wave.h"
 
 namespace geotherm {
@@ -23,6 +21,9 @@ struct ExactMethod::State {
   WindowMesh mesh;
   int threads;
   SetupTiming timing;
+
+  Result<DistanceResult> solve(const SourceSet& sources, std::size_t most_bytes,
+                               const QueryOptions& query, const Progress& progress) const;
 };
 
 namespace {
@@ -35,30 +36,31 @@ Error out_of_memory(const char* stage, Index faces) {
                                        " faces; use the method wavefront-fine"};
 }
 
-Result<DistanceResult> solve_one(const WaveSurface& surface, const WindowMesh& mesh,
-                                 const SourceSet& sources, const QueryOptions& query,
-                                 const Progress& progress) try {
+}  // namespace
+
+Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::size_t most_bytes,
+                                                 const QueryOptions& query,
+                                                 const Progress& progress) const try {
   const Stopwatch watch;
-  const auto seeds = seed_sources(surface, sources);
+  if (!report(progress, "solve", 0.0)) return cancelled_error();
+  const auto seeds = seed_sources(*surface, sources);
   if (!seeds) return seeds.error();
-  Propagation windows(mesh);
+  Propagation windows(mesh, most_bytes);
   if (auto done = windows.run(*seeds, progress); !done) return done.error();
 
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality) judge_wave(surface, *seeds, result);
-  for (double& distance : result.distances) distance *= surface.base.mean_edge;
+  if (query.quality) judge_wave(*surface, *seeds, result);
+  for (double& distance : result.distances) distance *= surface->base.mean_edge;
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);
   }
   result.timing.query = watch.milliseconds();
   return result;
 } catch (const std::bad_alloc&) {
-  return out_of_memory("query", surface.face_count());
+  return out_of_memory("query", surface->face_count());
 }
-
-}  // namespace
 
 ExactMethod::ExactMethod(std::unique_ptr<const State> state) : state_(std::move(state)) {}
 ExactMethod::~ExactMethod() = default;
@@ -76,31 +78,12 @@ Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
 
 Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const SourceSet> sets,
                                                             const QueryOptions& query,
-                                                            const Progress& progress) const try {
-  std::vector<std::optional<Result<DistanceResult>>> answers(sets.size());
-  SharedProgress shared(progress);
-  std::atomic<std::size_t> next = 0, done = 0;
-  const auto work = [&](std::int64_t, std::int64_t) {
-    for (std::size_t i = next++; i < sets.size(); i = next++) {
-      answers[i] = solve_one(*state_->surface, state_->mesh, sets[i], query,
-                             [&](std::string_view stage, double share) {
-                               const double whole = static_cast<double>(done) + share;
-                               return shared(stage, whole / static_cast<double>(sets.size()));
-                             });
-      ++done;
-    }
-  };
-  parallel_for(state_->threads, static_cast<std::int64_t>(sets.size()), 1, work);
-
-  std::vector<DistanceResult> results;
-  results.reserve(sets.size());
-  for (auto& answer : answers) {
-    if (!*answer) return answer->error();
-    results.push_back(std::move(**answer));
-  }
-  return results;
-} catch (const std::bad_alloc&) {
-  return out_of_memory("query", state_->surface->face_count());
+                                                            const Progress& progress) const {
+  const auto workers = static_cast<std::size_t>(solving_at_once(state_->threads, sets.size()));
+  return solve_sets(sets, state_->threads, progress,
+                    [&](const SourceSet& sources, const Progress& part) {
+                      return state_->solve(sources, Propagation::kMostBytes / workers, query, part);
+                    });
 }
 
 const SetupTiming& ExactMethod::timing() const { return state_->timing; }

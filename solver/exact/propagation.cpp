@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/exact/late_part.h"
+#include "solver/wave/segment_distance.h"
 
 namespace geotherm {
 namespace {
@@ -12,18 +13,22 @@ namespace {
 /// A bucket of the queue, in mean edges.
 constexpr double kBucketWidth = 0.25;
 
-/// Windows between two calls of progress: a few milliseconds.
-constexpr std::int64_t kWindowsBetweenChecks = 1 << 14;
+/// What a window costs beside a comparison of two at an edge with many faces.
+constexpr std::int64_t kWindowWork = 16;
 
-/// Windows in all, and kept at once. Meshes as they come have tens to hundreds a face in all.
-constexpr std::int64_t kMostWindowsPerFace = 100'000;
-constexpr std::int64_t kMostWindowsAtLeast = 100'000'000;
-constexpr std::size_t kMostBytes = std::size_t{3} << 29;  // 1.5 GiB
+/// Work between two calls of progress: a few milliseconds.
+constexpr std::int64_t kWorkBetweenChecks = kWindowWork << 14;
+
+/// Work in all. Meshes as they come have tens to hundreds of windows a face; small broken ones, in
+/// which windows run round edges with many faces without end, are given some seconds.
+constexpr std::int64_t kMostWorkPerFace = 50'000 * kWindowWork;
+constexpr std::int64_t kMostWorkAtLeast = 20'000'000 * kWindowWork;
 
 }  // namespace
 
-Propagation::Propagation(const WindowMesh& mesh)
+Propagation::Propagation(const WindowMesh& mesh, std::size_t most_bytes)
     : mesh_(mesh),
+      most_bytes_(most_bytes),
       queue_(kBucketWidth),
       vertices_(static_cast<std::size_t>(mesh.vertex_count())),
       leaders_(static_cast<std::size_t>(mesh.side_count())),
@@ -31,14 +36,28 @@ Propagation::Propagation(const WindowMesh& mesh)
       at_branches_(static_cast<std::size_t>(mesh.branch_count())) {}
 
 Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress) {
-  for (const auto& seed : seeds.vertices) reach(seed.vertex, seed.offset, seed.group, true);
-  for (const auto& piece : seeds.pieces) {
+  const double base = least_offset(seeds);
+  seed(seeds, base);
+  if (auto fine = spread(progress); !fine) return fine;
+  for (VertexState& state : vertices_) state.distance += base;
+  return {};
+}
+
+void Propagation::seed(const SourceSeeds& seeds, double base) {
+  for (const auto& seed : seeds.vertices) {
+    reach(seed.vertex, seed.offset - base, seed.group, true);
+  }
+  for (SourceSeeds::Piece piece : seeds.pieces) {
+    piece.offset -= base;
     if (piece.from == piece.to) {
       seed_point(piece);
     } else {
       seed_segment(piece);
     }
   }
+}
+
+Result<void> Propagation::spread(const Progress& progress) {
   while (const Window* next = queue_.pop()) {
     const Window window = *next;
     if (window.side < 0) {
@@ -48,7 +67,10 @@ Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress
       if (waiting == next) waiting = nullptr;
       follow(window);
     }
-    if (++windows_ % kWindowsBetweenChecks != 0) continue;
+    ++windows_;
+    work_ += kWindowWork;
+    if (work_ < next_check_) continue;
+    next_check_ = work_ + kWorkBetweenChecks;
     if (auto fine = check(progress); !fine) return fine;
   }
   return {};
@@ -59,14 +81,16 @@ Result<void> Propagation::check(const Progress& progress) {
   peak_bytes_ = std::max(peak_bytes_, bytes);
   const Index faces = mesh_.side_count() / 3;
   const double all = std::max(mesh_.vertices_in_use(), Index{1});
-  if (!report(progress, "exact", static_cast<double>(reached_) / all)) return cancelled_error();
-  if (bytes > kMostBytes) {
-    return Error{ErrorCode::kOutOfMemory,
-                 "exact distances on " + std::to_string(faces) + " faces: " +
-                     std::to_string(bytes / sizeof(Window)) + " windows are kept and fill " +
-                     std::to_string(kMostBytes >> 20) + " MiB; use the method wavefront-fine"};
+  if (!report(progress, "solve", static_cast<double>(reached_) / all)) return cancelled_error();
+  if (bytes > most_bytes_) {
+    const char* cure = most_bytes_ < kMostBytes ? "take fewer threads, or the method wavefront-fine"
+                                                : "use the method wavefront-fine";
+    return Error{ErrorCode::kOutOfMemory, "exact distances on " + std::to_string(faces) +
+                                              " faces: " + std::to_string(bytes / sizeof(Window)) +
+                                              " windows are kept and fill " +
+                                              std::to_string(most_bytes_ >> 20) + " MiB; " + cure};
   }
-  if (windows_ > std::max(kMostWindowsAtLeast, kMostWindowsPerFace * faces)) {
+  if (work_ > std::max(kMostWorkAtLeast, kMostWorkPerFace * faces)) {
     return Error{ErrorCode::kBudgetEnded, "exact distances on " + std::to_string(faces) +
                                               " faces: no end after " + std::to_string(windows_) +
                                               " windows; use the method wavefront-fine"};
@@ -144,6 +168,7 @@ bool Propagation::is_early_at_branch(Side side, Window& window, bool against) {
   const bool reversed = against != (frame.origin > mesh_.side(next_side(side)).origin);
   Window in_edge = window;
   if (reversed) in_edge.reverse(frame.length);
+  work_ += static_cast<std::int64_t>(others.size());
   for (const Window& other : others) {
     if (!cut_late_ends(in_edge, other, frame.length)) return false;
   }

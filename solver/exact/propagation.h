@@ -23,12 +23,16 @@ class Propagation {
     Index group = kNoIndex;
   };
 
-  /// Keeps a reference.
-  explicit Propagation(const WindowMesh& mesh);
+  /// Where run() gives up, in bytes of windows: 1.5 GiB.
+  static constexpr std::size_t kMostBytes = std::size_t{3} << 29;
 
-  /// Starts from the seeds and runs to the end; once. Lengths as those of the surface. Errors:
-  /// kCancelled, kBudgetEnded (windows that multiply without end), kOutOfMemory. Throws
-  /// std::bad_alloc.
+  /// Keeps a reference.
+  explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMostBytes);
+
+  /// Starts from the seeds and runs to the end; once. Lengths as those of the surface; until the
+  /// end they are measured from the least offset, so that they keep their digits. `progress` is
+  /// asked now and then, as stage "solve". Errors: kCancelled, kBudgetEnded (windows that multiply
+  /// without end), kOutOfMemory. Throws std::bad_alloc.
   Result<void> run(const SourceSeeds& seeds, const Progress& progress);
 
   const std::vector<VertexState>& vertices() const { return vertices_; }
@@ -36,6 +40,8 @@ class Propagation {
   std::size_t peak_bytes() const { return peak_bytes_; }  ///< of windows that were kept
 
  private:
+  void seed(const SourceSeeds& seeds, double base);
+  Result<void> spread(const Progress& progress);
   void seed_point(const SourceSeeds::Piece& piece);
   void seed_segment(const SourceSeeds::Piece& piece);
   void reach(Index vertex, double distance, Index group, bool send_anyway = false);
@@ -52,12 +58,14 @@ class Propagation {
   }
 
   const WindowMesh& mesh_;
+  std::size_t most_bytes_;
   WindowQueue queue_;
   std::vector<VertexState> vertices_;
   std::vector<Leader> leaders_;                   ///< of sides
   std::vector<Window*> waiting_;                  ///< of sides: the last window in the queue
   std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what has crossed
   std::int64_t windows_ = 0;
+  std::int64_t work_ = 0, next_check_ = 1 << 18;
   Index reached_ = 0;
   std::size_t crossed_ = 0;  ///< windows in at_branches_
   std::size_t peak_bytes_ = 0;

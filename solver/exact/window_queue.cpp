@@ -2,12 +2,15 @@
 #include "solver/exact/window_queue.h"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace geotherm {
 
 WindowQueue::WindowQueue(double width) : inverse_width_(1 / width), buckets_(kBuckets) {}
 
 Window* WindowQueue::push(const Window& window, double key) {
+  assert(std::isfinite(key));
   const double place = (key - base_) * inverse_width_;
   ++pushed_;
   ++size_;
@@ -54,13 +57,13 @@ Window* WindowQueue::append(std::size_t bucket, const Window& window) {
 void WindowQueue::refill() {
   base_ = far_.front().key;
   present_ = 0;
-  while (!far_.empty()) {
-    const double place = (far_.front().key - base_) * inverse_width_;
-    if (!(place < static_cast<double>(kBuckets))) break;
+  double place = 0;
+  do {  // the first always, or pop() would find no bucket
     append(static_cast<std::size_t>(place), far_.front().window);
     std::ranges::pop_heap(far_, later);
     far_.pop_back();
-  }
+    if (!far_.empty()) place = (far_.front().key - base_) * inverse_width_;
+  } while (!far_.empty() && place < static_cast<double>(kBuckets));
 }
 
 WindowQueue::Chunk* WindowQueue::take_chunk() {

@@ -18,8 +18,8 @@ class WindowQueue {
   /// `width` > 0, in units of the keys.
   explicit WindowQueue(double width);
 
-  /// A key below the present bucket's goes into that. Where the window stands until it is popped;
-  /// nullptr where it may be moved before. Throws std::bad_alloc.
+  /// A key below the present bucket's goes into that. Precondition: `key` is finite. Where the
+  /// window stands until it is popped; nullptr where it may be moved before. Throws std::bad_alloc.
   Window* push(const Window& window, double key);
 
   /// Where the next window stands, until something is pushed; nullptr: none is left.

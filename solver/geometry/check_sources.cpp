@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/core/number_text.h"
 #include "solver/geometry/intrinsic_surface.h"
@@ -11,12 +12,12 @@ namespace {
 /// Weights are accepted when they sum to 1 within this: what nine typed digits give.
 constexpr double kWeightSum = 1e-6;
 
-/// First edge whose lower vertex is not below `low`; edges are sorted by it.
-Index first_edge_from(const EdgeTable& edges, Index low) {
+/// First edge that is not before (low, high), in the order of the table.
+Index first_edge_from(const EdgeTable& edges, Index low, Index high) {
   Index first = 0, count = edges.edge_count();
   while (count > 0) {
-    const Index half = count / 2;
-    if (edges.low(first + half) < low) {
+    const Index half = count / 2, middle = first + half;
+    if (std::pair(edges.low(middle), edges.high(middle)) < std::pair(low, high)) {
       first += half + 1;
       count -= half + 1;
     } else {
@@ -24,6 +25,27 @@ Index first_edge_from(const EdgeTable& edges, Index low) {
     }
   }
   return first;
+}
+
+/// Weights that sum to 1, and the corner that they are within kAtCorner of, -1 where there is none.
+struct CleanWeights {
+  std::array<double, 3> weights;
+  int corner = -1;
+};
+
+/// Without what is below 0. Precondition: they nearly sum to 1.
+CleanWeights clean_weights(std::array<double, 3> weights) {
+  double sum = 0;
+  for (double& w : weights) {
+    w = std::max(w, 0.0);
+    sum += w;
+  }
+  CleanWeights out{weights};
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.weights[k] /= sum;
+    if (out.weights[k] >= 1 - kAtCorner) out.corner = static_cast<int>(k);
+  }
+  return out;
 }
 
 Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
@@ -72,10 +94,8 @@ Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& 
                      number_text(sum) + "; barycentric weights are not negative and sum to 1"};
   }
   if (clean_face_of(surface, point.face) == kNoIndex) {
-    for (int k = 0; k < 3; ++k) {  // at a corner it needs no inside
-      if (point.weights[k] < (1 - kAtCorner) * sum) continue;
-      return check_vertex(surface, surface.mesh->faces()[point.face][k]);
-    }
+    const int corner = clean_weights(point.weights).corner;
+    if (corner >= 0) return check_vertex(surface, surface.mesh->faces()[point.face][corner]);
     return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
                                            " repeats a corner and has no inside; choose another"};
   }
@@ -117,26 +137,19 @@ Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sou
 Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b) {
   const EdgeTable& edges = surface.clean_edges;
   const Index low = std::min(a, b), high = std::max(a, b);
-  for (Index e = first_edge_from(edges, low); e < edges.edge_count() && edges.low(e) == low; ++e) {
-    if (edges.high(e) == high) return e;
-  }
-  return kNoIndex;
+  const Index e = first_edge_from(edges, low, high);
+  return e < edges.edge_count() && edges.low(e) == low && edges.high(e) == high ? e : kNoIndex;
 }
 
 SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point) {
   if (point.is_vertex()) return point;
   const Face& face = surface.mesh->faces()[point.face];
-  double sum = 0;
-  for (const double w : point.weights) sum += w;
-  std::array<double, 3> weights{};
-  for (int k = 0; k < 3; ++k) {
-    weights[k] = std::max(point.weights[k], 0.0) / sum;
-    if (weights[k] >= 1 - kAtCorner) return SurfacePoint::at_vertex(face[k]);
-  }
+  const auto [weights, corner] = clean_weights(point.weights);
+  if (corner >= 0) return SurfacePoint::at_vertex(face[static_cast<std::size_t>(corner)]);
   SurfacePoint out = SurfacePoint::in_face(clean_face_of(surface, point.face), {});
   for (int k = 0; k < 3; ++k) {
-    const auto corner = std::ranges::find(face, surface.clean_faces[out.face][k]);
-    out.weights[k] = weights[static_cast<std::size_t>(corner - face.begin())];
+    const auto same = std::ranges::find(face, surface.clean_faces[out.face][k]);
+    out.weights[k] = weights[static_cast<std::size_t>(same - face.begin())];
   }
   return out;
 }

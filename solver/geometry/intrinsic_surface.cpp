@@ -23,7 +23,9 @@ void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
   }
   if (intrinsic.mollified_by > 0) {
     warnings.push_back("degenerate or nearly degenerate faces: every edge was lengthened by " +
-                       rounded_text(intrinsic.mollified_by) + " mean edge lengths");
+                       rounded_text(intrinsic.mollified_by) +
+                       " mean edge lengths, and distances may be too long by as much for each "
+                       "edge on the way");
   }
 }
 

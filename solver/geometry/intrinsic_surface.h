@@ -40,7 +40,8 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
 /// Whether every source lies on the surface. Errors (kBadInput, with the numbers): no source, a
 /// vertex or face out of range, a vertex in no face, bad weights, a face that was left out, an edge
 /// that is none, offsets that are negative, not finite or not one a point. An edge may have two
-/// ends that are one vertex. Cost: O(log F) a source.
+/// ends that are one vertex. Cost: O(log F) a source,
+/// in a duplicate face beside the faces at one of its edges.
 Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sources);
 
 /// Weights (and distances over edge lengths) nearer to a corner or a side than this are on it.
@@ -50,7 +51,8 @@ inline constexpr double kAtCorner = 1e-12;
 /// with weights that sum to 1. Precondition: check_sources().
 SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point);
 
-/// Number in clean_edges of the edge between two vertices, kNoIndex where there is none.
+/// Number in clean_edges of the edge between two vertices, kNoIndex where there is none. Cost:
+/// O(log F).
 Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b);
 
 }  // namespace geotherm

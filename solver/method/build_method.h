@@ -18,7 +18,7 @@ struct MethodOptions : HeatOptions {
   bool operator==(const MethodOptions&) const = default;
 };
 
-/// Whether both lead to the same distances: options that a method does not use do not count.
+/// Whether one serves instead of the other: options that a method does not use do not count.
 bool same_method(const MethodOptions& a, const MethodOptions& b);
 
 /// Makes a mesh ready for a method. `waves`: the mesh's, where it is there already; made otherwise

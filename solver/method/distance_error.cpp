@@ -75,14 +75,32 @@ ErrorHistogram error_histogram(std::span<const double> signed_error, int bins) {
 MethodKind reference_for(MethodKind kind, Index faces) {
   switch (kind) {
     case MethodKind::kExact:
-    case MethodKind::kWavefrontFine:
       return MethodKind::kExact;
+    case MethodKind::kWavefrontFine:
     case MethodKind::kHeat:
     case MethodKind::kWavefront:
     case MethodKind::kFastMarching:
       break;
   }
   return faces <= kMostFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+}
+
+bool is_better(MethodKind a, MethodKind b) {
+  const auto rank = [](MethodKind kind) {
+    switch (kind) {
+      case MethodKind::kHeat:
+      case MethodKind::kFastMarching:
+        return 0;
+      case MethodKind::kWavefront:
+        return 1;
+      case MethodKind::kWavefrontFine:
+        return 2;
+      case MethodKind::kExact:
+        break;
+    }
+    return 3;
+  };
+  return rank(a) > rank(b);
 }
 
 }  // namespace geotherm

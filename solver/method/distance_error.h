@@ -36,4 +36,8 @@ ErrorHistogram error_histogram(std::span<const double> signed_error, int bins);
 /// the exact one, or wavefront-fine. `kind` itself, where there is none.
 MethodKind reference_for(MethodKind kind, Index faces);
 
+/// Whether a is by its kind more accurate than b: heat and fast marching, wavefront,
+/// wavefront-fine, exact.
+bool is_better(MethodKind a, MethodKind b);
+
 }  // namespace geotherm

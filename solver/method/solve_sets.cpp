@@ -6,7 +6,7 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <thread>
+#include <utility>
 
 #include "solver/core/parallel.h"
 
@@ -24,12 +24,10 @@ class SetRunner {
         watch_(progress_.function()) {}
 
   Result<std::vector<DistanceResult>> run(int threads) {
-    {
-      std::vector<std::jthread> helpers;
-      for (int w = 1; w < threads; ++w) helpers.emplace_back([this] { work(); });
-      work();
-    }
-    if (failure_) return *failure_;
+    // Pieces do not matter: whoever is free takes the next set.
+    parallel_for(threads, threads, 1, [this](std::int64_t, std::int64_t) { work(); });
+    if (failure_ && failure_->message.empty()) throw std::bad_alloc();
+    if (failure_) return *std::move(failure_);
     return std::move(results_);
   }
 
@@ -37,15 +35,14 @@ class SetRunner {
   void work() {
     const auto count = static_cast<double>(sets_.size());
     for (std::size_t i = next_++; i < sets_.size(); i = next_++) {
-      const Progress part =
-          part_of(watch_, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
       try {
+        const Progress part =
+            part_of(watch_, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
         auto result = solve_(sets_[i], part);
         if (!result) return fail(i, result.error());
         results_[i] = *std::move(result);
       } catch (const std::bad_alloc&) {
-        return fail(i, {ErrorCode::kOutOfMemory,
-                        "the memory ended in a query; take a mesh with fewer faces"});
+        return fail(i, {ErrorCode::kOutOfMemory, {}});  // words would take memory
       }
     }
   }
@@ -72,12 +69,19 @@ class SetRunner {
   std::size_t failed_set_ = 0;
 };
 
+constexpr const char* kMemoryEnded = "the memory ended in a query; take a mesh with fewer faces";
+
 }  // namespace
 
+int solving_at_once(int threads, std::size_t sets) {
+  const auto most = static_cast<std::size_t>(thread_count(threads));
+  return static_cast<int>(std::clamp(sets, std::size_t{1}, most));
+}
+
 Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets, int threads,
-                                               const Progress& progress, const SolveSet& solve) {
-  const int workers = std::max(
-      1, static_cast<int>(std::min(static_cast<std::size_t>(thread_count(threads)), sets.size())));
+                                               const Progress& progress,
+                                               const SolveSet& solve) try {
+  const int workers = solving_at_once(threads, sets.size());
   auto results = SetRunner(sets, progress, solve).run(workers);
   if (!results) return results;
   // Threads work side by side: a set's share of the wall clock is that much smaller.
@@ -88,6 +92,8 @@ Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets, 
     }
   }
   return results;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, kMemoryEnded};
 }
 
 }  // namespace geotherm

@@ -8,6 +8,7 @@
 #include "solver/path/geodesic_search.h"
 #include "solver/path/shorten.h"
 #include "solver/path/trace.h"
+#include "solver/path/within_memory.h"
 
 namespace geotherm {
 namespace {
@@ -41,25 +42,34 @@ PathFinder::PathFinder(std::shared_ptr<const TriangleMesh> mesh,
 
 Result<FoundPath> PathFinder::find(std::span<const SurfacePoint> points, const PathOptions& options,
                                    const Progress& progress) const {
+  return within_memory("a path", *surface_->mesh(),
+                       [&] { return through(points, options, progress); });
+}
+
+Result<FoundPath> PathFinder::through(std::span<const SurfacePoint> points,
+                                      const PathOptions& options, const Progress& progress) const {
   if (points.size() < 2) {
     return Error{ErrorCode::kBadInput,
                  "a path needs two points; " + std::to_string(points.size()) + " were given"};
   }
   std::vector<SurfacePoint> stops(points.begin(), points.end());
   if (options.closed) stops.push_back(stops.front());
-  const auto pieces = static_cast<double>(stops.size() - 1);
+  const bool loose =
+      options.closed && options.field == PathField::kGeodesic && !options.hold_points;
+  const double found = loose ? 0.9 : 1.0;  // of the work, when all pieces are
+  const double share = found / static_cast<double>(stops.size() - 1);
   FoundPath out;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const auto part = static_cast<double>(i);
     auto next = piece(stops[i], stops[i + 1], options.field,
-                      part_of(progress, part / pieces, (part + 1) / pieces));
+                      part_of(progress, part * share, (part + 1) * share));
     if (!next) return next.error();
     append(out.path, next->path);
     out.warnings.insert(out.warnings.end(), next->warnings.begin(), next->warnings.end());
   }
   out.path.closed = options.closed;
-  if (!options.closed || options.field != PathField::kGeodesic || options.hold_points) return out;
-  auto loop = shorten(*surface_, out.path, false, progress);
+  if (!loose) return out;
+  auto loop = shorten(*surface_, out.path, false, part_of(progress, found, 1));
   if (!loop) return loop.error();
   out.path = *std::move(loop);
   if (out.path.points.size() == 1) {

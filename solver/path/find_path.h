@@ -50,7 +50,8 @@ class PathFinder {
 
   /// The path through two points or more, in order. The geodesic from a to b is that from b to a.
   /// Errors: kBadInput (fewer points, one that is not on the mesh, no way from one to the next, a
-  /// heat field without the heat method), those of DistanceMethod::solve() and shorten().
+  /// heat field without the heat method), kOutOfMemory, those of DistanceMethod::solve() and
+  /// shorten(). Shares of the progress do not fall.
   /// Cost: a query of the method for each piece, or two for a geodesic, and milliseconds.
   Result<FoundPath> find(std::span<const SurfacePoint> points, const PathOptions& options = {},
                          const Progress& progress = {}) const;
@@ -58,6 +59,8 @@ class PathFinder {
   const PathSurface& surface() const { return *surface_; }
 
  private:
+  Result<FoundPath> through(std::span<const SurfacePoint> points, const PathOptions& options,
+                            const Progress& progress) const;
   Result<FoundPath> piece(const SurfacePoint& from, const SurfacePoint& to, PathField field,
                           const Progress& progress) const;
   Result<FoundPath> streamline(const SurfacePoint& from, const SurfacePoint& to, PathField field,

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "solver/geometry/clean_faces.h"
+#include "solver/path/within_memory.h"
 
 namespace geotherm {
 namespace {
@@ -180,6 +181,13 @@ std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const do
     return std::tuple(a.value, -a.path.length) < std::tuple(b.value, -b.path.length);
   });
   return lines;
+}
+
+Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                           std::span<const double> levels) {
+  return within_memory("a level set", mesh, [&]() -> Result<std::vector<Isoline>> {
+    return trace_isolines(mesh, values, levels);
+  });
 }
 
 }  // namespace geotherm

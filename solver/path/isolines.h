@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/core/result.h"
 #include "solver/path/surface_path.h"
 
 namespace geotherm {
@@ -18,8 +19,12 @@ struct Isoline {
 /// Level sets of the function that is linear on each face. `values`: V, file order; faces with a
 /// value that is not finite have none. `levels`: ascending. Sorted by level, the longest first. The
 /// lines of a value that vertices have pass through these; no piece has length 0.
-/// Cost: O(F log levels + pieces).
+/// Cost: O(F log levels + pieces). Throws std::bad_alloc; find_isolines() does not.
 std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const double> values,
                                     std::span<const double> levels);
+
+/// The same. Errors: kOutOfMemory.
+Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                           std::span<const double> levels);
 
 }  // namespace geotherm

@@ -12,7 +12,7 @@
 namespace geotherm {
 namespace {
 
-/// Weights whose sum differs from 1 by more are a mistake, not round-off.
+/// Weights may be below 0, and their sum off 1, by what nine typed digits give.
 constexpr double kWeightSum = 1e-6;
 
 struct Frame {
@@ -150,21 +150,23 @@ Result<SurfacePoint> PathSurface::into(const SurfacePoint& point) const {
     return out_of_range("face", point.face, mesh_->face_count());
   }
   const auto& [a, b, c] = point.weights;
-  if (!(std::min({a, b, c}) >= 0 && std::abs(a + b + c - 1) <= kWeightSum)) {
+  if (!(std::min({a, b, c}) >= -kWeightSum && std::abs(a + b + c - 1) <= kWeightSum)) {
     return Error{ErrorCode::kBadInput, "the weights " + number_text(a) + ", " + number_text(b) +
                                            ", " + number_text(c) +
                                            " are no point of a face; they must be at least 0 and "
                                            "sum to 1"};
   }
+  std::array<double, 3> weights = {std::max(a, 0.0), std::max(b, 0.0), std::max(c, 0.0)};
+  const double sum = weights[0] + weights[1] + weights[2];
+  for (double& weight : weights) weight /= sum;
   const Index clean = clean_face_[point.face];
   const Face& vertices = mesh_->faces()[point.face];
-  if (clean == kNoIndex || std::max({a, b, c}) == 1 || face(clean) != vertices) {
-    auto found = at_weighted_vertices(vertices, point.weights);
+  if (clean == kNoIndex || std::ranges::max(weights) == 1 || face(clean) != vertices) {
+    auto found = at_weighted_vertices(vertices, weights);
     if (!found || found->is_vertex() || clean == kNoIndex) return found;
     return *express(*found, clean);  // a point on an edge stays in its own face
   }
-  const double sum = a + b + c;
-  return SurfacePoint::in_face(clean, {a / sum, b / sum, c / sum});
+  return SurfacePoint::in_face(clean, weights);
 }
 
 SurfacePoint PathSurface::out_of(const SurfacePoint& point) const {

@@ -43,8 +43,8 @@ class PathSurface {
   double unit() const { return unit_; }
 
   /// A point of the file: a bare vertex where it is one, else in a clean face with weights that sum
-  /// to 1. Errors: kBadInput (out of range, weights that are negative or do not sum to 1, a vertex
-  /// or an edge in no clean face).
+  /// to 1. Errors: kBadInput (out of range, weights that are negative or do not sum to 1 by more
+  /// than 1e-6, as of sources; a vertex or an edge in no clean face).
   Result<SurfacePoint> into(const SurfacePoint& point) const;
   SurfacePoint out_of(const SurfacePoint& point) const;
   Index file_face(Index f) const { return clean_.original[static_cast<std::size_t>(f)]; }

@@ -4,11 +4,13 @@
 #include "solver/path/other_sides.h"
 #include "solver/path/release.h"
 #include "solver/path/shorten_loop.h"
+#include "solver/path/within_memory.h"
 
 namespace geotherm {
+namespace {
 
-Result<SurfacePath> shorten(const PathSurface& surface, const SurfacePath& start, bool search,
-                            const Progress& progress) {
+Result<SurfacePath> shortened(const PathSurface& surface, const SurfacePath& start, bool search,
+                              const Progress& progress) {
   if (start.points.empty()) {
     return Error{ErrorCode::kBadInput, "the path has no points; give one at least"};
   }
@@ -24,6 +26,14 @@ Result<SurfacePath> shorten(const PathSurface& surface, const SurfacePath& start
   SurfacePath path = path_of(surface, *legs, *first);
   path.closed = start.closed;
   return path;
+}
+
+}  // namespace
+
+Result<SurfacePath> shorten(const PathSurface& surface, const SurfacePath& start, bool search,
+                            const Progress& progress) {
+  return within_memory("a shorter path", *surface.mesh(),
+                       [&] { return shortened(surface, start, search, progress); });
 }
 
 }  // namespace geotherm

@@ -17,7 +17,7 @@ namespace geotherm {
 /// each step making it shorter (Xin, Wang 2007, "Efficiently determining a locally exact shortest
 /// path on polyhedral surfaces"). A closed path without a vertex is the minimum of a convex
 /// function of the place where it is cut open. `start`: points and faces of the file. Errors:
-/// kBadInput (no points, pieces outside of their faces), kBudgetEnded, kCancelled.
+/// kBadInput (no points, pieces outside of their faces), kBudgetEnded, kCancelled, kOutOfMemory.
 Result<SurfacePath> shorten(const PathSurface& surface, const SurfacePath& start,
                             bool search = false, const Progress& progress = {});
 

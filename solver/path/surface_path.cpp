@@ -69,4 +69,20 @@ double length_of(const TriangleMesh& mesh, const std::vector<SurfacePoint>& poin
   return length;
 }
 
+SurfacePath reversed(SurfacePath path) {
+  std::ranges::reverse(path.points);
+  std::ranges::reverse(path.faces);
+  return path;
+}
+
+void append(SurfacePath& path, const SurfacePath& next) {
+  if (path.points.empty()) {
+    path = next;
+    return;
+  }
+  path.points.insert(path.points.end(), next.points.begin() + 1, next.points.end());
+  path.faces.insert(path.faces.end(), next.faces.begin(), next.faces.end());
+  path.length += next.length;
+}
+
 }  // namespace geotherm

@@ -32,4 +32,10 @@ std::vector<Vec3> positions_of(const TriangleMesh& mesh, const SurfacePath& path
 /// Sum of the lengths of the pieces, model units.
 double length_of(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points);
 
+/// The same path from its end to its start.
+SurfacePath reversed(SurfacePath path);
+
+/// Appends a path that begins where the other ends, if that has points.
+void append(SurfacePath& path, const SurfacePath& next);
+
 }  // namespace geotherm

@@ -6,8 +6,9 @@
 
 namespace geotherm {
 
-/// Fills in the quality figures that waves know: how far a source vertex is above its offset, and
-/// the slope. `result.distances` are still in units of the intrinsic mesh. Cost: O(F).
+/// Fills in the quality figures that waves know: how far a source vertex is above its offset (0 but
+/// for round-off: its value is a minimum that starts there), and the slope. `result.distances` are
+/// still in units of the intrinsic mesh. Cost: O(F).
 void judge_wave(const WaveSurface& surface, const SourceSeeds& seeds, DistanceResult& result);
 
 }  // namespace geotherm

@@ -32,13 +32,13 @@ bool WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool l
   ring_.begin(pass);
   seed(surface, seeds);
   const auto edges = static_cast<double>(tables_.edge_count());
-  std::size_t visits = 0, next_call = kVisitsBetweenCalls;
+  std::size_t next_call = kVisitsBetweenCalls;
   while (ring_.advance(pass)) {
     do {
-      visits += visit_current_bucket(pass, samples_, kVisitsBetweenCalls, set_);
-      if (visits < next_call) continue;
-      next_call = visits + kVisitsBetweenCalls;
-      const double share = std::min(static_cast<double>(visits) / edges, 1.0);
+      visits_ += visit_current_bucket(pass, samples_, kVisitsBetweenCalls, set_);
+      if (visits_ < next_call) continue;
+      next_call = visits_ + kVisitsBetweenCalls;
+      const double share = std::min(static_cast<double>(visits_) / edges, 1.0);
       if (!report(progress, "solve", share)) return false;
     } while (pass.place > 0);
   }
@@ -52,6 +52,8 @@ void WaveFront::reset(bool labels) {
   distance_.assign(vertices, kUnreached);
   sample_.assign(samples, kUnreached);
   queued_.assign(edges, 0);
+  spread_below_.assign(vertices, kUnreached);
+  visits_ = 0;
   label_.assign(labels ? vertices : 0, kNoIndex);
   sample_label_.assign(labels ? samples : 0, kNoIndex);
 }
@@ -68,6 +70,7 @@ WavePass WaveFront::pass() {
   pass.label = label_.empty() ? nullptr : label_.data();
   pass.sample_label = sample_label_.empty() ? nullptr : sample_label_.data();
   pass.queued = queued_.data();
+  pass.spread_below = spread_below_.data();
   return pass;
 }
 

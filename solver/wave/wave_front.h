@@ -28,6 +28,8 @@ class WaveFront {
   std::span<const Index> labels() const { return label_; }
   /// What has to be added to every distance: the least offset.
   double base() const { return base_; }
+  /// The work: edges that were visited, and corners where fans touch.
+  std::size_t visits() const { return visits_; }
 
  private:
   using Keys = std::vector<std::pair<double, Index>>;
@@ -45,8 +47,10 @@ class WaveFront {
   std::vector<double> distance_, sample_;
   std::vector<Index> label_, sample_label_;
   std::vector<std::uint8_t> queued_;
+  std::vector<double> spread_below_;
   Keys keys_;
   double base_ = 0;
+  std::size_t visits_ = 0;
 };
 
 }  // namespace geotherm

@@ -30,6 +30,7 @@ struct WavePass {
   Index* label;          ///< n: of the source that gave the distance; null where nobody asks
   Index* sample_label;   ///< E x samples
   std::uint8_t* queued;  ///< E
+  double* spread_below;  ///< n: where fans touch, a vertex spreads again when it falls below this
 
   WaveBucket* buckets;  ///< a ring of bucket_mask + 1
   std::int64_t bucket_mask;
@@ -43,7 +44,8 @@ struct WavePass {
 
 /// Visits edges of the current bucket until it is empty (and resets it) or `most` are visited:
 /// samples 1 or 3 on each edge, labels carried along where pass.label is set. The answer is the
-/// same to the last bit for every instruction set. Returns the number of visits.
+/// same to the last bit for every instruction set. Returns the number of visits; corners to which a
+/// vertex spreads are visits, too, and may be more than `most`.
 std::size_t visit_current_bucket(WavePass& pass, int samples, std::size_t most,
                                  InstructionSet set = best_instruction_set());
 

@@ -29,8 +29,7 @@ class Wave {
       const Index edge = bucket.edges[p_.place++];
       p_.queued[edge] = 0;
       --p_.waiting;
-      visit(edge);
-      ++visits;
+      visits += visit(edge);
     }
     if (p_.place == bucket.size) bucket.size = 0, p_.place = 0;
     return visits;
@@ -60,7 +59,8 @@ class Wave {
     }
   }
 
-  void visit(Index edge) {
+  /// Returns how much work it was, in visits.
+  std::size_t visit(Index edge) {
     const auto& sides = p_.sides[edge];
     const WaveFace& face = p_.faces[face_of_code(sides[0])];
     const int k = corner_of_code(sides[0]);
@@ -74,9 +74,11 @@ class Wave {
       const SideCode* list = p_.more - (sides[1] + 2);
       for (SideCode i = 1; i <= list[0]; ++i) cross_second(list[i], front);
     }
-    if (face.touching == 0) return;
-    if ((face.touching >> k & 1U) != 0) spread(va);
-    if ((face.touching >> next & 1U) != 0) spread(vb);
+    std::size_t visits = 1;
+    if (face.touching == 0) return visits;
+    if ((face.touching >> k & 1U) != 0) visits += spread(va);
+    if ((face.touching >> next & 1U) != 0) visits += spread(vb);
+    return visits;
   }
 
   void cross_second(SideCode code, const Front<Samples>& front) {
@@ -120,9 +122,9 @@ class Wave {
     const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1, previous = k == 0 ? 2 : k - 1;
     const Index vc = face.vertex[previous];
     const double nearer = least(front.a, front.b);
-    if (!(p_.distance[vc] > nearer) && vc != face.vertex[k] && vc != face.vertex[next] &&
+    if (p_.distance[vc] < nearer && vc != face.vertex[k] && vc != face.vertex[next] &&
         face.vertex[k] != face.vertex[next]) {
-      return;  // it came from there
+      return;  // it came from there; with an offset beyond all digits every distance is the same
     }
     const double length = face.length[k], half = length / 2, inverse = 1 / length;
     const double to_b = face.length[next], to_a = face.length[previous];
@@ -153,8 +155,12 @@ class Wave {
                   most(dc, front.b));
   }
 
-  /// Hands the value of a vertex to all its faces, where fans touch and no edge does it.
-  void spread(Index vertex) {
+  /// Hands the value of a vertex to all its faces, where fans touch and no edge does it; unless all
+  /// have had it, but for what none would notice. Returns the number of corners.
+  std::size_t spread(Index vertex) {
+    if (!(p_.distance[vertex] < p_.spread_below[vertex])) return 0;
+    const double value = p_.distance[vertex];
+    double shortest = kFar;
     for (std::size_t i = p_.corner_start[vertex]; i < p_.corner_start[vertex + 1]; ++i) {
       const SideCode code = p_.corners[i];
       const WaveFace& face = p_.faces[face_of_code(code)];
@@ -173,7 +179,10 @@ class Wave {
       const bool fell = lower_vertex(face.vertex[next], front.b, label, kNotice * face.length[k]);
       lower_samples(face, k, values, front.labels, kNotice * face.length[k], fell, front.b);
       cross(code, front);
+      shortest = least(shortest, face.length[k]);
     }
+    p_.spread_below[vertex] = value - kNotice * shortest;
+    return p_.corner_start[vertex + 1] - p_.corner_start[vertex];
   }
 
   /// True when the value fell by more than `notice`.
@@ -206,9 +215,12 @@ class Wave {
   /// Puts an edge into the bucket of `key`, the current one where that is past.
   void enqueue(Index edge, double key) {
     if (p_.queued[edge] != 0) return;
-    auto number = static_cast<std::int64_t>(key * p_.per_length);
+    const std::int64_t last = p_.current + p_.bucket_mask;
+    const double place = key * p_.per_length;  // may be beyond all integers
+    std::int64_t number = last;
+    if (place < static_cast<double>(last)) number = static_cast<std::int64_t>(place);
     if (number < p_.current) number = p_.current;
-    if (number > p_.current + p_.bucket_mask) number = p_.current + p_.bucket_mask;
+    if (number > last) number = last;  // where it has more digits than a double
     WaveBucket& bucket = p_.buckets[number & p_.bucket_mask];
     if (bucket.size == bucket.capacity) p_.grow(p_.context, bucket);
     bucket.edges[bucket.size++] = edge;

@@ -10,7 +10,8 @@ namespace geotherm {
 
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
 /// from the distances at an edge's ends and at samples between them (docs/numerics.md,
-/// "Wavefront"). Quality figures: max_source_distance and eikonal_error_mean alone.
+/// "Wavefront"). Quality figures: max_source_distance (0 but for round-off: a source starts at its
+/// offset and can only fall) and eikonal_error_mean alone.
 class WavefrontMethod final : public DistanceMethod {
  public:
   /// Samples inside an edge: its midpoint, or its quarter points.

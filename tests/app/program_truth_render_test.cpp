@@ -40,7 +40,14 @@ TEST_F(ProgramTruthRender, PathsAreDrawn) {
   const std::string without = bytes({"-s", "3"});
   const std::string with = bytes({"-s", "3", "--path", "400"});
   EXPECT_NE(with, without);
-  EXPECT_EQ(bytes({"-s", "3", "--path", "400"}).size(), with.size()) << "the same again";
+  EXPECT_EQ(bytes({"-s", "3", "--path", "400"}), with) << "the same again";
+}
+
+TEST_F(ProgramTruthRender, SaysHowLongThePathsAre) {
+  const Json drawn = picture({"-s", "3", "--path", "400"})["picture"]["paths"];
+  ASSERT_EQ(drawn.size(), 3U);
+  EXPECT_EQ(drawn[0]["field"], "geodesic");
+  for (const Json& path : drawn) EXPECT_GE(path["length"], drawn[0]["length"]);
 }
 
 TEST_F(ProgramTruthRender, APathNeedsASourceAndOnePoint) {

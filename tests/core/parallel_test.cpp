@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/no_threads.h"
+
 namespace geotherm::test {
 namespace {
 
@@ -37,6 +39,22 @@ TEST_P(ParallelFor, BothFunctionsRunAndFailuresReachTheCaller) {
   EXPECT_THROW(run_both(
                    GetParam(), [] {}, [] { throw std::runtime_error("second"); }),
                std::runtime_error);
+}
+
+TEST(WorkWithoutThreads, IsDoneByTheCaller) {
+  const NoThreads none;
+  if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
+  EXPECT_FALSE(try_thread([] {}).joinable());
+  std::vector<int> visits(100);
+  parallel_for(4, 100, 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) ++visits[static_cast<std::size_t>(i)];
+  });
+  EXPECT_EQ(visits, std::vector<int>(100, 1));
+  int first = 0, second = 0;
+  run_both(
+      2, [&] { ++first; }, [&] { ++second; });
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 1);
 }
 
 TEST(ThreadCount, OfZeroMeansAllCores) {

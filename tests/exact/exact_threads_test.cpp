@@ -29,12 +29,35 @@ TEST(ExactThreads, AnyNumberOfThemGivesTheSameBits) {
 TEST(ExactThreads, AFailureOfOneSetIsTheAnswerWhicheverThreadMeetsIt) {
   auto sets = some_sets(6);
   sets[2] = SourceSet::of_vertices({1'000'000});
-  sets[4] = {};
   const auto method = exact_method(finish(torus(24, 12, 0.4)), 3);
   const auto alone = method->solve(sets[2]);
   const auto result = method->solve_each(sets);
   ASSERT_FALSE(result || alone);
   EXPECT_EQ(result.error().message, alone.error().message);
+}
+
+TEST(ExactThreads, AskTheirProgressBeforeEverySetAsStageSolve) {
+  const auto method = exact_method(finish(sphere(1)), 3);  // too small to ask in between
+  const auto sets = some_sets(4);
+  std::atomic<std::size_t> calls = 0;
+  const auto result = method->solve_each(sets, {}, [&](std::string_view stage, double) {
+    EXPECT_EQ(stage, "solve");
+    ++calls;
+    return true;
+  });
+  ASSERT_TRUE(result);
+  EXPECT_GE(calls, sets.size());
+}
+
+TEST(ExactThreads, DoNotGoOnAfterAFailure) {
+  auto sets = some_sets(6);
+  sets[1] = {};
+  const auto method = exact_method(finish(sphere(1)), 1);
+  constexpr double kTwoSets = 2.0 / 6;
+  EXPECT_FALSE(method->solve_each(sets, {}, [&](std::string_view, double share) {
+    EXPECT_LE(share, kTwoSets);
+    return true;
+  }));
 }
 
 TEST(ExactThreads, AreStoppedByTheirProgress) {

@@ -42,6 +42,18 @@ TEST(ExactWindows, OfAPlaneAreFewHoweverFineItIs) {
   EXPECT_LE(windows_per_face(plane_grid(120, 120, 1, 1), 3000), kFew);
 }
 
+TEST(ExactWindows, FillNoMoreMemoryThanTheyMay) {
+  const auto surface = build_wave_surface(finish(sphere(4)));
+  ASSERT_TRUE(surface);
+  const auto seeds = seed_sources(**surface, SourceSet::of_vertices({0}));
+  ASSERT_TRUE(seeds);
+  const WindowMesh mesh(**surface);
+  const auto refused = Propagation(mesh, 1 << 10).run(*seeds, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_NE(refused.error().message.find("wavefront-fine"), std::string::npos);
+}
+
 TEST(ExactWindows, DoNotMultiplyAtEdgesWithManyFaces) {
   // Without cuts at those edges it is 85 at 4 points a side, 220 at 6, and so on.
   constexpr double kSome = 20;

@@ -17,6 +17,14 @@ namespace {
 
 class SessionTruth : public SessionFixture {
  protected:
+  /// From a vertex to vertex 60.
+  double exact_distance(Index from) const {
+    MethodOptions options;
+    options.method = MethodKind::kExact;
+    const auto method = build_method(session.explored().model->model.mesh, options);
+    return (*method)->solve(SourceSet::of_vertices({from}))->distances[60];
+  }
+
   PictureData shown() const {
     return picture_of(session.explored(), session.state().shown, session.state().picture.view);
   }
@@ -84,8 +92,8 @@ TEST_F(SessionTruth, PathsLeadFromTheTargetToTheNearestSource) {
        position_at(*explored.model->model.mesh, explored.paths[0].path.points.front()))
           .norm();
   for (const TargetPath& path : explored.paths) {
-    const Index start = path.path.points.front().vertex;
-    EXPECT_TRUE(start == 5 || start == 40);
+    const auto to_40 = exact_distance(40), to_5 = exact_distance(5);
+    EXPECT_EQ(path.path.points.front().vertex, to_40 < to_5 ? 40 : 5) << "the nearer one";
     EXPECT_EQ(path.path.points.back().vertex, 60);
     EXPECT_GE(path.path.length, direct * (1 - 1e-12)) << "nothing is shorter than a straight line";
     EXPECT_GE(path.path.length, explored.paths[0].path.length * (1 - 1e-9))
@@ -105,6 +113,24 @@ TEST_F(SessionTruth, SavedDistancesNameTheNearestSource) {
   };
   EXPECT_NE(text("d.ply").find("property int nearest_source"), std::string::npos);
   EXPECT_EQ(text("d.csv").find("nearest_source"), std::string::npos);
+}
+
+TEST_F(SessionTruth, PathsFindASourceInsideTheTargetsFace) {
+  write(folder() + "square.obj", "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n");
+  run({"open " + folder() + "square.obj", "source set face:0:0.34:0.33:0.33 1",
+       "target face:0:0.3:0.4:0.3"});
+  ASSERT_FALSE(session.explored().paths.empty());
+  EXPECT_LT(session.explored().paths[0].path.length, 1) << "not the vertex, which is 4 away";
+}
+
+TEST_F(SessionTruth, AMethodIsNotCheckedAgainstALesserOne) {
+  run({"open " + small_model(), "source set 5", "method exact", "check wavefront-fine"});
+  EXPECT_EQ(session.explored().a->error->reference, MethodKind::kExact);
+  EXPECT_TRUE(session.explored().a->error->values.empty());
+  run({"method wavefront-fine"});
+  EXPECT_TRUE(session.explored().a->error->values.empty());
+  EXPECT_EQ(session.explored().a->error->verdict.find("most accurate method there is"),
+            std::string::npos);
 }
 
 TEST_F(SessionTruth, AMethodWithoutHeatHasNoPathOfHeat) {

@@ -56,8 +56,12 @@ TEST(ReferenceForTest, IsMoreAccurateThanTheMethodOrIsIt) {
   constexpr Index kSmall = 1000, kLarge = 10'000'000;
   EXPECT_EQ(reference_for(MethodKind::kHeat, kSmall), MethodKind::kExact);
   EXPECT_EQ(reference_for(MethodKind::kHeat, kLarge), MethodKind::kWavefrontFine);
-  EXPECT_EQ(reference_for(MethodKind::kWavefrontFine, kLarge), MethodKind::kExact);
+  EXPECT_EQ(reference_for(MethodKind::kWavefrontFine, kSmall), MethodKind::kExact);
   EXPECT_EQ(reference_for(MethodKind::kExact, kSmall), MethodKind::kExact);
+  EXPECT_EQ(reference_for(MethodKind::kWavefrontFine, kLarge), MethodKind::kWavefrontFine)
+      << "windows would take more than seconds";
+  EXPECT_TRUE(is_better(MethodKind::kExact, MethodKind::kWavefrontFine));
+  EXPECT_FALSE(is_better(MethodKind::kHeat, MethodKind::kFastMarching));
 }
 
 }  // namespace

@@ -185,6 +185,17 @@ TEST(Geodesic, RefusesPointsThatAreNotOnTheMesh) {
   EXPECT_FALSE(finder.find(one));
 }
 
+TEST(Geodesic, AcceptsWeightsThatAreRoundedLikeThoseOfASource) {
+  const PathFinder finder = finder_on(finish(sphere(1)));
+  const SurfacePoint on_edge = SurfacePoint::in_face(0, {0.5, 0.5, 0});
+  const SurfacePoint rounded = SurfacePoint::in_face(0, {0.5 + 6e-7, 0.5, -9e-7});
+  EXPECT_NEAR(found(finder, {rounded, vertex(9)}).length,
+              found(finder, {on_edge, vertex(9)}).length, 1e-6);
+  const std::vector<SurfacePoint> off = {SurfacePoint::in_face(0, {0.5, 0.500002, -2e-6}),
+                                         vertex(9)};
+  EXPECT_FALSE(finder.find(off));
+}
+
 TEST(Geodesic, IsTheSameAtAnyScaleAndPlace) {
   const Draft draft = torus(20, 12, 0.4);
   const double length = found(finder_on(finish(draft)), 3, 130).length;

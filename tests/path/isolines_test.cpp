@@ -27,6 +27,9 @@ TEST(Isolines, OfAPlanesCoordinateGoStraightFromBorderToBorder) {
   for (const Vec3& p : mesh->positions()) x.push_back(p.x());
   const double levels[] = {0.15, 0.5, 0.77};
   const auto lines = trace_isolines(*mesh, x, levels);
+  const auto guarded = find_isolines(*mesh, x, levels);
+  ASSERT_TRUE(guarded) << guarded.error().message;
+  EXPECT_EQ(guarded->size(), lines.size());
   ASSERT_EQ(lines.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(lines[i].value, levels[i]);

@@ -2,8 +2,11 @@
 // Closed paths.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <new>
 #include <numbers>
+#include <string_view>
 
 #include "tests/path/path_support.h"
 
@@ -99,6 +102,38 @@ TEST(Loop, RoundTheMiddleOfAMoebiusStripIsShorterThanItsRim) {
   const SurfacePath held = found(finder, points, kHeld);
   const SurfacePath loop = found(finder, points, kLoop);
   EXPECT_LE(loop.length, held.length);
+  double rim = 0;  // runs round twice
+  const EdgeTable edges(mesh->vertex_count(), mesh->faces());
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides(e).size() != 1) continue;
+    rim += (mesh->positions()[edges.low(e)] - mesh->positions()[edges.high(e)]).norm();
+  }
+  EXPECT_GT(loop.length, 0.4 * rim);  // round, not drawn together
+  EXPECT_LT(loop.length, 0.5 * rim);
+}
+
+TEST(Loop, SharesOfTheProgressDoNotFall) {
+  const PathFinder finder = finder_on(finish(prism(15, 8, 1)));
+  double last = 0;
+  const auto path = finder.find(vertices({2, 5 * 15 + 7, 3 * 15 + 12}), kLoop,
+                                [&](std::string_view stage, double share) {
+                                  EXPECT_TRUE(share < 0 || share >= last) << stage;
+                                  last = std::max(last, share);
+                                  return true;
+                                });
+  EXPECT_TRUE(path) << path.error().message;
+  EXPECT_LE(last, 1);
+}
+
+TEST(Loop, WithoutMemoryIsAnErrorNotAnException) {
+  const PathFinder finder = finder_on(finish(prism(15, 8, 1)));
+  const auto path = finder.find(vertices({2, 5 * 15 + 7, 3 * 15 + 12}), kLoop,
+                                [](std::string_view stage, double) {
+                                  if (stage == "shortening the path") throw std::bad_alloc();
+                                  return true;
+                                });
+  ASSERT_FALSE(path);
+  EXPECT_EQ(path.error().code, ErrorCode::kOutOfMemory) << path.error().message;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "tests/support/compare.h"
@@ -15,11 +16,14 @@ namespace {
 
 // Relative to the largest distance.
 constexpr double kRoundOff = 1e-12;
+// Distances are measured from the least offset: into units, added, out of units and off again.
+constexpr double kFourUlps = 4 * std::numeric_limits<double>::epsilon();
 // Where two waves meet, a fit sees both of them: 0.3 % of the range at most in wavefront.md's
 // cases, with edges of a twentieth of the range here. Fast marching's own error is larger.
 const std::map<MethodKind, double> kMeeting = {{MethodKind::kWavefront, 0.01},
                                                {MethodKind::kWavefrontFine, 0.005},
-                                               {MethodKind::kFastMarching, 0.02}};
+                                               {MethodKind::kFastMarching, 0.02},
+                                               {MethodKind::kExact, kRoundOff}};
 
 SourceSet with_offsets(const std::vector<Index>& vertices, std::vector<double> offsets) {
   SourceSet set = SourceSet::of_vertices(vertices);
@@ -40,11 +44,11 @@ class Offsets : public testing::TestWithParam<MethodKind> {
 
 TEST_P(Offsets, OfOneSourceAreAddedToEveryDistance) {
   const auto plain = from({7});
-  for (const double offset : {0.0, 0.25, 1e6}) {
-    auto d = from({7}, {offset});
-    EXPECT_EQ(d[7], offset);
-    for (double& x : d) x -= offset;
-    EXPECT_LE(relative_difference(d, plain), kRoundOff * std::max(1.0, offset));
+  for (const double offset : {0.0, 0.25, 1e6, 1e9, 1e15}) {
+    const auto d = from({7}, {offset});
+    const double ulps = kFourUlps * (offset + largest(plain));
+    EXPECT_NEAR(d[7], offset, ulps);
+    for (std::size_t v = 0; v < d.size(); ++v) EXPECT_NEAR(d[v] - offset, plain[v], ulps) << v;
   }
 }
 
@@ -84,6 +88,23 @@ TEST_P(Offsets, MayBeLongerThanTheWholeMesh) {
   }
 }
 
+TEST_P(Offsets, MayBeAsLargeAsNumbersAre) {
+  constexpr double kHuge = 1e300;
+  Draft draft = sphere(2);
+  const Index first = draft.vertex_count();
+  append(draft, transformed(sphere(2), 1, Vec3(4, 0, 0), false));
+  const MeshPtr parts = finish(draft);
+  const auto alone = distances(parts, GetParam(), SourceSet::of_vertices({0}));
+  const auto d = distances(parts, GetParam(), with_offsets({0, first, 5}, {0, kHuge, kHuge}));
+  for (Index v = 0; v < parts->vertex_count(); ++v) {
+    if (v < first) {
+      EXPECT_EQ(d[v], alone[v]) << v;
+    } else {
+      EXPECT_NEAR(d[v], kHuge, kFourUlps * kHuge) << v;
+    }
+  }
+}
+
 TEST_P(Offsets, HoldInsideFaces) {
   SourceSet set{{SurfacePoint::in_face(3, {0.2, 0.3, 0.5})}, {}};
   const auto plain = solve(*method, set).distances;
@@ -93,7 +114,9 @@ TEST_P(Offsets, HoldInsideFaces) {
   EXPECT_LE(relative_difference(d, plain), kRoundOff * 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Offsets, testing::ValuesIn(kWaveKinds),
+INSTANTIATE_TEST_SUITE_P(Methods, Offsets,
+                         testing::Values(MethodKind::kWavefront, MethodKind::kWavefrontFine,
+                                         MethodKind::kFastMarching, MethodKind::kExact),
                          [](const auto& each) { return kind_name(each.param); });
 
 }  // namespace

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "solver/mesh/surface_point.h"
+
+namespace geotherm {
+
+/// Two points, and the distances of all vertices from each (V, file order, model units).
+struct GeodesicEnds {
+  SurfacePoint from, to;
+  std::span<const double> from_distances, to_distances;
+};
+
+}  // namespace geotherm
