@@ -44,14 +44,14 @@ struct Frame {
   float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;          // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
-                       // w: scene units of a scaled value of 1
-  vec4 plain;          // colour of the surface
-  vec4 line;           // colour, width
-  vec4 wire;           // colour, width
-  vec4 marker;         // colour, radius
-  vec4 marker_rim;     // colour, -
-  vec4 polyline;       // half the width, the same with the rim; the tile's first pixel
+  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
+                    // w: scene units of a scaled value of 1
+  vec4 plain;       // colour of the surface
+  vec4 line;        // colour, width
+  vec4 wire;        // colour, width
+  vec4 marker;      // colour, radius
+  vec4 marker_rim;  // colour, -
+  vec4 polyline;    // half the width, the same with the rim; the tile's first pixel
 };
 
 // Pushed with each draw of arrows.

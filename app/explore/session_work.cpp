@@ -175,9 +175,9 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   note(LogLine::Kind::kNote, summary(explored, before));
   const View view = state.picture.view;
   if (needs_fields(view) && explored.a->method->heat() == nullptr) {
-    note(LogLine::Kind::kWarning, "the view " + to_text(view) + " shows the heat u, which the method " +
-                                      to_text(explored.a->options.method) +
-                                      " has not; set method heat");
+    note(LogLine::Kind::kWarning,
+         "the view " + to_text(view) + " shows the heat u, which the method " +
+             to_text(explored.a->options.method) + " has not; set method heat");
   }
   if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
     note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);

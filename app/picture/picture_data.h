@@ -13,8 +13,8 @@
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
-#include "solver/path/surface_path.h"
 #include "solver/method/distance_result.h"
+#include "solver/path/surface_path.h"
 
 namespace geotherm::app {
 

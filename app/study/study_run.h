@@ -43,8 +43,8 @@ struct Study {
 /// The constraint modes that are swept, in the order of the rows.
 std::vector<Constraint> study_constraints();
 
-/// `count` (2 or more) factors from `least` to `most`, about the same ratio apart: those between are
-/// rounded to as many digits as tell them apart.
+/// `count` (2 or more) factors from `least` to `most`, about the same ratio apart: those between
+/// are rounded to as many digits as tell them apart.
 std::vector<double> study_factors(double least, double most, int count);
 
 /// Sweeps the time factor over both rules, all constraint modes and the boundary rules, each held

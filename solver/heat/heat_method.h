@@ -48,9 +48,9 @@ class HeatMethod final : public DistanceMethod {
                                                  const Progress& progress = {}) const override;
 
   const HeatOptions& options() const;
-  double t() const;                                  ///< diffusion time, model units squared
-  LaplacianKind laplacian() const;                   ///< what kAuto became
-  Index flips() const;                               ///< Delaunay edge flips made
+  double t() const;                            ///< diffusion time, model units squared
+  LaplacianKind laplacian() const;             ///< what kAuto became
+  Index flips() const;                         ///< Delaunay edge flips made
   const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
   double memory_mb() const override;           ///< of all factors
   const std::vector<std::string>& warnings() const override;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "solver/core/result.h"
-#include "solver/method/distance_result.h"
 #include "solver/heat/heat_options.h"
 #include "solver/heat/quality.h"
+#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

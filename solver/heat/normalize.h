@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "solver/heat/diffuse.h"
-#include "solver/method/distance_result.h"
 #include "solver/heat/source_anchors.h"
+#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

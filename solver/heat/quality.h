@@ -2,9 +2,9 @@
 #pragma once
 
 #include "solver/heat/diffuse.h"
-#include "solver/method/distance_result.h"
 #include "solver/heat/source_anchors.h"
 #include "solver/heat/unit_field.h"
+#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

@@ -83,7 +83,7 @@ class PlayedWindow : public testing::Test {
 
 // Where things are in a window of 1280 x 800 with the log shown.
 inline constexpr Spot kEar{640, 150}, kHead{530, 340}, kBody{600, 420};
-inline constexpr Spot kConstraintChoice{195, 534}, kTimeFactorField{248, 468};
+inline constexpr Spot kConstraintChoice{195, 560}, kTimeFactorField{248, 494};
 inline constexpr Spot kPanel{150, 208};  ///< nothing that could be hit
 
 }  // namespace geotherm::test
