@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -30,6 +32,19 @@ class Program : public testing::Test {
   }
 
   TemporaryDirectory folder;
+};
+
+/// The same where a device is needed to draw on: without one they are skipped, or fail where
+/// GEOTHERM_REQUIRE_VULKAN is 1.
+class DrawingProgram : public Program {
+ protected:
+  void SetUp() override {
+    if (run_program(folder.path("."), {"devices"}).code != 0) {
+      const char* const required = std::getenv("GEOTHERM_REQUIRE_VULKAN");
+      ASSERT_FALSE(required && std::string(required) == "1") << "there is no Vulkan device";
+      GTEST_SKIP() << "there is no Vulkan device; the software one of Mesa is enough";
+    }
+  }
 };
 
 /// Every key of `expected`, in every level of it, is in `actual`.

@@ -31,16 +31,8 @@ class Variable {
   std::string old_;
 };
 
-class ProgramRender : public Program {
+class ProgramRender : public DrawingProgram {
  protected:
-  void SetUp() override {
-    if (run_program(folder.path("."), {"devices"}).code != 0) {
-      const char* const required = std::getenv("GEOTHERM_REQUIRE_VULKAN");
-      ASSERT_FALSE(required && std::string(required) == "1") << "there is no Vulkan device";
-      GTEST_SKIP() << "there is no Vulkan device; the software one of Mesa is enough";
-    }
-  }
-
   /// The picture and how many colours it has.
   std::pair<PngContent, std::size_t> picture(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "render");

@@ -7,7 +7,7 @@
 namespace geotherm::test {
 namespace {
 
-class ProgramTruthRender : public Program {
+class ProgramTruthRender : public DrawingProgram {
  protected:
   ProgramTruthRender() { run({"generate", "terrain", "--faces", "800", "-o", "small.ply"}); }
 

@@ -9,16 +9,8 @@
 namespace geotherm::test {
 namespace {
 
-class ProgramView : public Program {
+class ProgramView : public DrawingProgram {
  protected:
-  void SetUp() override {
-    if (run_program(folder.path("."), {"devices"}).code != 0) {
-      const char* const required = std::getenv("GEOTHERM_REQUIRE_VULKAN");
-      ASSERT_FALSE(required && std::string(required) == "1") << "there is no Vulkan device";
-      GTEST_SKIP() << "there is no Vulkan device; the software one of Mesa is enough";
-    }
-  }
-
   std::vector<std::uint8_t> pixels(const std::string& name) {
     const PngContent content = read_png(bytes_of(folder.path(name)));
     EXPECT_TRUE(content.valid) << name;
