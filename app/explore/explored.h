@@ -61,7 +61,6 @@ struct Explored {
   std::shared_ptr<const Difference> difference;
   std::vector<Index> nearest;     ///< V: group of the nearest source; empty: not asked for
   std::vector<TargetPath> paths;  ///< to ViewerState::target
-  std::optional<Vec3> target;     ///< where that is, model units
   std::string path_failure;       ///< why there are none although there is a target; empty: none
   std::string b_failure;          ///< why there is no B although settings are kept; empty: none
   std::uint64_t version = 0;      ///< another one with every change

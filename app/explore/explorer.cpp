@@ -191,6 +191,7 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(
   QueryOptions query;
   query.fields = request.fields;
   query.quality = request.quality;
+  query.nearest = request.nearest && !is_b;
   auto result = mine->method->solve(explored.set, query, progress);
   if (!result) return about_model(model_->model.name, result.error());
   Answer out{mine->method, options, *std::move(result), {}, mine->setup, mine->setup_ms, {}};

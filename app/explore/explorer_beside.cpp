@@ -35,11 +35,13 @@ Result<std::shared_ptr<const DistanceMethod>> Explorer::make(const MethodOptions
   return made;
 }
 
-/// By the method of A itself, where that carries them along.
+/// Those of A, where its method carries them along.
 Result<void> Explorer::find_nearest(Explored& explored, const Progress& progress) {
+  explored.nearest = explored.a->result.nearest_source;
+  if (!explored.nearest.empty()) return {};
   MethodOptions options;
   options.threads = explored.a->options.threads;
-  options.method = explored.a->method->heat() ? MethodKind::kWavefront : explored.a->options.method;
+  options.method = MethodKind::kWavefront;
   auto method = make(options, nullptr, part_of(progress, 0.0, 0.5));
   if (!method) return method.error();
   auto result = (*method)->solve(explored.set, {.quality = false, .nearest = true},
@@ -61,7 +63,6 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
     return {};
   }
   const SurfacePoint& point = placed->set.points.front();
-  explored.target = position_at(*model_->model.mesh, point);
   if (!paths_ || paths_->method != explored.a->method) {
     MethodOptions options;
     options.threads = explored.a->options.threads;
