@@ -6,8 +6,6 @@
 
 #include "app/progress_bar.h"
 #include "app/solve_steps.h"
-#include "solver/geometry/clean_faces.h"
-#include "solver/geometry/intrinsic_mesh.h"
 #include "solver/heat/heat_method.h"
 #include "solver/method/distance_error.h"
 
@@ -114,8 +112,7 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
                                           with_prefix(part_of(progress, 0.02, 0.1), "reference: "));
   if (!reference) return about_model(model.name, reference.error());
 
-  const CleanFaces clean = clean_faces(*model.mesh);
-  study.mean_edge = mean_edge_length(model.mesh->positions(), clean.edges);
+  study.mean_edge = task.mean_edge;
   Sweeper sweeper(model, task, reference->distances);
   study.largest_distance = sweeper.range();
   const std::vector<Constraint> constraints = study_constraints();

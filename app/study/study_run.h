@@ -31,6 +31,7 @@ struct StudyTask {
   SourceSet sources;
   std::vector<double> factors;  ///< m, ascending
   std::vector<BoundaryRule> boundaries;
+  double mean_edge = 0;  ///< of the mesh (MeshReport), model units
 };
 
 struct Study {
