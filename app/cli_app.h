@@ -3,4 +3,5 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
+class Option;
 }

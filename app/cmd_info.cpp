@@ -13,11 +13,7 @@
 namespace geotherm::app {
 
 void add_info_options(CLI::App& command, InfoArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);

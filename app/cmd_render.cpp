@@ -61,37 +61,52 @@ Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View v
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
-/// Adds the paths to one target; gives what is to be said about them.
-Result<std::vector<std::string>> draw_paths(const std::string& text, const SolveFigures& solved,
-                                            PictureData& data, const Progress& progress,
-                                            PictureFigures& figures) {
-  auto spec = parse_source(text);
-  if (!spec) return Error{ErrorCode::kBadInput, "--path: " + spec.error().message};
-  if (!is_single_point(*spec)) {
-    return Error{ErrorCode::kBadInput, "--path: '" + one_line(text) +
-                                           "' is not one point; write a vertex id, "
-                                           "face:ID:b0:b1:b2 or xyz:x:y:z"};
+/// Where paths are to lead. Errors: kBadInput, with what was typed.
+Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
+  std::vector<Source> targets;
+  for (const std::string& text : texts) {
+    auto spec = parse_source(text);
+    if (!spec) return Error{ErrorCode::kBadInput, "--path: " + spec.error().message};
+    if (!is_single_point(*spec)) {
+      return Error{ErrorCode::kBadInput, "--path: '" + one_line(text) +
+                                             "' is not one point; write a vertex id, "
+                                             "face:ID:b0:b1:b2 or xyz:x:y:z"};
+    }
+    targets.push_back({*std::move(spec), "--path " + one_line(text), ErrorCode::kBadInput});
   }
-  const Source target{*std::move(spec), "--path " + one_line(text), ErrorCode::kBadInput};
-  const TriangleMesh& mesh = *solved.model.mesh;
-  auto placed = resolve_sources({&target, 1}, mesh);
-  if (!placed) return placed.error();
+  return targets;
+}
+
+/// Adds the paths to all targets, and what is to be said about them to the warnings.
+Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& solved,
+                        PictureData& data, const Progress& progress, PictureFigures& figures) {
+  if (texts.empty()) return {};
+  const auto targets = targets_of(texts);
+  if (!targets) return targets.error();
+  const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
   MethodOptions waves;
   waves.method = MethodKind::kWavefront;
-  auto near_exact = build_method(solved.model.mesh, waves, progress);
+  auto near_exact = build_method(mesh, waves, progress);
   if (!near_exact) return near_exact.error();
-  const TargetPathFinder finder(solved.model.mesh, *std::move(near_exact), solved.method);
-  auto found = finder.find(solved.sources, placed->set.points.front(), progress);
-  if (!found) {
-    return about_model(solved.model.name,
-                       {found.error().code, target.where + ": " + found.error().message});
+  const TargetPathFinder finder(mesh, *std::move(near_exact), solved.method);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const Source& target = (*targets)[i];
+    const auto placed = resolve_sources({&target, 1}, *mesh);
+    if (!placed) return placed.error();
+    const auto found = finder.find(solved.sources, placed->set.points.front(), progress);
+    if (!found) {
+      return about_model(solved.model.name,
+                         {found.error().code, target.where + ": " + found.error().message});
+    }
+    add_paths(data, *mesh, found->paths);
+    for (const TargetPath& path : found->paths) {
+      figures.lines.push_back({texts[i], to_text(path.field), path.path.length});
+    }
+    for (const auto* more : {&placed->warnings, &found->warnings}) {
+      solved.warnings.insert(solved.warnings.end(), more->begin(), more->end());
+    }
   }
-  add_paths(data, mesh, found->paths);
-  for (const TargetPath& path : found->paths) {
-    figures.lines.push_back({text, to_text(path.field), path.path.length});
-  }
-  placed->warnings.insert(placed->warnings.end(), found->warnings.begin(), found->warnings.end());
-  return placed->warnings;
+  return {};
 }
 
 /// Solves where sources are given, and fills the data.
@@ -138,10 +153,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
     add_error(data, report->values, error_title(*report));
     solved->error = *std::move(report);
   }
-  for (const std::string& target : arguments.targets) {
-    auto warned = draw_paths(target, *solved, data, progress, figures);
-    if (!warned) return warned.error();
-    solved->warnings.insert(solved->warnings.end(), warned->begin(), warned->end());
+  if (auto drawn = draw_paths(arguments.targets, *solved, data, progress, figures); !drawn) {
+    return drawn.error();
   }
   warnings = solved->warnings;
   if (query.fields) {
@@ -198,11 +211,7 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   command.add_option("-o,--output", arguments.output, "the picture, .png; - is standard output")
       ->type_name("FILE")
       ->required();

@@ -38,11 +38,7 @@ bool has_several_sources(const SolveFigures& figures) {
 }  // namespace
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   add_source_options(command, arguments.sources);
   command
       .add_option("-o,--output", arguments.outputs,
@@ -75,12 +71,8 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (!options) return options.error();
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
-  const auto named = sources_of(arguments.sources);
+  const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  if (named->empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
-  }
   auto model = load_model(arguments.model, progress);
   if (!model) return model.error();
   QueryOptions query;

@@ -139,10 +139,7 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->type_name("");
+  add_model_option(command, arguments.model);
   command.add_option("--script", arguments.script, "commands to run (docs/commands.md)")
       ->type_name("FILE");
   command

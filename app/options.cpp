@@ -13,6 +13,13 @@
 
 namespace geotherm::app {
 
+CLI::Option* add_model_option(CLI::App& command, std::string& model) {
+  return command
+      .add_option("MODEL", model,
+                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+      ->type_name("");
+}
+
 void add_backend_option(CLI::App& command, MethodArguments& arguments) {
   command.add_option("--backend", arguments.backend, "linear solver: " + joined(backend_names()))
       ->type_name("NAME")
@@ -133,6 +140,13 @@ void note_unused_options(const MethodArguments& arguments, const MethodOptions& 
 void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
   if (!is_bundled(model)) outputs.protect(model, "the model itself");
   outputs.protect(sources.file, "the source file");
+}
+
+Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments) {
+  auto named = sources_of(arguments);
+  if (!named || !named->empty()) return named;
+  return Error{ErrorCode::kBadInput,
+               "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
 }
 
 Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {

@@ -34,6 +34,9 @@ struct SourceArguments {
 };
 
 void add_method_options(CLI::App& command, MethodArguments& arguments);
+/// The model as a word of its own.
+CLI::Option* add_model_option(CLI::App& command, std::string& model);
+
 /// Those of the heat method that a study does not sweep.
 void add_study_method_options(CLI::App& command, MethodArguments& arguments);
 void add_backend_option(CLI::App& command, MethodArguments& arguments);
@@ -50,6 +53,10 @@ void note_unused_options(const MethodArguments& arguments, const MethodOptions& 
 
 /// The files that these name, which no output may replace.
 void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
+
+/// The sources of a command that cannot do without. Errors: those of sources_of(), kBadInput
+/// (none).
+Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
 
 /// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
 Result<std::vector<Source>> sources_of(const SourceArguments& arguments);

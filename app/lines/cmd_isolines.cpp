@@ -133,11 +133,7 @@ LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isol
 }  // namespace
 
 void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   add_source_options(command, arguments.sources);
   command.add_option("--spacing", arguments.spacing, "between lines, in model units")
       ->type_name("D");
@@ -164,12 +160,8 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   protect_inputs(arguments.model, arguments.sources, outputs);
   const auto settings = expect_line_files(arguments.files, outputs);
   if (!settings) return settings.error();
-  const auto named = sources_of(arguments.sources);
+  const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  if (named->empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
-  }
   auto model = load_model(arguments.model, progress);
   if (!model) return model.error();
   auto figures = solve_model(*std::move(model), *options, *named, {}, progress);

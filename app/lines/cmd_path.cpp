@@ -147,11 +147,7 @@ LinePicture picture_of_paths(const PathFigures& figures) {
 }  // namespace
 
 void add_path_options(CLI::App& command, PathArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   const auto add_points = [&command](const char* name, std::vector<std::string>& points,
                                      const char* help) {
     return command.add_option(name, points, help)

@@ -31,8 +31,9 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   const double largest = data.largest_value * data.value_unit;
   // A range is one of distances: an error keeps its 0 in the middle of the map.
   const bool is_error = settings.view == View::kExactError;
-  const std::optional<double> range_min = is_error ? std::nullopt : settings.range_min;
-  const std::optional<double> range_max = is_error ? std::nullopt : settings.range_max;
+  const std::optional<double> none;
+  const std::optional<double>& range_min = is_error ? none : settings.range_min;
+  const std::optional<double>& range_max = is_error ? none : settings.range_max;
   const bool has_range = range_min || range_max;
   PictureScale scale;
   scale.colour_map = colour_map_of(data, settings);

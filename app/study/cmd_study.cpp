@@ -70,11 +70,7 @@ Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
 }  // namespace
 
 void add_study_options(CLI::App& command, StudyArguments& arguments) {
-  command
-      .add_option("MODEL", arguments.model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
-      ->required()
-      ->type_name("");
+  add_model_option(command, arguments.model)->required();
   command
       .add_option("--factors", arguments.factors,
                   "time factors m that are tried, the same ratio apart, default 0.1:100:13")
@@ -115,6 +111,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   if (!sources) return sources.error();
   task.sources = *std::move(sources);
   const MeshReport mesh = inspect_mesh(*model->mesh);
+  task.mean_edge = mesh.mean_edge_length;
   task.boundaries = {BoundaryRule::kNeumann};
   if (mesh.boundary_edges > 0) {
     task.boundaries.insert(task.boundaries.end(),
