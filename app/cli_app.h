@@ -4,4 +4,4 @@
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
 class Option;
-}
+}  // namespace CLI
