@@ -61,7 +61,8 @@ enum class Variant {
 
 /// Which triangulation of the surface carries the operators.
 enum class LaplacianKind {
-  kAuto,               ///< kIntrinsicDelaunay where an edge has a negative weight, else kCotan
+  kAuto,               ///< kTufted where the surface is no oriented manifold, else
+                       ///< kIntrinsicDelaunay where an edge has a negative weight, else kCotan
   kCotan,              ///< the mesh as it is
   kIntrinsicDelaunay,  ///< after intrinsic edge flips (Bobenko, Springborn 2007)
   kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
@@ -76,7 +77,9 @@ struct HeatOptions {
   BoundaryRule boundary = BoundaryRule::kNeumann;
   LaplacianKind laplacian = LaplacianKind::kAuto;
   Variant variant = Variant::kCorrected;
-  int threads = 0;  ///< 0: all cores
+  int threads = 0;             ///< 0: all cores
+  bool strict = false;         ///< a backend that fails is not replaced by the next one
+  double memory_limit_mb = 0;  ///< most that factors may take, in 2^20 bytes; 0: what is free
 
   bool operator==(const HeatOptions&) const = default;
 };

@@ -14,6 +14,7 @@ namespace geotherm {
 /// A method with its options: those of the heat method, of which the others use `threads` alone.
 struct MethodOptions : HeatOptions {
   MethodKind method = MethodKind::kHeat;
+  int refine = 0;  ///< how often every face is cut into four before anything is solved
 
   bool operator==(const MethodOptions&) const = default;
 };
