@@ -24,6 +24,7 @@ constexpr std::uint64_t kSeed = 1;
 struct Plan {
   CompareTask task;  ///< but for the sources, which need the mesh
   std::vector<Source> sources;
+  ModelReading reading;
   Index queries = 0;
 };
 
@@ -60,6 +61,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   const auto options = method_options(arguments.method);
   if (!options) return options.error();
   if (auto chosen = choose_solvers(arguments, *options, plan.task); !chosen) return chosen.error();
+  const auto reading = model_reading(arguments.reading);
+  if (!reading) return reading.error();
+  plan.reading = *reading;
   const auto queries = number_in<Index>(arguments.queries);
   if (!queries || *queries < 1 || *queries > kMostQueries) {
     return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
@@ -71,7 +75,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   if (!sources) return sources.error();
   plan.sources = *std::move(sources);
   for (const std::string& model : arguments.models) {
-    if (is_bundled(model) || ::access(model.c_str(), R_OK) == 0) continue;
+    if (is_bundled(model) || model == kStandardInput || ::access(model.c_str(), R_OK) == 0) {
+      continue;
+    }
     const auto missing = load_model(model);  // for its message
     if (!missing) return missing.error();
   }
@@ -139,9 +145,11 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   };
   command
       .add_option("MODEL", arguments.models,
-                  "files (.obj .ply .off .stl) or bundled models (geotherm models)")
+                  "files (.obj .ply .off .stl), bundled models (geotherm models), - is standard "
+                  "input")
       ->required()
       ->type_name("");
+  add_reading_options(command, arguments.reading);
   add("--backends,--backend", arguments.backends, "A,B",
       "all (default: " + joined(backend_names()) +
           "), or some of them and of wavefront, wavefront-fine, fast-marching, exact");
@@ -171,7 +179,7 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
   CommandOutput out;
   std::vector<CompareRow> rows;
   for (const std::string& name : arguments.models) {
-    const auto model = load_model(name, progress);
+    const auto model = load_model(name, plan->reading, progress);
     if (!model) return model.error();
     out.warnings.insert(out.warnings.end(), model->notes.begin(), model->notes.end());
     CompareTask task = plan->task;

@@ -12,6 +12,7 @@ namespace geotherm::app {
 
 struct CompareArguments {
   std::vector<std::string> models;
+  ReadingArguments reading;
   std::string backends = "all";
   std::string queries = "10";
   std::string reference;  ///< empty: the first of the backends

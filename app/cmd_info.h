@@ -5,6 +5,7 @@
 
 #include "app/cli_app.h"
 #include "app/command_output.h"
+#include "app/model_reading.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
 
@@ -12,6 +13,7 @@ namespace geotherm::app {
 
 struct InfoArguments {
   std::string model;
+  ReadingArguments reading;
   std::string json;
   bool quiet = false;
 };

@@ -6,6 +6,7 @@
 #include "app/error_check.h"
 #include "app/explore/explored_picture.h"
 #include "app/outputs.h"
+#include "app/picture/face_view.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/target_paths.h"
 #include "app/picture/turntable.h"
@@ -43,10 +44,6 @@ Result<void> expect_outputs(const RenderArguments& arguments, const PictureSetti
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
-}
-
-bool needs_sources(View view) {
-  return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
 }
 
 Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {
@@ -113,7 +110,7 @@ Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& sol
 Result<PictureData> prepare(const RenderArguments& arguments, const MethodOptions& options,
                             const std::vector<Source>& sources, const Progress& progress,
                             PictureFigures& figures, std::vector<std::string>& warnings) {
-  auto model = load_model(arguments.model, progress);
+  auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
   figures.model = model->name;
@@ -121,9 +118,11 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
   figures.faces = mesh->face_count();
   warnings = model->notes;
   PictureData data = picture_of(*mesh);
-  if (sources.empty()) return data;
-
   const View view = figures.settings.view;
+  if (sources.empty()) {
+    set_face_values(data, *mesh, view, nullptr);
+    return data;
+  }
   QueryOptions query;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
@@ -157,7 +156,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
     return drawn.error();
   }
   warnings = solved->warnings;
-  if (query.fields) {
+  set_face_values(data, *mesh, view, &solved->result);
+  if (shows_arrows(view)) {
     add_fields(data, *mesh, solved->result);
     data.solid = is_solid(*mesh, solved->mesh);
   }
@@ -211,7 +211,7 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
-  add_model_option(command, arguments.model)->required();
+  add_model_option(command, arguments.model, arguments.reading)->required();
   command.add_option("-o,--output", arguments.output, "the picture, .png; - is standard output")
       ->type_name("FILE")
       ->required();

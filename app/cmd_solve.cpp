@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/error_check.h"
+#include "app/error_cause.h"
 #include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/report_table.h"
+#include "app/solve_fields.h"
 #include "app/solve_model.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
@@ -31,6 +32,26 @@ bool needs_nearest(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, holds_mesh);
 }
 
+/// Holds the distances against a more accurate method, and says why they are wrong. A check that
+/// fails is a warning: the distances are good all the same. Errors: kCancelled.
+Result<void> check_answer(SolveFigures& figures, const Progress& progress) {
+  const MethodOptions& options = figures.options;
+  const auto check = [&]() -> Result<void> {
+    auto report =
+        check_error(figures.model.mesh, options.method, figures.result.distances, figures.sources,
+                    options.threads, with_prefix(progress, "checking: "));
+    if (!report) return report.error();
+    figures.error = *std::move(report);
+    if (!needs_cause(*figures.error, options.method)) return {};
+    return find_cause(*figures.error, figures.model.mesh, options, figures.sources,
+                      figures.result.distances, with_prefix(progress, "finding the cause: "));
+  };
+  const auto checked = check();
+  if (checked || checked.error().code == ErrorCode::kCancelled) return checked;
+  figures.warnings.push_back("the distances were not checked: " + checked.error().message);
+  return {};
+}
+
 bool has_several_sources(const SolveFigures& figures) {
   return source_groups(figures.sources).count > 1;
 }
@@ -38,7 +59,7 @@ bool has_several_sources(const SolveFigures& figures) {
 }  // namespace
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
-  add_model_option(command, arguments.model)->required();
+  add_model_option(command, arguments.model, arguments.reading)->required();
   add_source_options(command, arguments.sources);
   command
       .add_option("-o,--output", arguments.outputs,
@@ -51,7 +72,13 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--check", arguments.check,
-                   "how wrong the distances are: held against a more accurate method");
+                   "how wrong the distances are, held against a more accurate method, and why");
+  command
+      .add_option("--fields", arguments.fields,
+                  "writes numbers beside the distances that say where they are right: all, or some "
+                  "of error (implies --check), eikonal-error, gradient-angle, lost-gradients, "
+                  "triangle-quality, non-delaunay; .ply and .vtp hold all, .csv error alone")
+      ->type_name("NAMES");
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
@@ -63,6 +90,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve model.obj -s 17 -o distances.ply --json figures.json\n"
       "  geotherm solve terrain -s boundary --time-factor 2 -o - | head\n"
       "  geotherm solve bunny -s 0 --check\n"
+      "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
       "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv");
 }
 
@@ -71,27 +99,23 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (!options) return options.error();
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  const auto wanted = wanted_fields(arguments.fields, options->method, arguments.outputs);
+  if (!wanted) return wanted.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  auto model = load_model(arguments.model, progress);
+  auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   QueryOptions query;
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);
+  query.fields = wanted->has_heat();
   auto figures = solve_model(*std::move(model), *options, *named, query, progress);
   if (!figures) return figures.error();
   note_unused_options(arguments.method, *options, figures->warnings);
-  if (arguments.check) {
-    auto report =
-        check_error(figures->model.mesh, options->method, figures->result.distances,
-                    figures->sources, options->threads, with_prefix(progress, "checking: "));
-    if (report) {
-      figures->error = *std::move(report);
-    } else if (report.error().code == ErrorCode::kCancelled) {
-      return report.error();
-    } else {  // the distances are good all the same
-      figures->warnings.push_back("the distances were not checked: " + report.error().message);
-    }
+  if (arguments.check || wanted->has_error()) {
+    if (auto checked = check_answer(*figures, progress); !checked) return checked.error();
   }
+  const auto fields = make_fields(*wanted, *figures);
+  if (!fields) return fields.error();
 
   CommandOutput out{"", figures->warnings, {}};
   const std::vector<double>& distances = figures->result.distances;
@@ -104,8 +128,9 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
     const std::vector<Index> nearest =
         labels ? figures->result.nearest_source : std::vector<Index>();
     const auto written = outputs.write(path, [&]() -> Result<void> {
-      if (path != "-") return write_distances(path, *figures->model.mesh, distances, nearest);
-      out.text = io::csv_bytes(distances, nearest);
+      if (path != "-")
+        return write_distances(path, *figures->model.mesh, distances, nearest, *fields);
+      out.text = io::csv_bytes(distances, nearest, *fields);
       return {};
     });
     if (!written) return written.error();

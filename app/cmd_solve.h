@@ -12,11 +12,13 @@ namespace geotherm::app {
 
 struct SolveArguments {
   std::string model;
+  ReadingArguments reading;
   SourceArguments sources;
   MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
   bool check = false;   ///< against a more accurate method
+  std::string fields;   ///< quality fields beside the distances, empty: none
   bool labels = false;  ///< nearest sources in .csv and .npy, too
   bool quiet = false;
 };

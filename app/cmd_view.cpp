@@ -48,6 +48,11 @@ Result<void> check(const ViewArguments& a) {
     return Error{ErrorCode::kBadInput,
                  "--script and --replay: give one of them; --replay writes no files of its own"};
   }
+  if (a.model == kStandardInput) {
+    return Error{ErrorCode::kBadInput,
+                 "the viewer reads a model again when its settings change, which standard input "
+                 "cannot be; write it to a file and name that"};
+  }
   if (is_headless(a) && a.model.empty() && a.script.empty() && a.replay.empty()) {
     return Error{ErrorCode::kBadInput,
                  "there is nothing to do without a window; name a model, or commands with "
@@ -139,7 +144,7 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  add_model_option(command, arguments.model);
+  add_model_option(command, arguments.model, arguments.reading);
   command.add_option("--script", arguments.script, "commands to run (docs/commands.md)")
       ->type_name("FILE");
   command
@@ -176,8 +181,11 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   if (!picture) return picture.error();
   const auto sources = source_texts(arguments.sources);
   if (!sources) return sources.error();
+  const auto reading = model_reading(arguments.reading);
+  if (!reading) return reading.error();
   ViewerState state = initial_state();
   state.options = *heat;
+  state.reading = *reading;
   state.picture = *picture;
   state.picture.device.clear();
   if (arguments.picture.fit.empty()) state.picture.camera.fit = PictureFit::kSphere;

@@ -14,6 +14,7 @@ namespace geotherm::app {
 
 struct ViewArguments {
   std::string model;
+  ReadingArguments reading;
   SourceArguments sources;
   MethodArguments method;
   PictureArguments picture;

@@ -75,7 +75,8 @@ class Runner {
  public:
   Runner(const CompareTask& task, const Progress& progress) : task_(task), progress_(progress) {}
 
-  Answers run(const Model& model, const MethodOptions& options, CompareRow& row) {
+  Answers run(const Model& model, MethodOptions options, CompareRow& row) {
+    options.strict = true;  // a row is about its own backend
     reset_peak_rss();
     const auto built = build_method(model.mesh, options, progress_);
     if (!built) {

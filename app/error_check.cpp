@@ -11,7 +11,7 @@ namespace {
 
 /// Bounds of the mean relative error: beside the heat method's usual 0.5 to 2 %, less is near exact
 /// and more has a cause worth looking for.
-constexpr double kNearExact = 1e-3, kGood = 0.02, kFair = 0.05;
+constexpr double kNearExact = 1e-3, kGood = kGoodError, kFair = 0.05;
 
 constexpr int kBins = 41;
 
@@ -26,13 +26,17 @@ std::string verdict_of(MethodKind checked, const DistanceError& e) {
     return counted(e.differently_reached, "vertex is", "vertices are") +
            " reached by one method and not by the other";
   }
-  if (e.mean_relative <= kNearExact) return "near exact";
-  if (e.mean_relative <= kGood) return "good";
-  if (e.mean_relative <= kFair) return "fair: " + cure(checked);
-  return "poor: " + cure(checked);
+  const std::string word = grade(e.mean_relative);
+  return e.mean_relative <= kGood ? word : word + ": " + cure(checked);
 }
 
 }  // namespace
+
+std::string grade(double mean_relative) {
+  if (mean_relative <= kNearExact) return "near exact";
+  if (mean_relative <= kGood) return "good";
+  return mean_relative <= kFair ? "fair" : "poor";
+}
 
 std::string error_title(const ErrorReport& report) {
   return "error, against " + to_text(report.reference);

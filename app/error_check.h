@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solver/method/build_method.h"
 #include "solver/method/distance_error.h"
+#include "solver/quality/diagnose.h"
 
 // How wrong distances are, by a more accurate method.
 namespace geotherm::app {
@@ -15,10 +17,11 @@ namespace geotherm::app {
 struct ErrorReport {
   MethodKind reference = MethodKind::kExact;  ///< the method itself: there is nothing better
   DistanceError figures;
-  ErrorHistogram histogram;    ///< of the values
-  std::vector<double> values;  ///< V: d - d_reference; infinite where either is
-  std::string verdict;         ///< in words
-  double milliseconds = 0;     ///< that the reference took, set-up and query
+  ErrorHistogram histogram;              ///< of the values
+  std::vector<double> values;            ///< V: d - d_reference; infinite where either is
+  std::string verdict;                   ///< in words
+  double milliseconds = 0;               ///< that the reference took, set-up and query
+  std::optional<ErrorCause> cause = {};  ///< where one was looked for and found (find_cause())
 };
 
 /// Holds distances of `checked` against those of a better method.
@@ -36,6 +39,9 @@ Result<ErrorReport> check_error(const std::shared_ptr<const TriangleMesh>& mesh,
 
 /// What the values are, over a colour bar: "error against exact".
 std::string error_title(const ErrorReport& report);
+
+/// "near exact", "good", "fair" or "poor".
+std::string grade(double mean_relative);
 
 /// "0.81 %".
 std::string percent(double share);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/load_model.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -11,11 +13,17 @@
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/generate.h"
 #include "solver/mesh/read_mesh.h"
+#include "solver/mesh/weld.h"
 
 namespace geotherm::app {
 namespace {
 
-Result<Model> generated(const std::string& name, const Progress& progress) {
+Result<Model> generated(const std::string& name, const ModelReading& reading,
+                        const Progress& progress) {
+  if (!reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--format: " + name + " is a bundled model and no file; leave --format out"};
+  }
   const Stopwatch watch;
   auto mesh = generate_model(name, 0, with_prefix(progress, "making " + name + ": "));
   if (!mesh) return mesh.error();
@@ -34,16 +42,16 @@ void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& n
   }
 }
 
-}  // namespace
-
-bool is_bundled(std::string_view name) {
-  const auto models = bundled_models();
-  return std::any_of(models.begin(), models.end(),
-                     [name](const BundledModel& model) { return model.name == name; });
+Model model_of(MeshFile file, std::string name, const std::string& path, double load_ms) {
+  Model model{std::move(name), path, nullptr, load_ms, {}};
+  note_polygons_and_welding(file, model.notes);
+  model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
+  return model;
 }
 
-Result<Model> load_model(const std::string& text, const Progress& progress) {
-  if (is_bundled(text)) return generated(text, progress);
+Result<Model> from_file(const std::string& text, const ModelReading& reading,
+                        const Progress& progress) {
   const std::filesystem::path path(text);
   std::error_code unknown;
   if (!path.has_extension() && !std::filesystem::exists(path, unknown)) {
@@ -53,11 +61,9 @@ Result<Model> load_model(const std::string& text, const Progress& progress) {
                                           "' is neither a file nor a bundled model; bundled are " +
                                           joined(names)};
   }
-  if (!report(progress, "reading " + path.filename().string(), -1)) {
-    return Error{ErrorCode::kCancelled, "the work was cancelled"};
-  }
+  if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
   const Stopwatch watch;
-  auto file = read_mesh(text);
+  auto file = reading.format.empty() ? read_mesh(text) : read_mesh(text, reading.format);
   if (!file) {
     const bool memory = file.error().code == ErrorCode::kOutOfMemory;
     const bool there = std::filesystem::exists(path, unknown);
@@ -67,11 +73,61 @@ Result<Model> load_model(const std::string& text, const Progress& progress) {
                      : there ? "choose another file, or export this one again"
                              : "check the path");
   }
-  Model model{path.stem().string(), text, nullptr, watch.milliseconds(), {}};
-  note_polygons_and_welding(*file, model.notes);
-  model.notes.insert(model.notes.end(), file->notes.begin(), file->notes.end());
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(file->mesh));
+  return model_of(*std::move(file), path.stem().string(), text, watch.milliseconds());
+}
+
+Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
+  const std::string name = "standard input";
+  if (reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the model - is standard input, which has no extension; add --format with obj, "
+                 "ply, off or stl"};
+  }
+  if (!report(progress, "reading " + name, -1)) return cancelled_error();
+  const Stopwatch watch;
+  auto file = read_mesh(STDIN_FILENO, reading.format, name);
+  if (!file) {
+    return with_cure(file.error(), name, "check what writes it, and that it is " + reading.format);
+  }
+  return model_of(*std::move(file), name, std::string(kStandardInput), watch.milliseconds());
+}
+
+std::string weld_note(Index merged, double distance) {
+  const std::string where = distance > 0 ? "within " + significant(distance) + " of another"
+                                         : "exactly where another one is";
+  if (merged == 0) return "no vertex lies " + where + ": none was merged";
+  return counted(merged, "vertex", "vertices") + " " + where +
+         (merged == 1 ? " was merged with it" : " were merged with them") +
+         "; merged vertices share a distance";
+}
+
+}  // namespace
+
+bool is_bundled(std::string_view name) {
+  const auto models = bundled_models();
+  return std::any_of(models.begin(), models.end(),
+                     [name](const BundledModel& model) { return model.name == name; });
+}
+
+Result<Model> load_model(const std::string& text, const ModelReading& reading,
+                         const Progress& progress) {
+  auto model = text == kStandardInput ? from_standard_input(reading, progress)
+               : is_bundled(text)     ? generated(text, reading, progress)
+                                      : from_file(text, reading, progress);
+  if (!model || !reading.weld) return model;
+  if (!report(progress, "welding", -1)) return cancelled_error();
+  auto welded = weld(*model->mesh, *reading.weld);
+  if (!welded) return Error{welded.error().code, "--weld: " + welded.error().message};
+  model->notes.push_back(weld_note(welded->merged, *reading.weld));
+  model->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
   return model;
+}
+
+Result<Model> load_model(const std::string& text, const ReadingArguments& arguments,
+                         const Progress& progress) {
+  const auto reading = model_reading(arguments);
+  if (!reading) return reading.error();
+  return load_model(text, *reading, progress);
 }
 
 }  // namespace geotherm::app

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model_reading.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
 #include "solver/mesh/triangle_mesh.h"
@@ -13,14 +14,20 @@ namespace geotherm::app {
 
 struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
-  std::string path;  ///< empty for a bundled model
+  std::string path;  ///< empty for a bundled model, - for standard input
   std::shared_ptr<const TriangleMesh> mesh;
   double load_ms = 0;              ///< reading or generating
   std::vector<std::string> notes;  ///< what reading had to do, one sentence each
 };
 
-/// `text`: a bundled model's name, else a path. Errors: kBadFile, kOutOfMemory, kCancelled.
-Result<Model> load_model(const std::string& text, const Progress& progress = {});
+/// `text`: a bundled model's name, kStandardInput, else a path. Errors: kBadInput (a format or a
+/// distance that does not go with the model), kBadFile, kOutOfMemory, kCancelled.
+Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
+                         const Progress& progress = {});
+
+/// The same, with the errors of model_reading().
+Result<Model> load_model(const std::string& text, const ReadingArguments& reading,
+                         const Progress& progress);
 
 bool is_bundled(std::string_view name);
 

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +12,7 @@
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
 #include "app/main_window/make_window.h"
+#include "solver/mesh/unfinished_files.h"
 
 namespace {
 
@@ -22,6 +24,29 @@ void occupy_closed_streams() {
     [[maybe_unused]] const int taken =
         ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
+}
+
+extern "C" void end_by_signal(int number) {
+  geotherm::remove_unfinished_files();
+  ::raise(number);  // by then as if there were no handler: the status tells the caller why
+}
+
+/// A signal that ends the program leaves no half-written file behind; one that the caller has the
+/// program ignore (nohup) stays ignored. A file that grows beyond its limit is an error like
+/// others.
+void end_tidily_by_signals() {
+  constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+  struct sigaction action {};
+  action.sa_handler = end_by_signal;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int number : kSignals) ::sigaddset(&action.sa_mask, number);
+  for (const int number : kSignals) {
+    struct sigaction before {};
+    if (::sigaction(number, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) {
+      ::sigaction(number, &action, nullptr);
+    }
+  }
+  ::signal(SIGXFSZ, SIG_IGN);
 }
 
 int run(int argc, char** argv) {
@@ -47,6 +72,7 @@ int run(int argc, char** argv) {
 // written before standard output.
 int main(int argc, char** argv) {
   occupy_closed_streams();
+  end_tidily_by_signals();
   const int code = run(argc, argv);
   std::fflush(nullptr);
   // Without the handlers of exit(): OpenBLAS waits there for its threads, and these wait for memory

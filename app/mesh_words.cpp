@@ -2,6 +2,7 @@
 #include "app/mesh_words.h"
 
 #include "app/text.h"
+#include "solver/core/number_text.h"
 
 namespace geotherm::app {
 namespace {
@@ -11,6 +12,19 @@ constexpr double kNeedle = 0.01;
 
 }  // namespace
 
+LaplacianChoice auto_laplacian(const MeshReport& mesh) {
+  if (mesh.tufted_components > 0) {
+    return {LaplacianKind::kTufted, grouped(mesh.tufted_components) + " of " +
+                                        counted(mesh.components, "component is", "components are") +
+                                        " no oriented manifold along all edges"};
+  }
+  if (mesh.non_delaunay_edges > 0) {
+    return {LaplacianKind::kIntrinsicDelaunay,
+            counted(mesh.non_delaunay_edges, "edge is", "edges are") + " not Delaunay"};
+  }
+  return {LaplacianKind::kCotan, "every inner edge is Delaunay"};
+}
+
 std::string mesh_in_words(const MeshReport& mesh) {
   return counted(mesh.vertices, "vertex", "vertices") + ", " +
          counted(mesh.faces, "face", "faces") + ", " +
@@ -18,6 +32,16 @@ std::string mesh_in_words(const MeshReport& mesh) {
          (mesh.boundary_edges == 0
               ? "no boundary"
               : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
+}
+
+std::string crack_note(const CrackReport& cracks) {
+  const std::string distance = number_text(cracks.distance);
+  return counted(cracks.vertices, "border vertex lies", "border vertices lie") +
+         (cracks.distance > 0 ? " within " + distance + " of another"
+                              : " exactly where another one does") +
+         ": the surface is cracked; --weld " + distance + " closes " +
+         grouped(cracks.closed_edges) + " of " +
+         counted(cracks.border_edges, "border edge", "border edges");
 }
 
 std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
@@ -44,10 +68,13 @@ std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
     out.push_back(counted(mesh.repeated_corner_faces, "face repeats", "faces repeat") +
                   " a corner and will be left out");
   }
-  const Index flat = mesh.degenerate_faces - mesh.repeated_corner_faces;
-  if (flat > 0) {
-    out.push_back(counted(flat, "face has", "faces have") +
-                  " no area; edges are lengthened slightly to make up for it");
+  const Mollification& mollified = mesh.mollified;
+  if (mollified.most > 0) {
+    out.push_back(counted(mollified.faces, "face has", "faces have") +
+                  " no or nearly no area: " + counted(mollified.edges, "edge", "edges") + " in " +
+                  counted(mollified.components, "component", "components") +
+                  " will be lengthened, by up to " + significant(mollified.most) + ", which is " +
+                  significant(mollified.most / mesh.mean_edge_length, 2) + " mean edges");
   } else if (mesh.components > 0 && mesh.smallest_angle < kNeedle) {
     out.push_back("there are needles: the smallest angle is " +
                   significant(mesh.smallest_angle, 2) + " degrees");

@@ -4,12 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "solver/geometry/cracks.h"
 #include "solver/geometry/mesh_report.h"
+#include "solver/heat/heat_options.h"
 
 namespace geotherm::app {
 
+/// What `--laplacian auto` becomes on a mesh, and because of what.
+struct LaplacianChoice {
+  LaplacianKind kind;
+  std::string why;
+};
+LaplacianChoice auto_laplacian(const MeshReport& mesh);
+
 /// "2,002 vertices, 4,000 faces, 1 component, no boundary".
 std::string mesh_in_words(const MeshReport& mesh);
+
+/// What closes the cracks. Precondition: there are some.
+std::string crack_note(const CrackReport& cracks);
 
 /// What a user should know before trusting distances on the mesh, one sentence each.
 std::vector<std::string> mesh_warnings(const MeshReport& mesh);

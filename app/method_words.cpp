@@ -11,6 +11,10 @@ std::string solver_name(const MethodOptions& options) {
   return options.method == MethodKind::kHeat ? options.backend : to_text(options.method);
 }
 
+std::string solver_at_work(const DistanceMethod& method, const DistanceResult& result) {
+  return method.heat() != nullptr ? result.backend : to_text(method.kind());
+}
+
 std::string method_caption(const DistanceMethod& method) {
   const HeatMethod* heat = method.heat();
   if (heat == nullptr) return to_text(method.kind());

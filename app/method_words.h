@@ -11,6 +11,9 @@ namespace geotherm::app {
 /// What does the work, in a word: the backend of the heat method, or the name of another method.
 std::string solver_name(const MethodOptions& options);
 
+/// The same of what has given an answer, which may be another backend than the one asked for.
+std::string solver_at_work(const DistanceMethod& method, const DistanceResult& result);
+
 /// "t = 0.0123, cholmod", or the name of another method.
 std::string method_caption(const DistanceMethod& method);
 

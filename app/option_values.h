@@ -11,10 +11,12 @@
 // expected and the cure.
 namespace geotherm::app {
 
-Result<double> parse_time_factor(const std::string& text);   // empty: 1
+Result<double> parse_time_factor(const std::string& text);  // empty: 1
+Result<int> parse_refine(const std::string& text);
 Result<int> parse_threads(const std::string& text);          // empty: 0, all cores
+Result<double> parse_memory_limit(const std::string& text);  // in 2^20 bytes; "free": 0
+std::string memory_limit_text(double megabytes);
 Result<std::string> parse_backend(const std::string& text);  // empty: the default
-Result<LaplacianKind> parse_laplacian_option(const std::string& text);
 Result<Constraint> parse_constraint_option(const std::string& text);
 Result<TimeStep> parse_time_step_option(const std::string& text, double factor);
 

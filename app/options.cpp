@@ -13,16 +13,35 @@
 
 namespace geotherm::app {
 
-CLI::Option* add_model_option(CLI::App& command, std::string& model) {
+CLI::Option* add_model_option(CLI::App& command, std::string& model, ReadingArguments& reading) {
+  add_reading_options(command, reading);
   return command
       .add_option("MODEL", model,
-                  "a file (.obj .ply .off .stl) or a bundled model (geotherm models)")
+                  "a file (.obj .ply .off .stl), a bundled model (geotherm models), or - for "
+                  "standard input with --format")
       ->type_name("");
+}
+
+void add_reading_options(CLI::App& command, ReadingArguments& reading) {
+  command
+      .add_option("--format", reading.format, "of the model, whatever its name: obj, ply, off, stl")
+      ->type_name("NAME")
+      ->group("Model");
+  command
+      .add_option("--weld", reading.weld,
+                  "vertices at most this far apart (model units; 0: equal) are one, which closes "
+                  "cracks; all keep their ids")
+      ->type_name("EPS")
+      ->group("Model");
 }
 
 void add_backend_option(CLI::App& command, MethodArguments& arguments) {
   command.add_option("--backend", arguments.backend, "linear solver: " + joined(backend_names()))
       ->type_name("NAME")
+      ->group("Method");
+  command
+      .add_flag("--strict", arguments.strict,
+                "a backend that fails is an error; otherwise the next one takes over")
       ->group("Method");
 }
 
@@ -53,8 +72,14 @@ void add_study_method_options(CLI::App& command, MethodArguments& a) {
   const auto add = [&command](const char* names, std::string& value, const char* type,
                               const char* help) { add_word(command, names, value, type, help); };
   add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
-  add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay");
+  add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay, tufted");
   add("--variant", a.variant, "NAME", "corrected (default), classic: as first published");
+  add("--memory-limit", a.memory_limit, "SIZE",
+      "most that a backend's factors may take, in MB or with K, M or G: 800, 4G; what needs more "
+      "fails before it starts; default: free, what the machine has left");
+  add("--refine", a.refine, "N",
+      "cuts each face into four N times (0, default, to 6) before anything is solved: less error, "
+      "4^N times the faces, memory and time; the output keeps the model's vertices");
   add_threads_option(command, a.threads);
 }
 
@@ -103,11 +128,14 @@ Result<MethodOptions> method_options(const MethodArguments& a) {
       take(parse_constraint_option(a.constraint), "--constraint", options.constraint),
       take(parse_heat_mode(a.heat), "--heat", options.heat),
       take(parse_boundary_rule(a.boundary), "--boundary", options.boundary),
-      take(parse_laplacian_option(a.laplacian), "--laplacian", options.laplacian),
+      take(parse_laplacian(a.laplacian), "--laplacian", options.laplacian),
       take(parse_variant(a.variant), "--variant", options.variant),
+      take(parse_memory_limit(a.memory_limit), "--memory-limit", options.memory_limit_mb),
+      take(parse_refine(a.refine), "--refine", options.refine),
       take(parse_threads(a.threads), "--threads", options.threads),
   });
   if (!all) return all.error();
+  options.strict = a.strict;
   return options;
 }
 
@@ -120,6 +148,8 @@ void note_unused_options(const MethodArguments& arguments, const MethodOptions& 
       if (typed != standard) unused.emplace_back(name);
     };
     look("--backend", arguments.backend, usual.backend);
+    if (arguments.strict) unused.emplace_back("--strict");
+    look("--memory-limit", arguments.memory_limit, usual.memory_limit);
     look("--time-step", arguments.time_step, usual.time_step);
     look("--time-factor", arguments.time_factor, usual.time_factor);
     look("--constraint", arguments.constraint, usual.constraint);
@@ -138,7 +168,7 @@ void note_unused_options(const MethodArguments& arguments, const MethodOptions& 
 }
 
 void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
-  if (!is_bundled(model)) outputs.protect(model, "the model itself");
+  if (!is_bundled(model) && model != kStandardInput) outputs.protect(model, "the model itself");
   outputs.protect(sources.file, "the source file");
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/cli_app.h"
+#include "app/model_reading.h"
 #include "app/outputs.h"
 #include "app/source_spec.h"
 #include "solver/core/result.h"
@@ -15,6 +16,8 @@ namespace geotherm::app {
 /// A method and its options as typed; the same in every command that solves.
 struct MethodArguments {
   std::string backend;  ///< empty: the default one
+  bool strict = false;
+  std::string memory_limit = "free";
   std::string time_step = "mean-edge";
   std::string time_factor;  ///< empty: 1
   std::string constraint = "pin-sources";
@@ -23,6 +26,7 @@ struct MethodArguments {
   std::string boundary = "neumann";
   std::string laplacian = "auto";
   std::string variant = "corrected";
+  std::string refine = "0";
   std::string threads;  ///< empty: all cores
 };
 
@@ -34,8 +38,9 @@ struct SourceArguments {
 };
 
 void add_method_options(CLI::App& command, MethodArguments& arguments);
-/// The model as a word of its own.
-CLI::Option* add_model_option(CLI::App& command, std::string& model);
+/// The model as a word of its own, and how it is read.
+CLI::Option* add_model_option(CLI::App& command, std::string& model, ReadingArguments& reading);
+void add_reading_options(CLI::App& command, ReadingArguments& reading);
 
 /// Those of the heat method that a study does not sweep.
 void add_study_method_options(CLI::App& command, MethodArguments& arguments);

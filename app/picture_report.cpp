@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/picture/face_view.h"
 #include "app/picture/picture_caption.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/turntable.h"
@@ -19,7 +20,9 @@ std::string range_of(const PictureScale& scale) {
   return number_text(scale.min) + ":" + number_text(scale.max);
 }
 
-bool has_colours(const PictureFigures& f) { return f.solve && maps_values(f.settings.view); }
+bool has_colours(const PictureFigures& f) {
+  return face_field(f.settings.view) || (f.solve && maps_values(f.settings.view));
+}
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
 void add(std::vector<PngText>& texts, const std::string& name, const std::string& value) {
@@ -32,7 +35,7 @@ void add_solve_texts(const SolveFigures& solve, std::vector<PngText>& texts) {
   const HeatMethod* heat = solve.method->heat();
   if (heat == nullptr) return;
   const HeatOptions& options = heat->options();
-  add(texts, "backend", options.backend);
+  add(texts, "backend", solve.result.backend);
   add(texts, "time-step", to_text(options.time_step));
   if (options.time_step.rule != TimeRule::kAbsolute) {
     add(texts, "time-factor", number_text(options.time_step.factor));

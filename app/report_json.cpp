@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "app/mesh_words.h"
 #include "app/nearest_sources.h"
 #include "app/resolve_sources.h"
 #include "solver/core/parallel.h"
@@ -43,6 +44,17 @@ void write(const Json& json, int level, std::string& out) {
   out += "\n" + indent + (object ? "}" : "]");
 }
 
+/// Backends that failed, at the set-up and at the query.
+Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
+  Json json = Json::array();
+  for (const auto* failed : {&method.fallbacks(), &result.fallbacks}) {
+    for (const Fallback& each : *failed) {
+      json.push_back({{"backend", each.backend}, {"reason", each.reason}});
+    }
+  }
+  return json;
+}
+
 /// Null where another method than heat has no such thing.
 Json options_json(const SolveFigures& figures) {
   const HeatMethod* heat = figures.method->heat();
@@ -54,21 +66,26 @@ Json options_json(const SolveFigures& figures) {
     }
     json["laplacian"] = to_text(LaplacianKind::kIntrinsicDelaunay);
     json["threads"] = thread_count(figures.options.threads);
+    json["refine"] = figures.options.refine;
     return json;
   }
   const HeatMethod& method = *heat;
   const HeatOptions& options = method.options();
   const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
   return {{"method", "heat"},
-          {"backend", options.backend},
+          {"backend", figures.result.backend},
+          {"backend_asked", figures.options.backend},
+          {"fallbacks", fallbacks_json(method, figures.result)},
           {"time_step", to_text(options.time_step)},
           {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
           {"t", method.t()},
+          {"t_of_components", method.t_range()},
           {"constraint", to_text(options.constraint)},
           {"heat", to_text(options.heat)},
           {"boundary", to_text(options.boundary)},
           {"laplacian", to_text(method.laplacian())},
           {"threads", thread_count(options.threads)},
+          {"refine", figures.options.refine},
           {"variant", to_text(options.variant)},
           {"flips", method.flips()}};
 }
@@ -106,14 +123,21 @@ Json offsets_json(const SourceSet& sources) {
 
 Json error_json(const ErrorReport& report) {
   const DistanceError& e = report.figures;
-  return {{"reference", to_text(report.reference)},
-          {"mean_relative", e.mean_relative},
-          {"max_of_range", e.max_of_range},
-          {"verdict", report.verdict},
-          {"max", e.max},
-          {"mean_signed", e.mean_signed},
-          {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
-          {"reference_ms", report.milliseconds}};
+  Json json = {{"reference", to_text(report.reference)},
+               {"mean_relative", e.mean_relative},
+               {"max_of_range", e.max_of_range},
+               {"verdict", report.verdict},
+               {"max", e.max},
+               {"mean_signed", e.mean_signed},
+               {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
+               {"reference_ms", report.milliseconds}};
+  if (report.cause) {
+    json["cause"] = {{"option", report.cause->option},
+                     {"value", report.cause->value},
+                     {"mean_relative_before", report.cause->mean_relative_before},
+                     {"mean_relative_after", report.cause->mean_relative_after}};
+  }
+  return json;
 }
 
 }  // namespace
@@ -139,6 +163,7 @@ Json full_model_json(const std::string& name, const MeshReport& mesh) {
                {"repeated_corner_faces", mesh.repeated_corner_faces},
                {"duplicate_faces", mesh.duplicate_faces},
                {"unreferenced_vertices", mesh.unreferenced_vertices},
+               {"merged_vertices", mesh.merged_vertices},
                {"duplicate_positions", mesh.duplicate_positions},
                {"inconsistent_faces", mesh.inconsistent_faces},
                {"orientable", mesh.orientable},
@@ -149,7 +174,14 @@ Json full_model_json(const std::string& name, const MeshReport& mesh) {
                {"smallest_angle", mesh.smallest_angle},
                {"mean_quality", mesh.mean_quality},
                {"box_min", vector_json(mesh.box_min)},
-               {"box_max", vector_json(mesh.box_max)}});
+               {"box_max", vector_json(mesh.box_max)},
+               {"dropped_faces", mesh.repeated_corner_faces + mesh.duplicate_faces},
+               {"lengthened_edges", mesh.mollified.edges},
+               {"lengthened_components", mesh.mollified.components},
+               {"lengthened_by", mesh.mollified.most},
+               {"tufted_components", mesh.tufted_components}});
+  const LaplacianChoice choice = auto_laplacian(mesh);
+  json["auto_laplacian"] = {{"kind", to_text(choice.kind)}, {"why", choice.why}};
   return json;
 }
 
@@ -202,7 +234,10 @@ Json solve_json(const SolveFigures& f) {
                  {"gradient", of_heat(query.gradient)},
                  {"poisson", of_heat(query.poisson)},
                  {"query", query.query}}},
-               {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
+               {"memory_mb",
+                {{"factor", f.method->memory_mb()},
+                 {"factor_forecast", heat ? Json(f.method->heat()->forecast_mb()) : Json(nullptr)},
+                 {"peak_rss", f.peak_rss_mb}}},
                {"quality", quality_json(f.result.quality, heat)},
                {"warnings", f.warnings}});
   if (!f.result.nearest_source.empty()) {

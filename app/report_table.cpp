@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/report_table.h"
 
+#include <cmath>
+
 #include "app/mesh_words.h"
 #include "app/resolve_sources.h"
 #include "app/text.h"
@@ -19,20 +21,28 @@ TextTable two_columns() {
 std::string ms(double value) { return milliseconds(value) + " ms"; }
 std::string mb(double value) { return milliseconds(value) + " MB"; }
 
-std::string time_in_words(const HeatMethod& method, const MeshReport& mesh) {
+/// `refined`: the method's faces are not those of the mesh.
+std::string time_in_words(const HeatMethod& method, const MeshReport& mesh, bool refined) {
   const TimeStep& step = method.options().time_step;
-  const double h2 = mesh.mean_edge_length * mesh.mean_edge_length;
   const std::string factor = significant(step.factor);
+  const auto [least, most] = method.t_range();
+  const bool several = least < most;
+  const bool other_edge = several || refined;
+  const std::string of = several ? " of the largest component; " + significant(least) + " to " +
+                                       significant(most) + " in all"
+                                 : "";
   switch (step.rule) {
     case TimeRule::kMeanEdge:
-      return significant(method.t()) + " = " + factor +
-             " h^2, mean edge h = " + significant(mesh.mean_edge_length);
+      return significant(method.t()) + " = " + factor + " h^2, mean edge h = " +
+             significant(other_edge ? std::sqrt(method.t() / step.factor) : mesh.mean_edge_length) +
+             of;
     case TimeRule::kMeanFaceArea:
-      return significant(method.t()) + " = " + factor + " A/F, mean face area";
+      return significant(method.t()) + " = " + factor + " A/F, mean face area" + of;
     case TimeRule::kAbsolute:
       break;
   }
-  return significant(method.t()) + " as given, which is " + significant(method.t() / h2) + " h^2";
+  return significant(method.t()) + " as given, which is " + significant(method.relative_t()) +
+         " h^2";
 }
 
 std::string laplacian_in_words(const HeatMethod& method) {
@@ -82,11 +92,12 @@ std::string residuals_in_words(const Quality& q) {
 }
 
 /// The rows that only the heat method has.
-void add_heat_rows(TextTable& table, const HeatMethod& method, const MeshReport& mesh) {
+void add_heat_rows(TextTable& table, const SolveFigures& figures, const HeatMethod& method) {
+  const MeshReport& mesh = figures.mesh;
   const HeatOptions& options = method.options();
-  table.add_row({"backend", options.backend + ", " +
+  table.add_row({"backend", figures.result.backend + ", " +
                                 counted(thread_count(options.threads), "thread", "threads")});
-  table.add_row({"t", time_in_words(method, mesh)});
+  table.add_row({"t", time_in_words(method, mesh, figures.options.refine > 0)});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
                                ", boundary " + to_text(options.boundary) + ", " +
                                to_text(options.variant)});
@@ -135,10 +146,14 @@ std::string solve_table(const SolveFigures& f) {
   TextTable table = two_columns();
   table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
   if (heat != nullptr) {
-    add_heat_rows(table, *heat, f.mesh);
+    add_heat_rows(table, f, *heat);
   } else {
     table.add_row({"method", to_text(f.method->kind()) + ", " +
                                  counted(thread_count(f.options.threads), "thread", "threads")});
+  }
+  if (f.options.refine > 0) {
+    table.add_row({"refined", counted(f.options.refine, "time", "times") +
+                                  ": four times the faces each, solved on and left out again"});
   }
   table.add_row({"sources", sources_in_words(f.sources)});
   add_times(table, f);
@@ -191,6 +206,8 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
   row("box", vector(mesh.box_min) + " to " + vector(mesh.box_max));
   row("smallest angle", significant(mesh.smallest_angle) + " degrees");
   row("mean quality", significant(mesh.mean_quality) + " (1: all equilateral)");
+  const LaplacianChoice choice = auto_laplacian(mesh);
+  row("laplacian", "auto takes " + to_text(choice.kind) + ": " + choice.why);
   row("load", ms(model.load_ms));
   return table.text();
 }

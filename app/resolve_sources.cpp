@@ -115,8 +115,8 @@ class Resolver {
     Index gaps = 0;
     std::size_t first_gap = 0;
     for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
-      const Index a = curve.vertices[i - 1];
-      const Index b = curve.vertices[i];
+      const Index a = mesh_.standing_for(curve.vertices[i - 1]);
+      const Index b = mesh_.standing_for(curve.vertices[i]);
       if (a == b) continue;
       if (graph.adjacent(a, b)) {
         add_edge(a, b);
@@ -158,6 +158,7 @@ class Resolver {
       return bad("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
                  std::to_string(mesh_.vertex_count() - 1));
     }
+    v = mesh_.standing_for(v);
     if (!used_[v]) {
       return bad("vertex " + std::to_string(v) +
                  " belongs to no face, so that no distance starts there; choose another");

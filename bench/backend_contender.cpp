@@ -17,6 +17,7 @@ class BackendContender final : public Contender {
       options_.backend = name_;
     }
     options_.threads = threads;
+    options_.strict = true;
   }
 
   std::string name() const override { return name_; }

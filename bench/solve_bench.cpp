@@ -58,6 +58,7 @@ double disagreement(Contender& baseline, std::shared_ptr<const TriangleMesh> mes
                     int threads) {
   HeatOptions options;
   options.threads = threads;
+  options.strict = true;
   options.variant = Variant::kClassic;
   options.laplacian = LaplacianKind::kCotan;
   options.constraint.mode = ConstraintMode::kPinVertex;

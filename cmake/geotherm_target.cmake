@@ -35,6 +35,19 @@ function(geotherm_precompile name)
   endif()
   target_precompile_headers(${name} PRIVATE <algorithm> <cmath> <functional> <memory> <span> <string>
                             <vector> ${ARGN})
+  geotherm_precompiled_with_ccache(${name})
+endfunction()
+
+# geotherm_reuse_precompiled(TARGET FROM): those of another target, which is compiled alike.
+function(geotherm_reuse_precompiled name from)
+  if(NOT GEOTHERM_PCH)
+    return()
+  endif()
+  target_precompile_headers(${name} REUSE_FROM ${from})
+  geotherm_precompiled_with_ccache(${name})
+endfunction()
+
+function(geotherm_precompiled_with_ccache name)
   if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${name} PRIVATE -fpch-preprocess)
   endif()

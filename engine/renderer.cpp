@@ -103,6 +103,23 @@ Result<void> Renderer::set_regions(std::span<const std::int32_t> regions) {
   });
 }
 
+Result<void> Renderer::set_face_values(std::span<const float> values) {
+  assert(values.empty() || values.size() == state_->faces.size());
+  return guarded("loading values of faces", [&]() -> Result<void> {
+    State& s = *state_;
+    std::vector<float> corners;
+    corners.reserve(3 * values.size());
+    for (const float value : values) corners.insert(corners.end(), 3, value);
+    if (!values.empty() && !s.recorder.has_face_values()) {
+      const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid});
+      s.recorder.set_separate_faces(separate_faces(mesh), corners);
+    } else {
+      s.recorder.set_face_values(corners);
+    }
+    return {};
+  });
+}
+
 Result<void> Renderer::set_colours(const ColourTable& table) {
   return guarded("loading colours", [&]() -> Result<void> {
     state_->recorder.set_colours(table);

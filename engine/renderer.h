@@ -33,6 +33,9 @@ class Renderer {
   /// One place in the colours a vertex, -1 where there is none (Paint::kRegions); empty: no
   /// regions.
   Result<void> set_regions(std::span<const std::int32_t> regions);
+  /// One value a face (kNoValue: none), for Paint::kFaces; empty: no such values. Cost: those after
+  /// none take as long as set_surface(), and three vertices a face of the device's memory.
+  Result<void> set_face_values(std::span<const float> values);
   Result<void> set_colours(const ColourTable& table);
   /// One vector a face, each field empty or F long; a zero vector draws no arrow. Lengths are the
   /// arrows' share of full size, 0 to 1.

@@ -10,8 +10,8 @@ usage: scripts/setup.sh [--dev] [--lint]
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
 
-  --dev    also what the tests use: ccache, clang-format, Vulkan's validation layer, a display
-           without a screen (Xvfb) and a hand for it (xdotool)
+  --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
+           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
 TEXT
 }
@@ -25,7 +25,8 @@ packages=(g++ cmake ninja-build
   libgtest-dev libtinyobjloader-dev)                # tests, benchmark
 for argument in "$@"; do
   case $argument in
-    --dev) packages+=(ccache clang-format vulkan-validationlayers xvfb xauth xdotool) ;;
+    --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
+      assimp-testmodels) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && exit 2 ;;

@@ -29,6 +29,14 @@ std::optional<View> view_of(Action action) {
       return View::kExactError;
     case Action::kRegions:
       return View::kRegions;
+    case Action::kEikonalError:
+      return View::kEikonalError;
+    case Action::kLostGradients:
+      return View::kLostGradients;
+    case Action::kTriangleQuality:
+      return View::kTriangleQuality;
+    case Action::kNonDelaunay:
+      return View::kNonDelaunay;
     default:
       return std::nullopt;
   }

@@ -83,6 +83,10 @@ void draw_view_menu(Frame& frame) {
   draw_menu_action(frame, "Distance contours", Action::kContours);
   draw_menu_action(frame, "Exact error", Action::kExactError);
   draw_menu_action(frame, "Nearest sources", Action::kRegions);
+  draw_menu_action(frame, "Eikonal error", Action::kEikonalError);
+  draw_menu_action(frame, "Lost gradients", Action::kLostGradients);
+  draw_menu_action(frame, "Triangle quality", Action::kTriangleQuality);
+  draw_menu_action(frame, "Non-Delaunay edges", Action::kNonDelaunay);
   ImGui::Separator();
   draw_menu_action(frame, "Rotate", Action::kRotate);
   draw_menu_action(frame, "Whole model", Action::kFrame);

@@ -77,9 +77,11 @@ void draw_time(Frame& frame) {
     draw_factor(frame);
   }
   if (!frame.model()) return;
-  const double t = app::diffusion_time(step, frame.model()->mesh);
-  draw_value(frame, "t now", app::significant(t), "",
-             "Diffusion time that these settings mean, model units squared.");
+  if (frame.state().options.refine == 0) {  // else h and A/F are those of faces not there yet
+    const double t = app::diffusion_time(step, frame.model()->mesh);
+    draw_value(frame, "t now", app::significant(t), "",
+               "Diffusion time that these settings mean, model units squared.");
+  }
   const app::Answer* answer = frame.answer();
   if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
     draw_value(frame, "t of the answer", app::significant(heat->t()), "",
@@ -113,6 +115,19 @@ void draw_constraint(Frame& frame) {
   }
 }
 
+/// The backend that was asked for, the one at work where that is another, and what rules this.
+void draw_backend(Frame& frame) {
+  draw_setting_choice(frame, "backend", "backend");
+  const app::Answer* answer = frame.answer();
+  if (answer && answer->method->heat() && answer->result.backend != answer->options.backend) {
+    draw_value(frame, "at work", answer->result.backend, "",
+               "The backend that was asked for failed; the log says why.", frame.colours().warning);
+  }
+  draw_setting_flag(frame, "strict", "no other where it fails");
+  draw_setting_field(frame, "memory-limit", "memory limit", "",
+                     "Most that factors may take, MB; free: what the machine has left.");
+}
+
 void draw_failure(Frame& frame) {
   const std::string& failure = frame.session.failure();
   if (failure.empty()) return;
@@ -134,6 +149,16 @@ std::string laplacian_tip(const Frame& frame) {
   return tip;
 }
 
+/// What is done to the mesh first, whatever the method.
+void draw_mesh_settings(Frame& frame) {
+  draw_setting_choice(frame, "refine", "refine",
+                      "Each time there are four times as many faces to solve on, and less "
+                      "error; the distances shown are those at the model's own vertices.");
+  draw_setting_field(frame, "weld", "weld", "off",
+                     "Closes cracks: such as 1e-5, or 0 where vertices are equal; off: none.");
+  draw_setting_choice(frame, "format", "file format", "auto: what the name's extension says.");
+}
+
 }  // namespace
 
 void draw_solver_panel(Frame& frame) {
@@ -146,9 +171,9 @@ void draw_solver_panel(Frame& frame) {
       "the classic; exact: slow, and the truth.");
   if (frame.state().options.method != MethodKind::kHeat) {
     draw_setting_field(frame, "threads", "threads");
-    return draw_dim(frame, "This method has no other options.");
+    return draw_mesh_settings(frame);
   }
-  draw_setting_choice(frame, "backend", "backend");
+  draw_backend(frame);
   draw_time(frame);
   draw_constraint(frame);
   draw_setting_choice(frame, "heat", "heat",
@@ -161,6 +186,7 @@ void draw_solver_panel(Frame& frame) {
   draw_setting_choice(frame, "variant", "variant",
                       "corrected: this program's; classic: as first published.");
   draw_setting_field(frame, "threads", "threads");
+  draw_mesh_settings(frame);
 }
 
 }  // namespace geotherm::ui

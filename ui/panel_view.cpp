@@ -120,7 +120,7 @@ void draw_camera(Frame& frame) {
 
 void draw_view_panel(Frame& frame) {
   if (!draw_section(frame, "View", false)) return;
-  draw_setting_choice(frame, "view", "view", "Keys 1 to 9.");
+  draw_setting_choice(frame, "view", "view", "Keys 1 to 9, 0, g, t and n.");
   draw_colour_map(frame);
   draw_range(frame);
   draw_spacing(frame);

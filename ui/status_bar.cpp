@@ -23,7 +23,7 @@ std::string what_is_shown(const Frame& frame) {
     parts.emplace_back(kShown[static_cast<std::size_t>(frame.state().shown)]);
   }
   if (const app::Answer* answer = frame.answer()) {
-    parts.push_back(app::solver_name(answer->options));
+    parts.push_back(app::solver_at_work(*answer->method, answer->result));
     parts.push_back("query " + app::milliseconds(answer->result.timing.query) + " ms");
   }
   return app::joined(parts, "  \u00b7  ");

@@ -53,7 +53,11 @@ class Applier {
 
   Result<void> operator()(const command::Open& c) {
     if (c.model.empty()) return bad("no model was named; give a path or a bundled model's name");
+    if (c.model == kStandardInput) {
+      return bad("standard input cannot be opened here; write the model to a file and name that");
+    }
     s_.model = c.model;
+    s_.reading = {};
     std::erase_if(s_.sources, [](const std::string& text) { return !fits_any_model(text); });
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
@@ -65,8 +69,10 @@ class Applier {
 
   Result<void> operator()(const command::Reset& /*c*/) {
     std::string model = std::move(s_.model);
+    const ModelReading reading = s_.reading;
     s_ = initial_state();
     s_.model = std::move(model);
+    s_.reading = reading;
     return {};
   }
 

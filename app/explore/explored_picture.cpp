@@ -2,6 +2,7 @@
 #include "app/explore/explored_picture.h"
 
 #include "app/method_words.h"
+#include "app/picture/face_view.h"
 #include "app/picture/picture_caption.h"
 #include "app/text.h"
 
@@ -23,9 +24,30 @@ std::string caption_of(const Explored& explored, Shown shown) {
          ", B: " + method_caption(*explored.b->method);
 }
 
+void set_answer(PictureData& data, const Explored& explored, Shown shown, View view,
+                const Answer& answer) {
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  add_sources(data, mesh, explored.set);
+  add_paths(data, mesh, explored.paths);
+  if (view == View::kExactError) {  // nothing, where nothing is known of the error
+    if (answer.error && !answer.error->values.empty()) {
+      add_error(data, answer.error->values, error_title(*answer.error));
+    }
+  } else if (shown == Shown::kDifference && explored.difference && !face_field(view)) {
+    add_difference(data, explored.difference->values);
+  } else {
+    add_distances(data, answer.result.distances);
+  }
+  if (shows_arrows(view) && !answer.result.log_heat.empty()) {
+    add_fields(data, mesh, answer.result);
+  }
+}
+
 }  // namespace
 
-bool needs_fields(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
+bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
+
+bool needs_fields(View view) { return shows_arrows(view) || view == View::kLostGradients; }
 
 void set_explored(PictureData& data, const Explored& explored, Shown shown, View view) {
   data.sources.clear();
@@ -41,21 +63,8 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   if (shown != Shown::kA && !explored.b) shown = Shown::kA;
   data.caption = caption_of(explored, shown);
   const Answer* answer = shown_answer(explored, shown);
-  if (answer == nullptr) return;
-  add_sources(data, mesh, explored.set);
-  add_paths(data, mesh, explored.paths);
-  if (view == View::kExactError) {  // nothing, where nothing is known of the error
-    if (answer->error && !answer->error->values.empty()) {
-      add_error(data, answer->error->values, error_title(*answer->error));
-    }
-  } else if (shown == Shown::kDifference && explored.difference) {
-    add_difference(data, explored.difference->values);
-  } else {
-    add_distances(data, answer->result.distances);
-  }
-  if (needs_fields(view) && !answer->result.log_heat.empty()) {
-    add_fields(data, mesh, answer->result);
-  }
+  if (answer != nullptr) set_answer(data, explored, shown, view, *answer);
+  set_face_values(data, mesh, view, answer != nullptr ? &answer->result : nullptr);
 }
 
 PictureData picture_of(const Explored& explored, Shown shown, View view) {

@@ -7,6 +7,9 @@
 namespace geotherm::app {
 
 /// Whether a view shows the vector fields of an answer.
+bool shows_arrows(View view);
+
+/// Whether a view needs u (QueryOptions::fields).
 bool needs_fields(View view);
 
 /// Sets everything of a picture but the mesh: values, sources, fields, caption. `data` holds the

@@ -119,8 +119,11 @@ Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& r
 
 Result<void> Explorer::load(const ExploreRequest& request, const Progress& progress,
                             const Early& early) {
-  if (model_ && request.model == model_text_ && request.opening == opening_) return {};
-  auto loaded = load_model(request.model, progress);
+  if (model_ && request.model == model_text_ && request.reading == reading_ &&
+      request.opening == opening_) {
+    return {};
+  }
+  auto loaded = load_model(request.model, request.reading, progress);
   if (!loaded) return loaded.error();
   // What belonged to the old model goes before the new one needs the room.
   a_.reset();
@@ -152,6 +155,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   model_ = std::move(whole);
   model_text_ = request.model;
+  reading_ = request.reading;
   opening_ = request.opening;
   return {};
 }

@@ -16,6 +16,7 @@ namespace geotherm::app {
 /// What a session asks for.
 struct ExploreRequest {
   std::string model;
+  ModelReading reading;
   std::uint64_t opening = 0;  ///< another number: the model is read anew
   std::vector<std::string> sources;
   MethodOptions options;              ///< A
@@ -27,8 +28,8 @@ struct ExploreRequest {
 
   /// Whether both need the same model and factors.
   bool same_setup(const ExploreRequest& other) const {
-    return model == other.model && opening == other.opening && options == other.options &&
-           kept == other.kept;
+    return model == other.model && reading == other.reading && opening == other.opening &&
+           options == other.options && kept == other.kept;
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
@@ -81,15 +82,17 @@ class Explorer {
 
   std::shared_ptr<const ExploredModel> model_;
   std::string model_text_;
+  ModelReading reading_;
   std::uint64_t opening_ = 0;
   std::optional<Method> a_, b_;
   std::map<std::string, ResolvedSources> placed_;  ///< of the last request, by entry
   std::shared_ptr<const WaveSurface> waves_;       ///< of the model; null: not needed so far
   struct OnWaves {
     std::shared_ptr<const DistanceMethod> method;
-    int threads = 0;
+    int threads = 0, refine = 0;
   };
-  std::map<MethodKind, OnWaves> on_waves_;  ///< methods on them that were needed so far
+  /// Methods beside heat that were needed so far, by kind and whether on a refined mesh.
+  std::map<std::pair<MethodKind, bool>, OnWaves> on_waves_;
   /// The last distances that others were held against.
   struct Reference {
     MethodKind kind;

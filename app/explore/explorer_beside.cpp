@@ -20,18 +20,20 @@ Result<std::shared_ptr<const DistanceMethod>> Explorer::make(const MethodOptions
                                                              const DistanceMethod* near,
                                                              const Progress& progress) {
   if (options.method == MethodKind::kHeat) {
-    const HeatMethod* heat = near ? near->heat() : nullptr;
-    if (heat == nullptr) return build_method(model_->model.mesh, options, progress);
-    auto made = heat->with(options, progress);
-    if (!made) return made.error();
-    return std::shared_ptr<const DistanceMethod>(
-        std::make_shared<const HeatMethod>(*std::move(made)));
+    return build_method_near(model_->model.mesh, options, near, progress);
   }
-  auto& kept = on_waves_[options.method];
-  if (kept.method && kept.threads == options.threads) return kept.method;
-  if (auto made = make_waves(part_of(progress, 0.0, 0.5)); !made) return made.error();
+  const bool refined = options.refine > 0;
+  const std::pair key(options.method, refined);
+  if (const auto at = on_waves_.find(key); at != on_waves_.end()) {
+    const OnWaves& kept = at->second;
+    if (kept.threads == options.threads && kept.refine == options.refine) return kept.method;
+    on_waves_.erase(at);
+  }
+  if (auto made = refined ? Result<void>() : make_waves(part_of(progress, 0.0, 0.5)); !made) {
+    return made.error();
+  }
   auto made = build_method(model_->model.mesh, options, part_of(progress, 0.5, 1.0), waves_);
-  if (made) kept = {*made, options.threads};
+  if (made) on_waves_[key] = {*made, options.threads, options.refine};
   return made;
 }
 

@@ -21,7 +21,7 @@ constexpr int kCompareBatch = 16;
 
 std::string summary(const Explored& explored, const Explored& before) {
   const Answer& a = *explored.a;
-  std::string text = "solved with " + solver_name(a.options) + ": query " +
+  std::string text = "solved with " + solver_at_work(*a.method, a.result) + ": query " +
                      milliseconds(a.result.timing.query) + " ms";
   const bool same_method =
       before.a && before.model == explored.model && before.a->method == a.method;
@@ -39,6 +39,7 @@ std::string summary(const Explored& explored, const Explored& before) {
 ExploreRequest Session::State::wanted() const {
   ExploreRequest request;
   request.model = state.model;
+  request.reading = state.reading;
   request.opening = opening;
   request.sources = state.sources;
   request.options = state.options;
@@ -170,7 +171,8 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   }
   if (!explored.a) return;
   if (queries.size() >= kMostQueries) queries.erase(queries.begin());
-  queries.push_back({solver_name(explored.a->options), explored.a->result.timing});
+  queries.push_back(
+      {solver_at_work(*explored.a->method, explored.a->result), explored.a->result.timing});
   if (!request.quality) return;  // a drag goes on
   note(LogLine::Kind::kNote, summary(explored, before));
   const View view = state.picture.view;

@@ -132,9 +132,7 @@ const std::vector<Setting>& all() {
        }},
       {"laplacian", "which triangulation carries the operators", true,
        [](const State& s) { return to_text(s.options.laplacian); },
-       [](State& s, const Text& t) {
-         return store(parse_laplacian_option(t), s.options.laplacian);
-       },
+       [](State& s, const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
        [] {
          return Names{"auto", "cotan", "intrinsic-delaunay"};
        }},
@@ -144,12 +142,38 @@ const std::vector<Setting>& all() {
        [] {
          return Names{"corrected", "classic"};
        }},
+      {"strict", "a backend that fails is not replaced", true,
+       [](const State& s) { return switch_text(s.options.strict); },
+       [](State& s, const Text& t) { return store(parse_switch(t), s.options.strict); }, switches},
+      {"memory-limit", "most that factors may take, MB", true,
+       [](const State& s) { return memory_limit_text(s.options.memory_limit_mb); },
+       [](State& s, const Text& t) {
+         return store(parse_memory_limit(t), s.options.memory_limit_mb);
+       },
+       [] {
+         return Names{"free", "500"};
+       }},
       {"threads", "that work at once; 0: one a core", true,
        [](const State& s) { return std::to_string(s.options.threads); },
        [](State& s, const Text& t) {
          return store(parse_threads(t == "0" ? Text() : t), s.options.threads);
        },
        none},
+      {"refine", "how often each face is cut into four, 0 to 6", true,
+       [](const State& s) { return std::to_string(s.options.refine); },
+       [](State& s, const Text& t) { return store(parse_refine(t), s.options.refine); },
+       [] {
+         return Names{"0", "1", "2", "3"};
+       }},
+      {"weld", "vertices so near are one, model units", true,
+       [](const State& s) { return s.reading.weld ? number_text(*s.reading.weld) : Text("off"); },
+       [](State& s, const Text& t) { return store(parse_weld(t), s.reading.weld); }, none},
+      {"format", "of the model, whatever its name", true,
+       [](const State& s) { return s.reading.format.empty() ? Text("auto") : s.reading.format; },
+       [](State& s, const Text& t) { return store(parse_format(t), s.reading.format); },
+       [] {
+         return Names{"auto", "obj", "ply", "off", "stl"};
+       }},
       {"check", "what the distances are held against", false,
        [](const State& s) { return check_text(s.check); }, set_check,
        [] {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model_reading.h"
 #include "app/picture/picture_settings.h"
 #include "solver/method/build_method.h"
 
@@ -30,6 +31,7 @@ enum class Check {
 /// hold. Answers, panels and windows are not part of it.
 struct ViewerState {
   std::string model;                  ///< a path or a bundled name; empty: none is open
+  ModelReading reading;               ///< how the model is read
   std::vector<std::string> sources;   ///< text forms (source_spec.h), canonical; one set
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B

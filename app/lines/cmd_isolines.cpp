@@ -133,7 +133,7 @@ LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isol
 }  // namespace
 
 void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
-  add_model_option(command, arguments.model)->required();
+  add_model_option(command, arguments.model, arguments.reading)->required();
   add_source_options(command, arguments.sources);
   command.add_option("--spacing", arguments.spacing, "between lines, in model units")
       ->type_name("D");
@@ -162,7 +162,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!settings) return settings.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  auto model = load_model(arguments.model, progress);
+  auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
   if (!figures) return figures.error();

@@ -11,6 +11,7 @@ namespace geotherm::app {
 
 struct IsolinesArguments {
   std::string model;
+  ReadingArguments reading;
   SourceArguments sources;
   MethodArguments method;
   std::string spacing, count;  ///< one of them is given

@@ -147,7 +147,7 @@ LinePicture picture_of_paths(const PathFigures& figures) {
 }  // namespace
 
 void add_path_options(CLI::App& command, PathArguments& arguments) {
-  add_model_option(command, arguments.model)->required();
+  add_model_option(command, arguments.model, arguments.reading)->required();
   const auto add_points = [&command](const char* name, std::vector<std::string>& points,
                                      const char* help) {
     return command.add_option(name, points, help)
@@ -199,7 +199,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   protect_inputs(arguments.model, {}, outputs);
   const auto settings = expect_line_files(arguments.files, outputs);
   if (!settings) return settings.error();
-  auto model = load_model(arguments.model, progress);
+  auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}};
   figures.warnings = figures.model.notes;

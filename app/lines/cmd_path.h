@@ -12,6 +12,7 @@ namespace geotherm::app {
 
 struct PathArguments {
   std::string model;
+  ReadingArguments reading;
   std::string from;
   std::vector<std::string> to, via;
   std::string field = "geodesic";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Drawing by the engine: the one place where pictures and the renderer meet.
+#include <algorithm>
 #include <optional>
 
 #include "app/main_drawing/device_words.h"
@@ -10,9 +11,23 @@
 #include "engine/device.h"
 #include "engine/picture.h"
 #include "engine/renderer.h"
+#include "solver/core/free_memory.h"
 
 namespace geotherm::app {
 namespace {
+
+/// Drivers end the process where their memory ends. What they take is address space above all: the
+/// software device compiles its shaders, on threads of its own.
+Result<void> check_address_space() {
+  constexpr std::int64_t kMegabyte = 1 << 20, kNeeded = 1200 * kMegabyte;
+  const std::optional<std::int64_t> left = free_address_space();
+  if (!left || *left >= kNeeded) return {};
+  return Error{ErrorCode::kOutOfMemory,
+               "drawing needs " + std::to_string(kNeeded / kMegabyte) +
+                   " MB of address space, and this process may take only " +
+                   std::to_string(std::max<std::int64_t>(*left, 0) / kMegabyte) +
+                   " MB more; raise its limit (ulimit -v)"};
+}
 
 class EngineDrawing final : public Drawing {
  public:
@@ -23,6 +38,7 @@ class EngineDrawing final : public Drawing {
   }
 
   Result<std::vector<DrawingDevice>> devices() override {
+    if (auto room = check_address_space(); !room) return room.error();
     const auto found = engine::list_devices();
     if (!found) return found.error();
     std::vector<DrawingDevice> out;
@@ -31,6 +47,7 @@ class EngineDrawing final : public Drawing {
   }
 
   Result<DrawingDevice> open(const PictureSettings& settings) override {
+    if (auto room = check_address_space(); !room) return room.error();
     engine::DeviceOptions options;
     options.name = settings.device;
     auto device = engine::Device::open(options);

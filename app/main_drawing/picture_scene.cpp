@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/picture/face_view.h"
 #include "app/text.h"
 #include "engine/scene/colour_map.h"
 #include "engine/scene/region_colours.h"
@@ -72,6 +73,11 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   engine::SurfaceStyle style;
   style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
+  if (face_field(settings.view) && !data.face_values.empty()) {
+    style.paint = engine::Paint::kFaces;
+    style.range_max = data.largest_face_value;
+    return style;
+  }
   const bool regions = shows_regions(data, settings);
   if (regions) style.paint = engine::Paint::kRegions;
   const bool mapped = maps_values(settings.view);
@@ -102,11 +108,6 @@ glm::vec3 scene_centre(const PictureData& data, const std::array<double, 3>& cen
     out[k] = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
   }
   return out;
-}
-
-/// Whether a view is about where distance is 0.
-bool shows_sources(View view) {
-  return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
 }
 
 /// What the colours of arrows, regions and lines stand for.
@@ -151,7 +152,7 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;
-  legend.title = data.value_title;
+  legend.title = face_field(settings.view) ? data.face_title : data.value_title;
   for (const glm::vec4& colour : engine::colour_table(*map, settings.reverse)) {
     legend.colours.emplace_back(colour);
   }
@@ -198,7 +199,7 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   scene.arrows.primary =
       settings.view == View::kHeatGradient || settings.view == View::kGradientError;
   scene.arrows.secondary = settings.view == View::kGradientError;
-  scene.markers.visible = settings.markers && shows_sources(settings.view);
+  scene.markers.visible = settings.markers && needs_sources(settings.view);
   if (settings.view == View::kSources) {
     scene.markers.radius = kLargeMarker;
     scene.markers.colour = kSourceRed;

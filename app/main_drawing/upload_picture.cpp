@@ -52,6 +52,7 @@ Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
   if (!data.values.empty()) {
     if (auto done = renderer.set_values(data.values); !done) return done;
   }
+  if (auto done = renderer.set_face_values(data.face_values); !done) return done;
   if (auto done = upload_colours(renderer, data, settings); !done) return done;
   if (auto done = upload_lines(renderer, data); !done) return done;
   const auto arrows = renderer.set_arrows(scene_vectors(data.heat_directions),

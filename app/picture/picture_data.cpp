@@ -5,7 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "app/picture/heat_direction.h"
+#include "solver/heat/heat_direction.h"
+#include "solver/quality/quality_fields.h"
 
 namespace geotherm::app {
 namespace {
@@ -55,12 +56,6 @@ class SceneSpace {
 
 /// Where an arrow has its full length.
 constexpr double kFullAngle = 90;
-
-/// In degrees, of unit vectors; exact for small angles and for those near 180, too (W. Kahan).
-double angle_between(const Vec3& a, const Vec3& b) {
-  constexpr double kDegrees = 180 / 3.14159265358979323846;
-  return 2 * std::atan2((a - b).norm(), (a + b).norm()) * kDegrees;
-}
 
 }  // namespace
 
@@ -162,15 +157,14 @@ void add_difference(PictureData& data, std::span<const double> difference) {
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result) {
   const std::vector<Vec3> heat = heat_directions(mesh, result.log_heat);
   const std::vector<Vec3> distance = face_gradients(mesh, result.distances);
+  const std::vector<double> angles = angles_between(heat, distance);
   data.heat_directions.clear();
   data.distance_gradients.clear();
   for (std::size_t f = 0; f < heat.size(); ++f) {
-    const Vec3 direction = distance[f].stableNormalized();
-    const bool both = !heat[f].isZero(0) && !direction.isZero(0);
-    const double angle = both ? angle_between(heat[f], direction) : 0;
+    const double angle = std::isfinite(angles[f]) ? angles[f] : 0;
     const double length = std::min(angle / kFullAngle, 1.0);
     data.heat_directions.push_back(to_float(heat[f]));
-    data.distance_gradients.push_back(to_float(direction * length));
+    data.distance_gradients.push_back(to_float(distance[f].stableNormalized() * length));
   }
 }
 

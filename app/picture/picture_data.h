@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/picture/picture_settings.h"
 #include "solver/core/types.h"
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/surface_point.h"
@@ -37,6 +38,10 @@ struct PictureData {
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
   bool is_signed = false;     ///< `values` run from -1 to 1: a difference
+  std::vector<float> face_values;  ///< F: of a view with a colour a face (add_face_values())
+  float largest_face_value = 0;    ///< where the colours of that view end
+  View face_view{};                ///< that view, where there are values of it
+  std::string face_title;          ///< over its colour bar
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error

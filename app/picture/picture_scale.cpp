@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/picture/face_view.h"
+
 namespace geotherm::app {
 namespace {
 
@@ -13,12 +15,34 @@ constexpr int kMostTicks = 7;
 /// Isolines that are not what the picture is about are farther apart by this.
 constexpr double kFewer = 2.5;
 
+/// Views of faces have scales of their own, not those of distances.
+PictureScale face_scale(const PictureData& data, const PictureSettings& settings) {
+  PictureScale scale;
+  scale.colour_map = colour_map_of(data, settings);
+  scale.max = data.face_values.empty() ? 1 : double{data.largest_face_value};
+  scale.bar = settings.bar && !data.face_values.empty();
+  if (scale.bar) {
+    scale.ticks =
+        make_ticks(scale.min, scale.max, kMostTicks, face_tick_step(settings.view).value_or(0));
+  }
+  return scale;
+}
+
 }  // namespace
 
 std::string colour_map_of(const PictureData& data, const PictureSettings& settings) {
+  // From near red to far blue is for distances: there is nothing wrong with a red face.
+  if (face_field(settings.view)) {
+    return settings.colour_map == PictureSettings().colour_map ? "viridis" : settings.colour_map;
+  }
   constexpr std::array kDiverging = {"cool-warm", "red-yellow-blue"};
   const bool fits = std::ranges::find(kDiverging, settings.colour_map) != kDiverging.end();
   return data.is_signed && !fits ? kDiverging[0] : settings.colour_map;
+}
+
+bool needs_sources(View view) {
+  if (face_field(view)) return needs_distances(view);
+  return view != View::kWireframe && view != View::kFlat && view != View::kSmooth;
 }
 
 bool maps_values(View view) { return view == View::kContours || view == View::kExactError; }
@@ -28,6 +52,7 @@ bool shows_regions(const PictureData& data, const PictureSettings& settings) {
 }
 
 PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
+  if (face_field(settings.view)) return face_scale(data, settings);
   const double largest = data.largest_value * data.value_unit;
   // A range is one of distances: an error keeps its 0 in the middle of the map.
   const bool is_error = settings.view == View::kExactError;

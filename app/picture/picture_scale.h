@@ -21,7 +21,10 @@ struct PictureScale {
 /// The settings' map, or a diverging one where values have both signs and it is none.
 std::string colour_map_of(const PictureData& data, const PictureSettings& settings);
 
-/// Whether a view paints values by the colour map.
+/// Whether a view is about where distance is 0; the others show the mesh alone.
+bool needs_sources(View view);
+
+/// Whether a view paints values of vertices by the colour map.
 bool maps_values(View view);
 
 /// Whether a picture shows which source is the nearest: the view is to, and it is known.

@@ -18,6 +18,11 @@ enum class View {
   kContours,
   kExactError,  ///< d - d_exact with a diverging map
   kRegions,     ///< a colour for each source, where it is the nearest (geodesic Voronoi cells)
+  // One colour a face (app/picture/face_view.h).
+  kEikonalError,     ///< | |grad d| - 1 |
+  kLostGradients,    ///< where the heat has no direction
+  kTriangleQuality,  ///< 1: equilateral
+  kNonDelaunay,      ///< edges with a negative cotangent weight, 0 to 3
 };
 
 enum class PictureLight { kThreePoint, kHeadlight, kNone };

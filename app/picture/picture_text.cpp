@@ -23,7 +23,11 @@ constexpr Named<View> kViews[] = {{View::kContours, "contours"},
                                   {View::kHeatGradient, "heat-gradient"},
                                   {View::kGradientError, "gradient-error"},
                                   {View::kExactError, "exact-error"},
-                                  {View::kRegions, "regions"}};
+                                  {View::kRegions, "regions"},
+                                  {View::kEikonalError, "eikonal-error"},
+                                  {View::kLostGradients, "lost-gradients"},
+                                  {View::kTriangleQuality, "triangle-quality"},
+                                  {View::kNonDelaunay, "non-delaunay"}};
 constexpr Named<PictureLight> kLights[] = {{PictureLight::kThreePoint, "three-point"},
                                            {PictureLight::kHeadlight, "headlight"},
                                            {PictureLight::kNone, "none"}};

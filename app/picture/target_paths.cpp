@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 namespace geotherm::app {
@@ -139,8 +138,8 @@ Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const Surfa
 
 void add_paths(PictureData& data, const TriangleMesh& mesh, std::span<const TargetPath> paths) {
   // What comes last lies on top, where paths run together: the geodesic, which is the first.
-  for (const TargetPath& path : std::views::reverse(paths)) {
-    add_line(data, positions_of(mesh, path.path), to_text(path.field));
+  for (auto path = paths.rbegin(); path != paths.rend(); ++path) {
+    add_line(data, positions_of(mesh, path->path), to_text(path->field));
   }
 }
 

@@ -70,7 +70,7 @@ Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
 }  // namespace
 
 void add_study_options(CLI::App& command, StudyArguments& arguments) {
-  add_model_option(command, arguments.model)->required();
+  add_model_option(command, arguments.model, arguments.reading)->required();
   command
       .add_option("--factors", arguments.factors,
                   "time factors m that are tried, the same ratio apart, default 0.1:100:13")
@@ -104,7 +104,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   const auto named = sources_of(arguments.sources);
   if (!named) return named.error();
-  const auto model = load_model(arguments.model, progress);
+  const auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   CommandOutput out{"", model->notes, {}};
   auto sources = sources_on(*model, *named, out.warnings);

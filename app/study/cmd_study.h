@@ -11,6 +11,7 @@ namespace geotherm::app {
 
 struct StudyArguments {
   std::string model;
+  ReadingArguments reading;
   SourceArguments sources;
   MethodArguments method;
   std::string factors = "0.1:100:13";

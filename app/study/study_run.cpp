@@ -27,19 +27,19 @@ class Sweeper {
 
   double range() const { return range_; }
 
-  void add(const HeatOptions& options, double mean_edge, Study& study) {
+  void add(const MethodOptions& options, Study& study) {
     StudyRow row;
     row.rule = options.time_step.rule;
     row.factor = options.time_step.factor;
     row.boundary = options.boundary;
     row.constraint = options.constraint.mode;
-    auto made = method_ ? method_->with(options) : HeatMethod::build(model_.mesh, options);
+    auto made = build_method_near(model_.mesh, options, method_.get());
     if (!made) {
       row.message = made.error().message;
     } else {
       method_ = *std::move(made);
-      row.t = method_->t();
-      row.unit_t = row.t / mean_edge / mean_edge;
+      row.t = method_->heat()->t();
+      row.unit_t = method_->heat()->relative_t();
       measure(row);
     }
     study.rows.push_back(std::move(row));
@@ -63,7 +63,7 @@ class Sweeper {
   const StudyTask& task_;
   const std::vector<double>& better_;
   double range_ = 0;
-  std::optional<HeatMethod> method_;
+  std::shared_ptr<const DistanceMethod> method_;
 };
 
 }  // namespace
@@ -118,7 +118,7 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
   const std::vector<Constraint> constraints = study_constraints();
   const std::size_t total =
       std::size(kRules) * task.factors.size() * task.boundaries.size() * constraints.size();
-  HeatOptions options = task.options;
+  MethodOptions options = task.options;
   for (const TimeRule rule : kRules) {
     for (const double factor : task.factors) {
       for (const BoundaryRule boundary : task.boundaries) {
@@ -128,7 +128,7 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
           options.time_step = {rule, factor, 0};
           options.boundary = boundary;
           options.constraint = constraint;
-          sweeper.add(options, study.mean_edge, study);
+          sweeper.add(options, study);
         }
       }
     }

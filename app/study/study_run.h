@@ -17,7 +17,7 @@ struct StudyRow {
   TimeRule rule = TimeRule::kMeanEdge;
   double factor = 1;  ///< m
   double t = 0;       ///< model units squared
-  double unit_t = 0;  ///< t / h^2, h the mean edge length
+  double unit_t = 0;  ///< t / h^2, h the mean edge length of the component that t is of
   BoundaryRule boundary = BoundaryRule::kNeumann;
   ConstraintMode constraint = ConstraintMode::kPinSources;
   std::optional<double> mean_error;       ///< mean of |d - e| / e
@@ -27,7 +27,7 @@ struct StudyRow {
 };
 
 struct StudyTask {
-  HeatOptions options;  ///< but for what is swept
+  MethodOptions options;  ///< of the heat method, but for what is swept
   SourceSet sources;
   std::vector<double> factors;  ///< m, ascending
   std::vector<BoundaryRule> boundaries;

@@ -169,4 +169,13 @@ class Builder {
 
 DrawMesh build_draw_mesh(const SurfaceGeometry& geometry) { return Builder(geometry).build(); }
 
+std::vector<DrawMesh::Vertex> separate_faces(const DrawMesh& mesh) {
+  std::vector<DrawMesh::Vertex> vertices;
+  vertices.reserve(3 * mesh.faces.size());
+  for (const Triangle& face : mesh.faces) {
+    for (const std::uint32_t v : face) vertices.push_back(mesh.vertices[v]);
+  }
+  return vertices;
+}
+
 }  // namespace geotherm::engine

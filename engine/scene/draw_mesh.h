@@ -36,4 +36,7 @@ inline constexpr float kCreaseAngle = 60;
 /// meshes there are about 1.5 copies of each). Cost: O(F).
 DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);
 
+/// The three vertices of every face for itself, 3F: faces may then have values of their own.
+std::vector<DrawMesh::Vertex> separate_faces(const DrawMesh& mesh);
+
 }  // namespace geotherm::engine

@@ -41,6 +41,7 @@ enum class Light {
 enum class Paint {
   kPlain,  ///< one colour
   kMap,    ///< the colour map at each vertex' value
+  kFaces,  ///< the colour map at each face's own value, flat within it
   /// The colour of the region that is nearest: each vertex has one, and between vertices of several
   /// it is the one whose value grows least from there.
   kRegions,

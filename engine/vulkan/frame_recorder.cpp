@@ -66,6 +66,8 @@ void FrameRecorder::set_surface(const DrawMesh& mesh, std::span<const float> val
   values_ = std::move(made);
   index_count_ = static_cast<std::uint32_t>(3 * mesh.faces.size());
   regions_ = {};
+  face_vertices_ = {};
+  face_values_ = {};
   line_ranges_.clear();
   marker_count_ = 0;
 }
@@ -83,6 +85,19 @@ void FrameRecorder::set_regions(std::span<const glm::vec2> values_and_regions) {
   } else {
     regions_ = device_->upload(bytes, Usage::eVertexBuffer);
   }
+}
+
+void FrameRecorder::set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
+                                       std::span<const float> values) {
+  Buffer made = device_->upload(std::as_bytes(vertices), Usage::eVertexBuffer);
+  face_values_ = device_->upload(std::as_bytes(values), Usage::eVertexBuffer);
+  face_vertices_ = std::move(made);
+}
+
+void FrameRecorder::set_face_values(std::span<const float> values) {
+  if (!values.empty()) return device_->update(face_values_, std::as_bytes(values));
+  face_vertices_ = {};
+  face_values_ = {};
 }
 
 void FrameRecorder::set_colours(const ColourTable& table) {
@@ -190,11 +205,21 @@ void FrameRecorder::record_scene(const vk::raii::CommandBuffer& commands, const 
 void FrameRecorder::record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene) {
   std::uint32_t features = surface_features(scene);
   if (regions_.bytes == 0) features &= ~shared::kRegions;
+  if (scene.surface.paint == Paint::kFaces) {
+    if (has_face_values()) return record_faces(commands, features);
+    features &= ~shared::kMapped;
+  }
   const Buffer& values = (features & shared::kRegions) != 0 ? regions_ : values_;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.surface(features));
   commands.bindVertexBuffers(0, {*vertices_.buffer, *values.buffer}, {0, 0});
   commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
   commands.drawIndexed(index_count_, 1, 0, 0, 0);
+}
+
+void FrameRecorder::record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features) {
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.surface(features));
+  commands.bindVertexBuffers(0, {*face_vertices_.buffer, *face_values_.buffer}, {0, 0});
+  commands.draw(index_count_, 1, 0, 0);
 }
 
 void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,

@@ -32,6 +32,11 @@ class FrameRecorder {
   void set_surface(const DrawMesh& mesh, std::span<const float> values);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
   void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
+  /// Vertices of faces for themselves (separate_faces()) with their values.
+  void set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
+                          std::span<const float> values);
+  void set_face_values(std::span<const float> values);  ///< as many as there were, or none
+  bool has_face_values() const { return face_values_.bytes > 0; }
   void set_colours(const ColourTable& table);
   void set_lines(const LineSet& lines);
   void set_markers(std::span<const Marker> markers);
@@ -48,6 +53,7 @@ class FrameRecorder {
   void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene);
+  void record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features);
   void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_markers(const vk::raii::CommandBuffer& commands);
   void record_overlay(const vk::raii::CommandBuffer& commands);
@@ -60,6 +66,7 @@ class FrameRecorder {
   Pipelines pipelines_;
   std::array<Attachments, 2> attachments_;  ///< with one sample a pixel, with four
   Buffer frame_, colours_, vertices_, values_, regions_, indices_;
+  Buffer face_vertices_, face_values_;  ///< three a face; empty: not needed
   Buffer lines_, markers_, arrows_, overlay_;
   std::vector<LineSet::Range> line_ranges_;
   vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_

@@ -51,7 +51,7 @@ std::uint32_t surface_features(const Scene& scene) {
   if (scene.light == Light::kNone) features |= shared::kNoLight;
   if (scene.light == Light::kThreePoint) features |= shared::kThreeLights;
   if (!surface.smooth && scene.light != Light::kNone) features |= shared::kFlat;
-  if (surface.paint == Paint::kMap) features |= shared::kMapped;
+  if (surface.paint == Paint::kMap || surface.paint == Paint::kFaces) features |= shared::kMapped;
   if (surface.paint == Paint::kRegions) features |= shared::kRegions;
   if (has_isolines(surface)) features |= shared::kIsolines;
   if (surface.wire) features |= shared::kWire;

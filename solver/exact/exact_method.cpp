@@ -69,11 +69,11 @@ Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
     std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
   const Stopwatch watch;
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  auto state = std::make_unique<State>(std::move(surface), thread_count(threads));
+  auto state = std::make_unique<State>(surface, thread_count(threads));
   state->timing.operators = state->timing.setup = watch.milliseconds();
   return std::shared_ptr<const ExactMethod>(new ExactMethod(std::move(state)));
 } catch (const std::bad_alloc&) {
-  return out_of_memory("set-up", surface ? surface->face_count() : 0);
+  return out_of_memory("set-up", surface->face_count());
 }
 
 Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const SourceSet> sets,

@@ -22,7 +22,7 @@ constexpr std::int64_t kWorkBetweenChecks = kWindowWork << 14;
 /// Work in all. Meshes as they come have tens to hundreds of windows a face; small broken ones, in
 /// which windows run round edges with many faces without end, are given some seconds.
 constexpr std::int64_t kMostWorkPerFace = 50'000 * kWindowWork;
-constexpr std::int64_t kMostWorkAtLeast = 20'000'000 * kWindowWork;
+constexpr std::int64_t kMostWorkAtLeast = 4'000'000 * kWindowWork;
 
 }  // namespace
 

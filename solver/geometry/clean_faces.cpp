@@ -34,18 +34,13 @@ std::vector<char> find_duplicates(const std::vector<Face>& faces, const EdgeTabl
   return duplicate;
 }
 
-/// True when both sides run the same way, so that the two faces disagree in orientation.
-bool same_direction(const std::vector<Face>& faces, Side a, Side b) {
-  return faces[face_of(a)][corner_of(a)] == faces[face_of(b)][corner_of(b)];
-}
-
 /// Turns faces so that neighbours agree, walking each patch from its first face. On a surface
 /// that cannot be oriented some edges stay in disagreement.
 Index orient(std::vector<Face>& faces, const EdgeTable& edges) {
   bool consistent = true;
   for (Index e = 0; e < edges.edge_count() && consistent; ++e) {
     const auto sides = edges.sides(e);
-    consistent = sides.size() != 2 || !same_direction(faces, sides[0], sides[1]);
+    consistent = sides.size() != 2 || sides_agree(faces, sides[0], sides[1]);
   }
   if (consistent) return 0;
 
@@ -68,7 +63,7 @@ Index orient(std::vector<Face>& faces, const EdgeTable& edges) {
       for (int k = 0; k < 3; ++k) {
         const Side other = twin[3 * f + k];
         if (other == kNoSide || turned[face_of(other)] >= 0) continue;
-        const bool disagree = same_direction(faces, 3 * f + k, other);
+        const bool disagree = !sides_agree(faces, 3 * f + k, other);
         turned[face_of(other)] = static_cast<signed char>(turned[f] ^ static_cast<int>(disagree));
         stack.push_back(face_of(other));
       }

@@ -19,6 +19,11 @@ struct CleanFaces {
   Index reoriented = 0;         ///< faces turned round to agree with their neighbours
 };
 
+/// Whether two faces agree in orientation where they share an edge: the sides run opposite ways.
+inline bool sides_agree(const std::vector<Face>& faces, Side a, Side b) {
+  return faces[face_of(a)][corner_of(a)] != faces[face_of(b)][corner_of(b)];
+}
+
 /// Cost: O(F).
 CleanFaces clean_faces(const TriangleMesh& mesh);
 

@@ -78,20 +78,21 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
 
 }  // namespace
 
-Index count_non_delaunay(const IntrinsicMesh& mesh) {
-  Index count = 0;
+std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh) {
+  std::vector<Side> sides;
   for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) ++count;
+    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) sides.push_back(side);
   }
-  return count;
+  return sides;
+}
+
+Index count_non_delaunay(const IntrinsicMesh& mesh) {
+  return static_cast<Index>(non_delaunay_sides(mesh).size());
 }
 
 Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress) {
   std::vector<Flip> flips;
-  std::vector<Side> queue;
-  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) queue.push_back(side);
-  }
+  std::vector<Side> queue = non_delaunay_sides(mesh);
   // Each flip lowers the Dirichlet energy, so the loop ends; the bound guards against round-off.
   const std::size_t most = 100 * mesh.twin.size() + 1000;
   while (!queue.empty() && flips.size() < most) {

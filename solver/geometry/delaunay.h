@@ -24,6 +24,9 @@ struct Flip {
 /// (Bobenko, Springborn 2007). Edges without twins do not count. Cost: O(F).
 Index count_non_delaunay(const IntrinsicMesh& mesh);
 
+/// One side of each of these edges, ascending.
+std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh);
+
 /// Flips edges until every edge with twins is Delaunay; lengths change, the surface does not.
 /// Faces may afterwards share two sides or visit a vertex twice; the operators allow it.
 /// Cost: O(F + flips). Source: Bobenko, Springborn 2007; Fisher, Springborn, Schroeder, Bobenko

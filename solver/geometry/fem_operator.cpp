@@ -12,22 +12,25 @@ constexpr double kMostOfStiffness = 0.5;
 }  // namespace
 
 FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-                         double stiffness_factor, std::vector<Index> held, double consistent_share)
+                         PerComponent stiffness_factor, std::vector<Index> held,
+                         PerComponent consistent_share)
     : mesh_(std::move(mesh)),
       mass_factor_(mass_factor),
-      stiffness_factor_(stiffness_factor),
-      consistent_share_(consistent_share),
+      stiffness_factor_(std::move(stiffness_factor)),
+      consistent_share_(std::move(consistent_share)),
       held_(std::move(held)) {
   diagonal_.resize(static_cast<std::size_t>(size()));
   for (Index i = 0; i < size(); ++i) {
-    diagonal_[i] = mass_factor_ * mesh_->mass[i] + stiffness_factor_ * mesh_->stiffness_diagonal[i];
+    const double stiff = stiffness_factor_.of(mesh_->components.of[i]);
+    diagonal_[i] = mass_factor_ * mesh_->mass[i] + stiff * mesh_->stiffness_diagonal[i];
   }
-  if (consistent_share_ > 0) {
+  if (consistent_share_.most() > 0) {
     for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
-      const auto coupled = weights(mesh_->layout[f]);
+      const auto coupled = weights(f);
       const auto plain = stiffness(mesh_->layout[f]);
+      const double stiff = of_face(stiffness_factor_, f);
       for (int k = 0; k < 3; ++k) {
-        const double moved = coupled[k] + stiffness_factor_ * plain[k];
+        const double moved = coupled[k] + stiff * plain[k];
         const Index a = mesh_->faces[f][k];
         const Index b = mesh_->faces[f][next_corner(k)];
         if (a == b) continue;
@@ -44,13 +47,16 @@ FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_f
   }
 }
 
-std::array<double, 3> FemOperator::weights(const FaceLayout& p) const {
+std::array<double, 3> FemOperator::weights(std::size_t face) const {
+  const FaceLayout& p = mesh_->layout[face];
+  const double stiff = of_face(stiffness_factor_, face);
+  const double share = of_face(consistent_share_, face);
   std::array<double, 3> w = stiffness(p);
-  for (double& weight : w) weight *= -stiffness_factor_;
-  if (!(consistent_share_ > 0)) return w;
+  for (double& weight : w) weight *= -stiff;
+  if (!(share > 0)) return w;
   // The consistent mass couples each pair by area / 12; no more of it than half of what the
   // stiffness couples, so that M keeps the signs that make u positive.
-  const double mass = consistent_share_ * mass_factor_ * p.base * p.height / 24;
+  const double mass = share * mass_factor_ * p.base * p.height / 24;
   for (double& weight : w) weight -= std::min(mass, kMostOfStiffness * std::max(weight, 0.0));
   return w;
 }
@@ -64,7 +70,7 @@ void FemOperator::apply_free(std::span<const double> x, std::span<double> y) con
   for (std::size_t i = 0; i < y.size(); ++i) y[i] = mass_factor_ * mesh_->mass[i] * x[i];
   for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
     const Face& face = mesh_->faces[f];
-    const auto w = weights(mesh_->layout[f]);
+    const auto w = weights(f);
     for (int k = 0; k < 3; ++k) {
       const Index a = face[k];
       const Index b = face[next_corner(k)];
@@ -93,7 +99,7 @@ const LowerMatrix& FemOperator::assembled() const {
   std::vector<double>& value = assembled_.value;
   value.assign(assembled_.row.size(), 0.0);
   for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
-    const std::array<double, 3> weight = weights(mesh_->layout[f]);
+    const std::array<double, 3> weight = weights(f);
     for (int k = 0; k < 3; ++k) {
       const std::int64_t entry = mesh_->entry[f][k];
       if (entry >= 0) value[entry] -= weight[k];

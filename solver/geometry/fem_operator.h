@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/geometry/operator_mesh.h"
+#include "solver/geometry/per_component.h"
 #include "solver/linear/symmetric_operator.h"
 
 namespace geotherm {
@@ -14,12 +15,14 @@ namespace geotherm {
 /// usual lumped mass, c = 1/2 is of fourth order in the wave number on regular meshes (Goudreau,
 /// Taylor 1973). No off-diagonal entry of M changes its sign for c. Rows and columns of held
 /// vertices are those of the identity, which keeps M symmetric and its pattern unchanged: the
-/// caller moves known values to the right side.
+/// caller moves known values to the right side. s and c may differ between components, which share
+/// no entry.
 class FemOperator final : public SymmetricOperator {
  public:
   /// `held`: vertices in elimination numbering, in any order; empty for none.
-  FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor, double stiffness_factor,
-              std::vector<Index> held = {}, double consistent_share = 0.0);
+  FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
+              PerComponent stiffness_factor, std::vector<Index> held = {},
+              PerComponent consistent_share = 0.0);
 
   Index size() const override { return mesh_->size(); }
   void apply(std::span<const double> x, std::span<double> y) const override;
@@ -38,11 +41,14 @@ class FemOperator final : public SymmetricOperator {
  private:
   /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
   /// squared difference.
-  std::array<double, 3> weights(const FaceLayout& layout) const;
+  std::array<double, 3> weights(std::size_t face) const;
+  double of_face(const PerComponent& factor, std::size_t face) const {
+    return factor.same() ? factor.of(0) : factor.of(mesh_->components.of[mesh_->faces[face][0]]);
+  }
 
   std::shared_ptr<const OperatorMesh> mesh_;
-  double mass_factor_, stiffness_factor_;
-  double consistent_share_;
+  double mass_factor_;
+  PerComponent stiffness_factor_, consistent_share_;
   std::vector<Index> held_;
   std::vector<char> is_held_;  ///< n, or empty when nothing is held
   std::vector<double> diagonal_;

@@ -7,26 +7,6 @@
 namespace geotherm {
 namespace {
 
-/// By how much each triangle inequality must be strict, relative to the longest side of the face
-/// (Sharp, Crane 2020): faces of any size keep their shape unless that is degenerate.
-constexpr double kMollify = 1e-5;
-/// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
-constexpr double kPoint = 1e-70;
-
-/// The smallest length that does it when added to every edge.
-double mollification(const std::vector<std::array<double, 3>>& lengths) {
-  double needed = 0;
-  for (const auto& l : lengths) {
-    const double longest = std::max({l[0], l[1], l[2]});
-    const double size = longest > kPoint ? longest : 1.0;
-    for (int k = 0; k < 3; ++k) {
-      const double missing = kMollify * size + l[k] - l[next_corner(k)] - l[previous_corner(k)];
-      needed = std::max(needed, missing / (1 - kMollify));  // the longest side grows as well
-    }
-  }
-  return needed;
-}
-
 /// Four times the area by Kahan's formula, which stays accurate for needles: a >= b >= c.
 double four_areas(double a, double b, double c) {
   if (a < b) std::swap(a, b);
@@ -59,19 +39,11 @@ IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanF
         ((positions[clean.edges.low(e)] - positions[clean.edges.high(e)]) / unit).norm();
     const auto sides = clean.edges.sides(e);
     for (const Side side : sides) mesh.lengths[face_of(side)][corner_of(side)] = length;
-    if (sides.size() != 2) continue;
-    const Index from0 = mesh.faces[face_of(sides[0])][corner_of(sides[0])];
-    const Index from1 = mesh.faces[face_of(sides[1])][corner_of(sides[1])];
-    if (from0 == from1) continue;  // orientations disagree
+    if (sides.size() != 2 || !sides_agree(mesh.faces, sides[0], sides[1])) continue;
     mesh.twin[sides[0]] = sides[1];
     mesh.twin[sides[1]] = sides[0];
   }
-  mesh.mollified_by = mollification(mesh.lengths);
-  if (mesh.mollified_by > 0) {
-    for (auto& l : mesh.lengths) {
-      for (double& length : l) length += mesh.mollified_by;
-    }
-  }
+  mesh.mollified = mollify(mesh.lengths, clean);
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/geometry/clean_faces.h"
+#include "solver/geometry/mollify.h"
 #include "solver/mesh/edge_table.h"
 
 namespace geotherm {
@@ -21,7 +22,10 @@ struct IntrinsicMesh {
   std::vector<std::array<double, 3>> lengths;  ///< F x 3, in units of `unit`
   std::vector<Side> twin;                      ///< 3F: the other side of the edge, or kNoSide
   double unit = 1.0;                           ///< length of 1 in model units: the mean edge length
-  double mollified_by = 0;  ///< what was added to every length, in units of `unit`
+  Mollification mollified;                     ///< what was added to lengths, in units of `unit`
+  /// Of the tufted cover, empty elsewhere: for every face of the surface (they come first) the
+  /// number of its back before flips, kNoIndex where its component has none.
+  std::vector<Index> back;
 
   Index face_count() const { return static_cast<Index>(faces.size()); }
 };
@@ -31,9 +35,8 @@ double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges)
 
 /// Builds the intrinsic mesh of clean faces. Lengths are divided by `unit` (> 0), so that what
 /// follows sees numbers of order 1 at any scale. Faces that are degenerate or nearly so are
-/// mollified: the smallest common length is added to all edges that makes every triangle
-/// inequality strict by 1e-5 of the face's longest side (Sharp, Crane 2020, section 4.5). Edges
-/// with a number of sides other than two, or whose faces disagree in orientation, get no twins.
+/// mollified (mollify.h). Edges with a number of sides other than two, or whose faces disagree in
+/// orientation, get no twins.
 /// Cost: O(F).
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
                                    double unit);

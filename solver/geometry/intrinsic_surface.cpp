@@ -5,28 +5,36 @@
 #include <cmath>
 
 #include "solver/core/number_text.h"
+#include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
 
-void note_cleaning(const CleanFaces& clean, const IntrinsicMesh& intrinsic,
-                   std::vector<std::string>& warnings) {
-  if (clean.repeated_corner > 0) {
-    warnings.push_back(counted_text(static_cast<std::size_t>(clean.repeated_corner),
-                                    "face repeats a corner and was left out",
-                                    "faces repeat a corner and were left out"));
+void note_mollification(const IntrinsicMesh& intrinsic, std::vector<std::string>& warnings) {
+  const Mollification& mollified = intrinsic.mollified;
+  if (mollified.most > 0) {
+    warnings.push_back(
+        counted_text(static_cast<std::size_t>(mollified.faces), "face is", "faces are") +
+        " degenerate or nearly so: " +
+        counted_text(static_cast<std::size_t>(mollified.edges), "edge was", "edges were") +
+        " lengthened in " +
+        counted_text(static_cast<std::size_t>(mollified.components), "component", "components") +
+        ", by up to " + rounded_text(mollified.most) +
+        " mean edge lengths; distances across them may be too long by as much");
   }
-  if (clean.duplicate > 0) {
-    warnings.push_back(counted_text(static_cast<std::size_t>(clean.duplicate),
-                                    "duplicate face was left out",
-                                    "duplicate faces were left out"));
+}
+
+/// A flag per clean face, empty where none is to be doubled.
+std::vector<char> faces_to_double(const CleanFaces& clean, Index vertex_count, CoverRule rule) {
+  switch (rule) {
+    case CoverRule::kAlways:
+      return std::vector<char>(clean.faces.size(), 1);
+    case CoverRule::kWhereNeeded:
+      return faces_that_need_cover(clean, vertex_count);
+    case CoverRule::kNever:
+      break;
   }
-  if (intrinsic.mollified_by > 0) {
-    warnings.push_back("degenerate or nearly degenerate faces: every edge was lengthened by " +
-                       rounded_text(intrinsic.mollified_by) +
-                       " mean edge lengths, and distances may be too long by as much for each "
-                       "edge on the way");
-  }
+  return {};
 }
 
 /// Whether lengths can be measured in units of the mean edge.
@@ -50,8 +58,36 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
 
 }  // namespace
 
+std::vector<std::string> cleaning_notes(const CleanFaces& clean) {
+  std::vector<std::string> notes;
+  if (clean.repeated_corner > 0) {
+    notes.push_back(counted_text(static_cast<std::size_t>(clean.repeated_corner),
+                                 "face repeats a corner and was left out",
+                                 "faces repeat a corner and were left out"));
+  }
+  if (clean.duplicate > 0) {
+    notes.push_back(counted_text(static_cast<std::size_t>(clean.duplicate),
+                                 "duplicate face was left out", "duplicate faces were left out"));
+  }
+  return notes;
+}
+
+void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface) {
+  surface.clean_of_face.assign(static_cast<std::size_t>(surface.mesh->face_count()), kNoIndex);
+  for (std::size_t c = 0; c < clean.original.size(); ++c) {
+    surface.clean_of_face[clean.original[c]] = static_cast<Index>(c);
+  }
+  surface.on_surface.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), 0);
+  for (const Face& face : clean.faces) {
+    for (const Index corner : face) surface.on_surface[corner] = 1;
+  }
+  surface.clean_faces = std::move(clean.faces);
+  surface.clean_edges = std::move(clean.edges);
+}
+
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
-                                                 FlipRule rule, const Progress& progress) {
+                                                 FlipRule rule, const Progress& progress,
+                                                 CoverRule cover) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   IntrinsicSurface out;
   out.mesh = std::move(mesh);
@@ -63,7 +99,11 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   }
   if (!report(progress, "operators", 0.5)) return cancelled_error();
   out.intrinsic = build_intrinsic_mesh(positions, clean, out.mean_edge);
-  note_cleaning(clean, out.intrinsic, out.warnings);
+  out.warnings = cleaning_notes(clean);
+  note_mollification(out.intrinsic, out.warnings);
+  const std::vector<char> doubled = faces_to_double(clean, out.mesh->vertex_count(), cover);
+  out.tufted = !doubled.empty();
+  if (out.tufted) make_tufted_cover(out.intrinsic, positions, clean, doubled);
 
   out.delaunay = rule == FlipRule::kAlways ||
                  (rule == FlipRule::kWhereNeeded && count_non_delaunay(out.intrinsic) > 0);
@@ -73,16 +113,7 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
     if (!flips) return flips.error();
     out.flips = std::move(*flips);
   }
-  out.clean_of_face.assign(static_cast<std::size_t>(out.mesh->face_count()), kNoIndex);
-  for (std::size_t c = 0; c < clean.original.size(); ++c) {
-    out.clean_of_face[clean.original[c]] = static_cast<Index>(c);
-  }
-  out.on_surface.assign(positions.size(), 0);
-  for (const Face& face : clean.faces) {
-    for (const Index corner : face) out.on_surface[corner] = 1;
-  }
-  out.clean_faces = std::move(clean.faces);
-  out.clean_edges = std::move(clean.edges);
+  keep_clean_faces(std::move(clean), out);
   return out;
 }
 

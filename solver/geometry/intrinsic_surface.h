@@ -7,6 +7,7 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
+#include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/mesh/surface_point.h"
@@ -17,8 +18,12 @@ namespace geotherm {
 /// When the edges of a mesh are flipped to Delaunay.
 enum class FlipRule { kNever, kWhereNeeded, kAlways };
 
+/// Which components become their tufted cover: none, those that are no oriented manifold along all
+/// their edges, or all.
+enum class CoverRule { kNever, kWhereNeeded, kAlways };
+
 /// A mesh made ready for numerical work: cleaned, and triangulated intrinsically. Immutable; every
-/// distance method begins with one.
+/// distance method begins with one; only the heat method asks for covers.
 struct IntrinsicSurface {
   std::shared_ptr<const TriangleMesh> mesh;
   std::vector<Face> clean_faces;     ///< before flips, as CleanFaces
@@ -28,6 +33,7 @@ struct IntrinsicSurface {
   IntrinsicMesh intrinsic;           ///< after flips; its vertices are the mesh's
   std::vector<Flip> flips;
   bool delaunay = false;  ///< flips were asked for or needed
+  bool tufted = false;    ///< some component is its tufted cover
   double mean_edge = 0;   ///< of the mesh, model units; also the unit of `intrinsic`
   std::vector<std::string> warnings;
 };
@@ -35,7 +41,15 @@ struct IntrinsicSurface {
 /// `progress` is asked as stage "operators". Errors: kBadInput (no face with area, edges that
 /// cannot be added up), kCancelled. Cost: O(F + flips).
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
-                                                 FlipRule rule, const Progress& progress = {});
+                                                 FlipRule rule, const Progress& progress = {},
+                                                 CoverRule cover = CoverRule::kNever);
+
+/// What was left out, one sentence each.
+std::vector<std::string> cleaning_notes(const CleanFaces& clean);
+
+/// Sets clean_faces, clean_edges, clean_of_face and on_surface; sources are checked and placed with
+/// these, `mesh` and `mean_edge` alone. Precondition: `clean` is of surface.mesh.
+void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface);
 
 /// Whether every source lies on the surface. Errors (kBadInput, with the numbers): no source, a
 /// vertex or face out of range, a vertex in no face, bad weights, a face that was left out, an edge

@@ -9,7 +9,9 @@
 
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
+#include "solver/geometry/disjoint_sets.h"
 #include "solver/geometry/intrinsic_mesh.h"
+#include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
@@ -17,22 +19,8 @@ namespace {
 /// Height over longest side below which a face has no usable area.
 constexpr double kFlat = 1e-10;
 
-/// Disjoint sets with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<Index> parent_;
-};
-
 /// Counts the different roots of the vertices that `marked` holds.
-Index count_sets(Sets& sets, const std::vector<char>& marked) {
+Index count_sets(DisjointSets& sets, const std::vector<char>& marked) {
   Index count = 0;
   for (std::size_t v = 0; v < marked.size(); ++v) {
     count += marked[v] && sets.root(static_cast<Index>(v)) == static_cast<Index>(v);
@@ -44,7 +32,7 @@ Index count_sets(Sets& sets, const std::vector<char>& marked) {
 void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   const auto n = static_cast<std::size_t>(mesh.vertex_count());
   std::vector<char> used(n, 0), on_boundary(n, 0);
-  Sets pieces(n), borders(n), patches(clean.faces.size());
+  DisjointSets pieces(n), borders(n), patches(clean.faces.size());
   for (const Face& face : clean.faces) {
     for (const Index corner : face) used[corner] = 1;
     pieces.join(face[0], face[1]);
@@ -55,11 +43,7 @@ void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, Mesh
     const auto sides = edges.sides(e);
     report.nonmanifold_edges += sides.size() > 2;
     for (const Side side : sides) patches.join(face_of(sides[0]), face_of(side));
-    if (sides.size() == 2) {
-      const Face& f = clean.faces[face_of(sides[0])];
-      const Face& g = clean.faces[face_of(sides[1])];
-      report.orientable &= f[corner_of(sides[0])] != g[corner_of(sides[1])];
-    }
+    if (sides.size() == 2) report.orientable &= sides_agree(clean.faces, sides[0], sides[1]);
     if (sides.size() != 1) continue;
     ++report.boundary_edges;
     borders.join(edges.low(e), edges.high(e));
@@ -70,14 +54,17 @@ void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, Mesh
   report.components = count_sets(pieces, used);
   report.edge_components = count_sets(patches, std::vector<char>(clean.faces.size(), 1));
   report.boundary_loops = count_sets(borders, on_boundary);
-  report.unreferenced_vertices = report.vertices - in_use;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    report.merged_vertices += mesh.standing_for(v) != v;
+    report.unreferenced_vertices += !used[mesh.standing_for(v)];
+  }
   report.euler_characteristic =
       std::int64_t{in_use} - edges.edge_count() + static_cast<std::int64_t>(clean.faces.size());
 }
 
 /// Vertices at which the corners of the faces, joined across shared edges, are not one set.
 Index count_split_vertices(const TriangleMesh& mesh, const CleanFaces& clean) {
-  Sets corners(3 * clean.faces.size());
+  DisjointSets corners(3 * clean.faces.size());
   const auto corner_at = [&clean](Side side, Index vertex) {
     const bool first = clean.faces[face_of(side)][corner_of(side)] == vertex;
     return first ? side : 3 * face_of(side) + next_corner(corner_of(side));
@@ -97,9 +84,12 @@ Index count_split_vertices(const TriangleMesh& mesh, const CleanFaces& clean) {
   return static_cast<Index>(std::count_if(fans.begin(), fans.end(), [](Index n) { return n > 1; }));
 }
 
-Index count_duplicate_positions(std::span<const Vec3> positions) {
-  std::vector<Index> order(positions.size());
-  std::iota(order.begin(), order.end(), 0);
+Index count_duplicate_positions(const TriangleMesh& mesh) {
+  const std::span<const Vec3> positions = mesh.positions();
+  std::vector<Index> order;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    if (mesh.standing_for(v) == v) order.push_back(v);
+  }
   const auto coordinates = [&](Index v) {
     return std::array{positions[v][0], positions[v][1], positions[v][2]};
   };
@@ -112,38 +102,63 @@ Index count_duplicate_positions(std::span<const Vec3> positions) {
   return count;
 }
 
-/// Lengths, areas and angles. Squares are taken of sides over the longest one of the face.
+/// A triangle by its sides over the longest of them, which is 0 where all corners are one point.
+struct Shape {
+  std::array<Vec3, 3> side;  ///< from corner k to the next
+  double longest = 0;        ///< model units
+  double squares = 0;        ///< sum of the squared sides
+  double doubled = 0;        ///< area times two
+
+  explicit Shape(const std::array<Vec3, 3>& corners) {
+    for (int k = 0; k < 3; ++k) {
+      side[k] = corners[next_corner(k)] - corners[k];
+      longest = std::max(longest, side[k].stableNorm());
+    }
+    if (!(longest > 0)) return;
+    for (Vec3& s : side) squares += (s /= longest).squaredNorm();
+    doubled = side[0].cross(side[1]).norm();
+  }
+
+  double quality() const { return 2 * std::numbers::sqrt3 * doubled / squares; }
+};
+
+/// Lengths, areas and angles.
 void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   double quality = 0, angle = std::numbers::pi;
   report.box_min.setConstant(std::numeric_limits<double>::infinity());
   report.box_max = -report.box_min;
   for (const Face& face : clean.faces) {
-    std::array<Vec3, 3> side;
-    double longest = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3& from = mesh.positions()[face[k]];
-      side[k] = mesh.positions()[face[next_corner(k)]] - from;
-      longest = std::max(longest, side[k].stableNorm());
-      report.box_min = report.box_min.cwiseMin(from);
-      report.box_max = report.box_max.cwiseMax(from);
+    const std::array<Vec3, 3> corners = {mesh.positions()[face[0]], mesh.positions()[face[1]],
+                                         mesh.positions()[face[2]]};
+    for (const Vec3& corner : corners) {
+      report.box_min = report.box_min.cwiseMin(corner);
+      report.box_max = report.box_max.cwiseMax(corner);
     }
-    if (!(longest > 0)) {
+    const Shape shape(corners);
+    if (!(shape.longest > 0)) {
       ++report.degenerate_faces;
       angle = 0;
       continue;
     }
-    double squares = 0;
-    for (Vec3& s : side) squares += (s /= longest).squaredNorm();
-    const double doubled = side[0].cross(side[1]).norm();  // area times two, in longest^2
-    report.degenerate_faces += doubled < kFlat;
-    report.area += 0.5 * doubled * longest * longest;
-    quality += 2 * std::numbers::sqrt3 * doubled / squares;
+    report.degenerate_faces += shape.doubled < kFlat;
+    report.area += 0.5 * shape.doubled * shape.longest * shape.longest;
+    quality += shape.quality();
     for (int k = 0; k < 3; ++k) {
-      angle = std::min(angle, std::atan2(doubled, -side[k].dot(side[previous_corner(k)])));
+      const double cosine = -shape.side[k].dot(shape.side[previous_corner(k)]);
+      angle = std::min(angle, std::atan2(shape.doubled, cosine));
     }
   }
   report.smallest_angle = angle * 180 / std::numbers::pi;
   report.mean_quality = quality / static_cast<double>(clean.faces.size());
+}
+
+/// Components that hold a face with a flag; `flags` is empty or one per face.
+Index count_flagged(const CleanFaces& clean, Index vertex_count, const std::vector<char>& flags) {
+  if (flags.empty()) return 0;
+  const FaceComponents components = face_components(clean.faces, vertex_count);
+  std::vector<char> flagged(static_cast<std::size_t>(components.count), 0);
+  for (std::size_t f = 0; f < flags.size(); ++f) flagged[components.of[f]] |= flags[f];
+  return static_cast<Index>(std::count(flagged.begin(), flagged.end(), 1));
 }
 
 void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, MeshReport& report) {
@@ -156,11 +171,20 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
     report.longest_edge = std::max(report.longest_edge, length);
   }
   if (!(report.mean_edge_length > 0)) return;
-  report.non_delaunay_edges =
-      count_non_delaunay(build_intrinsic_mesh(positions, clean, report.mean_edge_length));
+  const IntrinsicMesh intrinsic = build_intrinsic_mesh(positions, clean, report.mean_edge_length);
+  report.non_delaunay_edges = count_non_delaunay(intrinsic);
+  report.mollified = intrinsic.mollified;
+  report.mollified.most *= intrinsic.unit;
+  const auto vertices = static_cast<Index>(positions.size());
+  report.tufted_components = count_flagged(clean, vertices, faces_that_need_cover(clean, vertices));
 }
 
 }  // namespace
+
+double triangle_quality(const std::array<Vec3, 3>& corners) {
+  const Shape shape(corners);
+  return shape.longest > 0 ? shape.quality() : 0.0;
+}
 
 MeshReport inspect_mesh(const TriangleMesh& mesh) {
   const CleanFaces clean = clean_faces(mesh);
@@ -170,7 +194,7 @@ MeshReport inspect_mesh(const TriangleMesh& mesh) {
   report.repeated_corner_faces = report.degenerate_faces = clean.repeated_corner;
   report.duplicate_faces = clean.duplicate;
   report.inconsistent_faces = clean.reoriented;
-  report.duplicate_positions = count_duplicate_positions(mesh.positions());
+  report.duplicate_positions = count_duplicate_positions(mesh);
   inspect_connections(mesh, clean, report);
   if (clean.faces.empty()) return report;
   report.nonmanifold_vertices = count_split_vertices(mesh, clean);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "solver/core/types.h"
+#include "solver/geometry/mollify.h"
 #include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
@@ -22,11 +25,14 @@ struct MeshReport {
   Index degenerate_faces = 0;       ///< repeated corner, or height below 1e-10 of the longest side
   Index repeated_corner_faces = 0;  ///< those of them with a repeated corner
   Index duplicate_faces = 0;        ///< the same three vertices as an earlier face
-  Index unreferenced_vertices = 0;  ///< in none of the faces
+  Index unreferenced_vertices = 0;  ///< in none of the faces, nor is what stands for them
+  Index merged_vertices = 0;        ///< that another one stands for (TriangleMesh::same_as())
   Index duplicate_positions = 0;    ///< vertices that lie exactly where an earlier one does
   Index inconsistent_faces = 0;     ///< faces to be turned so that neighbours agree
   bool orientable = true;           ///< after turning them, all neighbours agree
   Index non_delaunay_edges = 0;     ///< edges with a negative cotangent weight
+  Index tufted_components = 0;      ///< that are no oriented manifold along all their edges
+  Mollification mollified;          ///< what will be added to edges, model units
   std::int64_t euler_characteristic = 0;  ///< V - E + F, of what the faces use
 
   double mean_edge_length = 0, shortest_edge = 0, longest_edge = 0;  ///< model units
@@ -35,6 +41,9 @@ struct MeshReport {
   double smallest_angle = 0;                                         ///< degrees
   double mean_quality = 0;  ///< mean of 4 sqrt(3) area / (sum of squared sides); 1: equilateral
 };
+
+/// 4 sqrt(3) area / (sum of squared sides): 1 for an equilateral triangle, 0 for one without area.
+double triangle_quality(const std::array<Vec3, 3>& corners);
 
 /// Cost: O(F), and sorting the positions.
 MeshReport inspect_mesh(const TriangleMesh& mesh);

@@ -104,6 +104,11 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
     }
   }
   list_incident_faces(*out);
+  out->doubled.assign(static_cast<std::size_t>(out->components.count), 0);
+  for (std::size_t f = 0; f < count && !mesh.back.empty(); ++f) {
+    const bool is_back = static_cast<std::size_t>(out->intrinsic_face[f]) >= mesh.back.size();
+    if (is_back) out->doubled[out->components.of[out->faces[f][0]]] = 1;
+  }
   return out;
 }
 

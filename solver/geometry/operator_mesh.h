@@ -19,7 +19,8 @@ struct OperatorMesh {
   std::vector<double> mass;                ///< n: a third of the incident areas, > 0
   std::vector<double> stiffness_diagonal;  ///< n: diagonal of L
   Components components;                   ///< of the vertices
-  std::uint64_t pattern = 0;               ///< pattern_hash of the elimination-ordered graph
+  std::vector<char> doubled;  ///< per component: it is a tufted cover, each face of it stands twice
+  std::uint64_t pattern = 0;  ///< pattern_hash of the elimination-ordered graph
 
   /// Pattern of the lower triangle (values empty), and for face f the entries of its pairs of
   /// corners (0,1), (1,2), (2,0); -1 for a pair that is one vertex.
@@ -32,6 +33,7 @@ struct OperatorMesh {
   std::span<const Index> faces_at(Index i) const {
     return {incident.data() + incident_start[i], incident.data() + incident_start[i + 1]};
   }
+  bool is_doubled(Index component) const { return doubled[static_cast<std::size_t>(component)]; }
   Index size() const { return static_cast<Index>(mass.size()); }
   Index face_count() const { return static_cast<Index>(faces.size()); }
 };

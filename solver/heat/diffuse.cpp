@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace geotherm {
 namespace {
@@ -25,7 +26,7 @@ class FarField {
 
   /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
   Result<void> extend(double floor) {
-    std::vector<Index> far = below(floor * largest(), 0);
+    std::vector<Index> far = below(floor, largest(every_row()), 0);
     std::vector<double> w(n()), r(n());
     for (int level = 1; !far.empty() && level <= kMostLevels; ++level) {
       if (field_.level.empty()) field_.level.assign(n() * static_cast<std::size_t>(columns_), 0);
@@ -48,14 +49,14 @@ class FarField {
           system_.factor().solve(right, interface, part_of(progress_, 1 - rest, 1 - rest / 2));
       if (!solved) return solved.error();
       field_.iterations += solved->iterations;
-      double most = 0;
-      for (const Index i : far) most = std::max(most, std::abs(right(i, 0)));
-      if (!(most > 0)) break;  // cut off from the sources by held vertices
+      bool heated = false;  // else cut off from the sources by held vertices
+      for (const Index i : far) heated = heated || std::abs(right(i, 0)) > 0;
+      if (!heated) break;
       for (const Index i : far) {
         field_.u(i, column_) = right(i, 0);
         level_at(i) = static_cast<std::uint8_t>(level);
       }
-      std::vector<Index> next = below(floor * most, level);
+      std::vector<Index> next = below(floor, largest(far), level);
       if (next.size() >= far.size()) break;
       far = std::move(next);
     }
@@ -70,13 +71,28 @@ class FarField {
   }
   int level_of(Index i) { return field_.level.empty() ? 0 : level_at(i); }
 
-  double largest() const { return field_.u.col(column_).cwiseAbs().maxCoeff(); }
+  std::vector<Index> every_row() const {
+    std::vector<Index> rows(n());
+    std::iota(rows.begin(), rows.end(), 0);
+    return rows;
+  }
 
-  /// Reached, free entries of this level whose value is below the threshold.
-  std::vector<Index> below(double threshold, int level) {
+  /// Of each component: sizes of components differ, and with them the heat in them.
+  std::vector<double> largest(const std::vector<Index>& rows) const {
+    std::vector<double> out(static_cast<std::size_t>(components_.count), 0.0);
+    for (const Index i : rows) {
+      double& most = out[components_.of[i]];
+      most = std::max(most, std::abs(field_.u(i, column_)));
+    }
+    return out;
+  }
+
+  /// Reached, free entries of this level whose value is below the floor times their component's
+  /// largest.
+  std::vector<Index> below(double floor, const std::vector<double>& largest, int level) {
     std::vector<Index> out;
     for (Index i = 0; i < static_cast<Index>(n()); ++i) {
-      if (std::abs(field_.u(i, column_)) >= threshold) continue;
+      if (std::abs(field_.u(i, column_)) >= floor * largest[components_.of[i]]) continue;
       if (!reached_[components_.of[i]] || system_.matrix().is_held(i)) continue;
       if (level_of(i) == level) out.push_back(i);
     }

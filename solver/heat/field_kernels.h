@@ -20,13 +20,18 @@ struct FieldPass {
   const std::uint8_t* level;  ///< null, or exponents of u: faces with one are done carefully
   double* b;
   std::ptrdiff_t stride;
-  double root_t;  ///< sqrt(t), for field_length()
+  double root_t;                 ///< sqrt(t), for field_length(), where all faces have one
+  const double* root_t_of_face;  ///< F, or null
 
   /// X of one face and column, for the lanes that the fast path cannot do: gradients that
   /// underflow, logarithms that do not exist, exponents.
   const void* context;
   std::array<double, 2> (*careful)(const void* context, Index face, int column);
 };
+
+/// Corners whose u differ by less than this share of it are equally warm, but for round-off: their
+/// face has no direction. Symmetric meshes have such faces opposite their sources.
+inline constexpr double kEquallyWarm = 1e-14;
 
 /// Where sqrt(t) |grad log u| is above this share of what one front gives on this mesh, there is
 /// one front: the rest is the scatter of the discretisation, some 5 %.

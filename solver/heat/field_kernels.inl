@@ -26,9 +26,11 @@ struct Lanes {
   static constexpr int kFaces = 16 / K;
   static constexpr int kCount = kFaces * K;
   double du1[kCount], du2[kCount];  ///< differences of u to corner 0
+  double same[kCount];              ///< what is no difference
   double dl1[kCount], dl2[kCount];  ///< of log u
   double inverse_base[kCount], x[kCount], inverse_height[kCount], base[kCount], height[kCount];
   double d1[kCount], d2[kCount];
+  double root_t[kCount];   ///< where faces have their own
   double far[kCount];      ///< not 0 where a corner has an exponent of its own
   double careful[kCount];  ///< not 0 where the fast path does not hold
 };
@@ -45,6 +47,7 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
       const double u0 = pass.u[face[0] * pass.stride + k];
       s.du1[lane] = pass.u[face[1] * pass.stride + k] - u0;
       s.du2[lane] = pass.u[face[2] * pass.stride + k] - u0;
+      s.same[lane] = kSafeLow + kEquallyWarm * std::abs(u0);
       s.inverse_base[lane] = inverse_base;
       s.inverse_height[lane] = inverse_height;
       s.base[lane] = p.base;
@@ -60,12 +63,29 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
       }
     }
     if (pass.log_u == nullptr) continue;
+    if (pass.root_t_of_face != nullptr) {
+      for (int k = 0; k < K; ++k) s.root_t[i * K + k] = pass.root_t_of_face[first + i];
+    }
     for (int k = 0; k < K; ++k) {
       const int lane = i * K + k;
       const double l0 = pass.log_u[face[0] * pass.stride + k];
       s.dl1[lane] = pass.log_u[face[1] * pass.stride + k] - l0;
       s.dl2[lane] = pass.log_u[face[2] * pass.stride + k] - l0;
     }
+  }
+}
+
+/// Shortens X; root_t(j) is that of lane j.
+template <int K, class RootT>
+void shorten(Lanes<K>& s, const RootT& root_t) {
+  for (int j = 0; j < Lanes<K>::kCount; ++j) {
+    const double gx = s.dl1[j] * s.inverse_base[j];
+    const double gy = (s.dl2[j] - s.x[j] * gx) * s.inverse_height[j];
+    const double square = gx * gx + gy * gy;
+    const double length = field_length(s.base[j], s.x[j], s.height[j], gx, gy, root_t(j));
+    s.d1[j] *= length;
+    s.d2[j] *= length;
+    s.careful[j] += square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
   }
 }
 
@@ -86,17 +106,13 @@ bool compute(const FieldPass& pass, Lanes<K>& s) {
     const double fy = gy * scale;
     s.d1[j] = s.height[j] * fx - s.x[j] * fy;
     s.d2[j] = s.base[j] * fy;
-    s.careful[j] = largest > kSafeLow && square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
+    s.careful[j] = largest > s.same[j] && square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
   }
   if (pass.log_u != nullptr) {
-    for (int j = 0; j < Lanes<K>::kCount; ++j) {
-      const double gx = s.dl1[j] * s.inverse_base[j];
-      const double gy = (s.dl2[j] - s.x[j] * gx) * s.inverse_height[j];
-      const double square = gx * gx + gy * gy;
-      const double length = field_length(s.base[j], s.x[j], s.height[j], gx, gy, pass.root_t);
-      s.d1[j] *= length;
-      s.d2[j] *= length;
-      s.careful[j] += square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
+    if (pass.root_t_of_face == nullptr) {
+      shorten(s, [root_t = pass.root_t](int) { return root_t; });
+    } else {
+      shorten(s, [&s](int j) { return s.root_t[j]; });
     }
   }
   for (int j = 0; j < Lanes<K>::kCount; ++j) any += s.careful[j];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,6 +10,7 @@
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
 #include "solver/heat/heat_options.h"
+#include "solver/linear/fallback.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
 #include "solver/method/distance_method.h"
@@ -24,6 +26,13 @@ namespace geotherm {
 /// the symbolic analysis always (unless backend or Laplacian change), a factor where its matrix is
 /// the same.
 ///
+/// A backend that fails (a matrix that it cannot factor, iterations or memory that end, a forecast
+/// of the factors above HeatOptions::memory_limit_mb) is replaced by the others in the order of
+/// backend_names(), unless HeatOptions::strict: warnings() says so, fallbacks() holds the reasons.
+/// A query that fails is answered by a method with another backend, which is set up then and kept;
+/// its result says so (DistanceResult::backend). Where t is extreme none of this helps, and where
+/// memory ended only what needs no factor does.
+///
 /// Progress: set-up asks between operators, flips, analysis and factorisations, but a numeric
 /// factorisation (the backend's library) cannot be interrupted: up to some seconds at a million
 /// faces. A query asks between its steps, and within an iterative backend every few milliseconds.
@@ -36,7 +45,8 @@ class HeatMethod final : public DistanceMethod {
   static Result<HeatMethod> build(std::shared_ptr<const TriangleMesh> mesh,
                                   const HeatOptions& options = {}, const Progress& progress = {});
 
-  /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake.
+  /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake. The
+  /// backend that took over stays where the same one is asked for again.
   Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
 
   MethodKind kind() const override { return MethodKind::kHeat; }
@@ -47,17 +57,33 @@ class HeatMethod final : public DistanceMethod {
                                                  const QueryOptions& query = {},
                                                  const Progress& progress = {}) const override;
 
-  const HeatOptions& options() const;
-  double t() const;                            ///< diffusion time, model units squared
+  const HeatOptions& options() const;              ///< with the backend at work
+  const std::vector<Fallback>& fallbacks() const;  ///< backends that failed before it
+  /// Diffusion time, model units squared. Rules that follow h or A/F follow those of each
+  /// component; then this is the time of the component with most faces (of several, the first).
+  double t() const;
+  double relative_t() const;  ///< the same in squares of that component's mean edge
+  /// The least and the largest time of a component, model units squared.
+  std::array<double, 2> t_range() const;
   LaplacianKind laplacian() const;             ///< what kAuto became
   Index flips() const;                         ///< Delaunay edge flips made
   const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
   double memory_mb() const override;           ///< of all factors
+  double forecast_mb() const;                  ///< the same, as it was foreseen
   const std::vector<std::string>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
 
  private:
   struct State;
+  static Trial<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                  const HeatOptions& options, std::span<const Fallback> failed,
+                                  const Progress& progress);
+  Trial<HeatMethod> factorised(const HeatOptions& options, std::span<const Fallback> failed,
+                               const Progress& progress) const;
+  Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
+                                         const Progress& progress) const;
+  Result<HeatMethod> substitute(const std::string& backend, std::span<const Fallback> failed,
+                                const Progress& progress) const;
   explicit HeatMethod(std::shared_ptr<const State> state) : state_(std::move(state)) {}
   std::shared_ptr<const State> state_;
 };

@@ -79,7 +79,8 @@ struct HeatOptions {
   Variant variant = Variant::kCorrected;
   int threads = 0;             ///< 0: all cores
   bool strict = false;         ///< a backend that fails is not replaced by the next one
-  double memory_limit_mb = 0;  ///< most that factors may take, in 2^20 bytes; 0: what is free
+  double memory_limit_mb = 0;  ///< most that factors may take, those being made with their
+                               ///< working space, in 2^20 bytes; 0: what is free
 
   bool operator==(const HeatOptions&) const = default;
 };

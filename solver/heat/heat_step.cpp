@@ -10,28 +10,46 @@
 #include "solver/heat/quality.h"
 
 namespace geotherm {
+namespace {
+
+/// What brings the right sides of all components to one size, as their systems see them: they are
+/// lengths squared, and iterations end by one norm over all components.
+std::vector<double> even_out(const std::vector<ComponentSize>& sizes, HeatMode mode) {
+  std::vector<double> factors;
+  for (const ComponentSize& size : sizes) {
+    factors.push_back(mode == HeatMode::kUnit ? size.mean_edge : 1 / size.mean_edge);
+  }
+  return factors;
+}
+
+void scale_rows(const Components& components, const std::vector<double>& factors, Block& x) {
+  for (Eigen::Index i = 0; i < x.rows(); ++i) x.row(i) *= factors[components.of[i]];
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
-                                                        double t, BoundaryRule boundary,
-                                                        double consistent_share, bool iterative,
-                                                        const HeatStep* previous, int threads,
-                                                        const Progress& progress) {
+                                                        PerComponent t, BoundaryRule boundary,
+                                                        PerComponent consistent_share,
+                                                        bool iterative, const HeatStep* previous,
+                                                        int threads, const Progress& progress) {
   std::shared_ptr<HeatStep> out(new HeatStep);
   out->surface_ = std::move(surface);
-  out->t_ = t;
-  out->consistent_share_ = consistent_share;
+  out->t_ = std::move(t);
+  out->consistent_share_ = std::move(consistent_share);
   out->boundary_ = boundary;
   out->iterative_ = iterative;
   out->threads_ = threads;
-  if (previous != nullptr && previous->t_ == t && previous->consistent_share_ == consistent_share) {
+  if (previous != nullptr && previous->t_ == out->t_ &&
+      previous->consistent_share_ == out->consistent_share_) {
     out->neumann_ = previous->neumann_;
     out->dirichlet_ = previous->dirichlet_;
   }
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     const double share = out->neumann_ ? 0.5 : 0.0;
     if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
-    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, t,
-                                     std::move(held), threads, consistent_share);
+    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0,
+                                     out->t_, std::move(held), threads, out->consistent_share_);
     if (!built) return Result<void>(built.error());
     target = std::move(*built);
     return Result<void>();
@@ -69,7 +87,8 @@ bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) con
 }
 
 double HeatStep::held_value(const SourceAnchors::Anchor& anchor) const {
-  return std::exp(-anchor.offset / std::sqrt(t_));  // 1 on a source, Varadhan's decay beside it
+  const double t = t_.of(surface_->operators->components.of[anchor.row]);
+  return std::exp(-anchor.offset / std::sqrt(t));  // 1 on a source, Varadhan's decay beside it
 }
 
 Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
@@ -135,6 +154,11 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   } else if (mode == HeatMode::kHold) {
     if (const auto held = hold_by_schur(*system, anchors, b); !held) return held.error();
   }
+  std::vector<double> factors;
+  if (iterative_ && mesh.components.count > 1) {
+    factors = even_out(surface_->components, mode);
+    scale_rows(mesh.components, factors, b);
+  }
   Block right;  // kept only where it is looked at again
   if (residuals) right = b;
   auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
@@ -146,6 +170,10 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     answer.residual.push_back(heat_residual(system->matrix(), answer.field, right, c));
   }
   answer.residual_ms = watch.milliseconds();
+  if (!factors.empty()) {
+    for (double& factor : factors) factor = 1 / factor;
+    scale_rows(mesh.components, factors, answer.field.u);
+  }
   if (dirichlet && on_border(anchors.front())) {
     answer.warnings.emplace_back(
         "sources on the border are left free under the Dirichlet rule; the rest of the border is "

@@ -29,10 +29,10 @@ class HeatStep {
   /// has them with this t and share. `progress` is asked before each factorisation. Errors: the
   /// backend's, kCancelled.
   static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
-                                                       double t, BoundaryRule boundary,
-                                                       double consistent_share, bool iterative,
-                                                       const HeatStep* previous, int threads,
-                                                       const Progress& progress = {});
+                                                       PerComponent t, BoundaryRule boundary,
+                                                       PerComponent consistent_share,
+                                                       bool iterative, const HeatStep* previous,
+                                                       int threads, const Progress& progress = {});
 
   /// True when these sources change the matrix, so that they cannot share a block with others:
   /// sources on a Dirichlet border, and u held on many vertices.
@@ -62,8 +62,7 @@ class HeatStep {
 
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> neumann_, dirichlet_;  ///< those the rule needs
-  double t_ = 0;
-  double consistent_share_ = 0;
+  PerComponent t_ = 0, consistent_share_ = 0;
   BoundaryRule boundary_ = BoundaryRule::kNeumann;
   bool iterative_ = false;
   int threads_ = 1;

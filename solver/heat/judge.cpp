@@ -23,8 +23,6 @@ constexpr double kWrongSlope = 0.4;
 /// Above this share of all faces they are.
 constexpr double kBorderShare = 0.1;
 
-bool is_extreme(double unit_t) { return unit_t > kLargeTime || unit_t < kSmallTime; }
-
 std::string share(Index count, std::size_t of) {
   return "(" + rounded_text(100.0 * count / static_cast<double>(std::max<std::size_t>(of, 1))) +
          " %)";
@@ -61,10 +59,12 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
 
 }  // namespace
 
+bool is_extreme_time(double unit_t) { return unit_t > kLargeTime || unit_t < kSmallTime; }
+
 Error with_time_cure(Error error, double unit_t) {
   const bool numerical =
       error.code == ErrorCode::kNumericalFailure || error.code == ErrorCode::kBudgetEnded;
-  if (!numerical || !is_extreme(unit_t)) return error;
+  if (!numerical || !is_extreme_time(unit_t)) return error;
   error.message += "; t is " + rounded_text(unit_t) + " squared mean edges, so try a " +
                    (unit_t > 1 ? "smaller" : "larger") + " --time-factor first";
   return error;
@@ -84,9 +84,10 @@ Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& 
     const bool by_design = !heat && options.constraint.mode == ConstraintMode::kPenalty;
     if (!std::isfinite(residual) || (residual > kUselessResidual && !by_design)) {
       const char* others = "; try another --backend or --laplacian intrinsic-delaunay";
-      return with_time_cure({ErrorCode::kNumericalFailure,
-                             text + ", which is no solution" + (is_extreme(unit_t) ? "" : others)},
-                            unit_t);
+      return with_time_cure(
+          {ErrorCode::kNumericalFailure,
+           text + ", which is no solution" + (is_extreme_time(unit_t) ? "" : others)},
+          unit_t);
     }
     result.warnings.push_back(text);
   }

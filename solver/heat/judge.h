@@ -8,6 +8,9 @@
 
 namespace geotherm {
 
+/// Whether a diffusion time, in squares of the mean edge, may be why a system could not be solved.
+bool is_extreme_time(double unit_t);
+
 /// A kNumericalFailure or kBudgetEnded of the heat step with what to do about the diffusion time
 /// added, where that is extreme.
 /// `unit_t`: t in squares of the mean edge.

@@ -7,7 +7,8 @@ namespace geotherm {
 
 Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
     const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-    double stiffness_factor, std::vector<Index> held, int threads, double consistent_share) {
+    const PerComponent& stiffness_factor, std::vector<Index> held, int threads,
+    const PerComponent& consistent_share) {
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
   auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held,

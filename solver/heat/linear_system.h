@@ -15,7 +15,8 @@ class LinearSystem {
   /// Factorises a A + s L with `held` rows replaced by the identity's.
   static Result<std::shared_ptr<const LinearSystem>> build(
       const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-      double stiffness_factor, std::vector<Index> held, int threads, double consistent_share = 0.0);
+      const PerComponent& stiffness_factor, std::vector<Index> held, int threads,
+      const PerComponent& consistent_share = 0.0);
 
   const FemOperator& matrix() const { return *matrix_; }
   const Factorization& factor() const { return *factor_; }

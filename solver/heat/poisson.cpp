@@ -100,6 +100,25 @@ Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Progress& progr
 
 Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
                                            const Progress& progress) const {
+  const std::vector<ComponentSize>& sizes = surface_->components;
+  if (!iterative_ || sizes.size() == 1) return solve_as_given(std::move(b), anchors, progress);
+  // Iterations end by one norm over all components: each comes in its own unit of length, else
+  // those with short edges would hardly count.
+  const std::vector<Index>& component = surface_->operators->components.of;
+  for (Eigen::Index i = 0; i < b.rows(); ++i) b.row(i) /= sizes[component[i]].mean_edge;
+  std::vector<SourceAnchors> scaled(anchors.begin(), anchors.end());
+  for (SourceAnchors& set : scaled) {
+    for (auto& anchor : set.anchors) anchor.offset /= sizes[component[anchor.row]].mean_edge;
+  }
+  auto answer = solve_as_given(std::move(b), scaled, progress);
+  if (!answer) return answer;
+  Block& phi = answer->phi;
+  for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) *= sizes[component[i]].mean_edge;
+  return answer;
+}
+
+Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const SourceAnchors> anchors,
+                                                    const Progress& progress) const {
   const Components& components = surface_->operators->components;
   const std::span<const double> mass = surface_->operators->mass;
   switch (constraint_.mode) {

@@ -44,6 +44,8 @@ class PoissonSolver {
   const Constraint& constraint() const { return constraint_; }
 
  private:
+  Result<PoissonAnswer> solve_as_given(Block b, std::span<const SourceAnchors> anchors,
+                                       const Progress& progress) const;
   PoissonSolver() = default;
   Result<PoissonAnswer> solve_pinned(Block b, const Progress& progress) const;
   Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors,

@@ -63,21 +63,27 @@ FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
   for (const Index c : anchors.components) holds[c] = 1;
   double error = 0, area = 0;
   FaceCounts faces;
+  Index lost = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& face = mesh.faces[f];
     if (!holds[mesh.components.of[face[0]]]) continue;
-    ++faces.in_reach;
+    // In halves, since a face of a tufted cover is half of one of the surface.
+    const Index halves = mesh.is_doubled(mesh.components.of[face[0]]) ? 1 : 2;
+    faces.in_reach += halves;
     const auto x = field.of_face(f, column);
     const bool known = held[face[0]] && held[face[1]] && held[face[2]];
     if (x[0] == 0 && x[1] == 0) {
-      ++faces.without_direction;
-      if (!known) ++quality.zero_gradient_faces;
+      faces.without_direction += halves;
+      if (!known) lost += halves;
     }
     const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
     const double face_area = mesh.layout[f].base * mesh.layout[f].height / 2;
     error += face_area * std::abs(std::hypot(g[0], g[1]) - 1);
     area += face_area;
   }
+  faces.in_reach = (faces.in_reach + 1) / 2;
+  faces.without_direction = (faces.without_direction + 1) / 2;
+  quality.zero_gradient_faces = (lost + 1) / 2;
   quality.eikonal_error_mean = area > 0 ? error / area : 0.0;
   return faces;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -61,17 +62,27 @@ std::span<const char> held_at_zero(const QueryPipeline& p) {
   return p.surface.on_boundary;
 }
 
+/// Of the components that hold a source.
+double extreme_time(const DiffusionTimes& times, const SourceAnchors& anchors) {
+  double extreme = times.relative.of(anchors.components.front());
+  for (const Index component : anchors.components) {
+    const double t = times.relative.of(component);
+    if (std::abs(std::log(t)) > std::abs(std::log(extreme))) extreme = t;
+  }
+  return extreme;
+}
+
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, std::span<DistanceResult> results,
                          const Progress& progress) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool,
                              part_of(progress, 0.0, kHeatShare));
-  if (!heat) return with_time_cure(heat.error(), p.unit_t);
+  if (!heat) return with_time_cure(heat.error(), p.times.extreme);
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   if (!report(progress, "solve", kHeatShare)) return cancelled_error();
   const UnitField field(*p.surface.operators, heat->field,
-                        p.options.variant == Variant::kClassic ? 0.0 : p.unit_t, p.pool);
+                        p.options.variant == Variant::kClassic ? 0.0 : p.times.t, p.pool);
   Block b = field.divergence(anchors);
   const double gradient_ms = watch.lap();
   Block right;
@@ -83,7 +94,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     const auto normalized =
         normalize(p.surface, phi[c], anchors[c], p.options.constraint.mode, results[c]);
-    if (!normalized) return with_time_cure(normalized.error(), p.unit_t);
+    if (!normalized) return with_time_cure(normalized.error(), p.times.extreme);
   }
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
@@ -104,7 +115,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
                            p.options.constraint.mode == ConstraintMode::kPinSources);
       const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi[c], column,
                                              anchors[c], held_at_zero(p), result.quality);
-      const auto judged = judge(p.options, p.unit_t, faces, result);
+      const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
     if (query.fields) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/heat/component_times.h"
 #include "solver/heat/heat_method.h"
 #include "solver/heat/heat_step.h"
 #include "solver/heat/poisson.h"
@@ -16,7 +17,7 @@ struct QueryPipeline {
   const HeatStep& heat;
   const PoissonSolver& poisson;
   const HeatOptions& options;
-  double unit_t;  ///< t in units of the intrinsic mesh squared
+  const DiffusionTimes& times;
   BlockPool& pool;
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "solver/core/number_text.h"
+#include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
@@ -29,10 +30,11 @@ class Placer {
 
   void add(const SurfacePoint& given) {
     const SurfacePoint point = clean_point(surface_, given);
-    if (point.is_vertex()) {
-      add_vertex(point.vertex);
-    } else {
-      add_carried(carry_through_flips(surface_.flips, point));
+    if (point.is_vertex()) return add_vertex(point.vertex);
+    add_in_face(point, true);
+    for (int k = 0; k < 3; ++k) {
+      if (point.weights[previous_corner(k)] > kAtCorner) continue;
+      add_beyond(3 * point.face + k, point.weights[k]);
     }
   }
 
@@ -76,10 +78,36 @@ class Placer {
 
   void add_vertex(Index v) { anchors_[surface_.row_of_vertex[v]] = {0.0, 1.0}; }
 
+  /// A point of clean_faces, and the same on the face's back where there is one.
+  void add_in_face(const SurfacePoint& point, bool heats) {
+    add_carried(carry_through_flips(surface_.flips, point), heats);
+    const IntrinsicMesh& intrinsic = surface_.intrinsic;
+    if (intrinsic.back.empty() || intrinsic.back[point.face] == kNoIndex) return;
+    add_carried(carry_through_flips(surface_.flips, on_back(intrinsic, point)), false);
+  }
+
+  /// A point on a side of clean_faces, `weight` of the side's first corner, as the other faces at
+  /// the edge see it: where flips do not pass the edge, no twin leads there.
+  void add_beyond(Side side, double weight) {
+    const Face& face = surface_.clean_faces[face_of(side)];
+    const Index from = face[corner_of(side)], to = face[next_corner(corner_of(side))];
+    const auto sides = surface_.clean_edges.sides(find_clean_edge(surface_, from, to));
+    if (sides.size() == 2 && sides_agree(surface_.clean_faces, sides[0], sides[1])) return;
+    for (const Side other : sides) {
+      if (other == side) continue;
+      const int k = corner_of(other);
+      const bool same = surface_.clean_faces[face_of(other)][k] == from;
+      SurfacePoint point = SurfacePoint::in_face(face_of(other), {});
+      point.weights[k] = same ? weight : 1 - weight;
+      point.weights[next_corner(k)] = same ? 1 - weight : weight;
+      add_in_face(point, false);
+    }
+  }
+
   /// The point as its face sees it and, where it lies on an edge, as the face beyond does: which
   /// of the two was named makes no difference.
-  void add_carried(const SurfacePoint& point) {
-    add_to_face(point, true);
+  void add_carried(const SurfacePoint& point, bool heats) {
+    add_to_face(point, heats);
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] > kAtCorner) continue;
       const Side twin = surface_.intrinsic.twin[3 * point.face + next_corner(k)];
@@ -116,7 +144,8 @@ class Placer {
     const Side side = surface_.clean_edges.sides(e).front();
     SurfacePoint middle = SurfacePoint::in_face(face_of(side), {});
     middle.weights[corner_of(side)] = middle.weights[next_corner(corner_of(side))] = 0.5;
-    add_carried(carry_through_flips(surface_.flips, middle));
+    add_in_face(middle, true);
+    add_beyond(side, 0.5);
   }
 
   /// Straight distances to the sources within the faces that touch one.

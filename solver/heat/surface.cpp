@@ -16,11 +16,23 @@ constexpr double kAnalyzeFrom = 0.4, kAnalyzeTo = 0.8;
 FlipRule flip_rule(LaplacianKind laplacian) {
   switch (laplacian) {
     case LaplacianKind::kIntrinsicDelaunay:
+    case LaplacianKind::kTufted:
       return FlipRule::kAlways;
     case LaplacianKind::kAuto:
       return FlipRule::kWhereNeeded;
     default:
       return FlipRule::kNever;
+  }
+}
+
+CoverRule cover_rule(LaplacianKind laplacian) {
+  switch (laplacian) {
+    case LaplacianKind::kTufted:
+      return CoverRule::kAlways;
+    case LaplacianKind::kAuto:
+      return CoverRule::kWhereNeeded;
+    default:
+      return CoverRule::kNever;
   }
 }
 
@@ -35,37 +47,42 @@ std::vector<Index> number_used(const std::vector<char>& on_surface, std::vector<
   return local;
 }
 
-/// A component whose mean edge differs from that of all by more than this is badly served by one t.
-constexpr double kOtherScale = 4;
+/// A mean edge below this, in those of the whole mesh, is that of a point: its faces were given
+/// areas (mollify.h), and these say how long its edges are.
+constexpr double kPoint = 1e-60;
 
-/// What to say about components whose edges are much longer or shorter than the mean edge of all.
-std::string compare_scales(const Surface& surface) {
+/// Sizes of the components; of the only one the mean edge is exactly 1.
+std::vector<ComponentSize> measure_components(const Surface& surface) {
+  const OperatorMesh& mesh = *surface.operators;
+  std::vector<ComponentSize> sizes(static_cast<std::size_t>(mesh.components.count));
+  for (Index i = 0; i < mesh.size(); ++i) sizes[mesh.components.of[i]].area += mesh.mass[i];
+  for (const Face& face : mesh.faces) ++sizes[mesh.components.of[face[0]]].faces;
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    if (!mesh.is_doubled(static_cast<Index>(c))) continue;
+    sizes[c].area /= 2;
+    sizes[c].faces /= 2;
+  }
+  if (sizes.size() == 1) return sizes;
   const EdgeTable& edges = surface.clean_edges;
-  const Components& components = surface.operators->components;
-  std::vector<double> sum(static_cast<std::size_t>(components.count), 0.0);
-  std::vector<Index> count(sum.size(), 0);
+  std::vector<double> sum(sizes.size(), 0.0);
+  std::vector<Index> count(sizes.size(), 0);
   for (Index e = 0; e < edges.edge_count(); ++e) {
     const Vec3& low = surface.mesh->positions()[edges.low(e)];
     const Vec3& high = surface.mesh->positions()[edges.high(e)];
-    const Index c = components.of[surface.row_of_vertex[edges.low(e)]];
+    const Index c = mesh.components.of[surface.row_of_vertex[edges.low(e)]];
     sum[c] += (low - high).stableNorm() / surface.mean_edge;
     ++count[c];
   }
-  Index others = 0;
-  double farthest = 1;
-  for (std::size_t c = 0; c < sum.size(); ++c) {
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
     const double mean = sum[c] / count[c];
-    if (mean < kOtherScale && mean > 1 / kOtherScale) continue;
-    ++others;
-    if (std::abs(std::log(mean)) > std::abs(std::log(farthest))) farthest = mean;
+    sizes[c].mean_edge = mean > kPoint ? mean : std::sqrt(sizes[c].area / sizes[c].faces);
   }
-  if (others == 0) return {};
-  return std::to_string(others) + " of " + std::to_string(components.count) +
-         " components have edges of quite another length (" +
-         rounded_text(farthest * surface.mean_edge) + " on average, all together " +
-         rounded_text(surface.mean_edge) +
-         "), and t, which follows the latter, fits them badly; solve them apart or use --time-step "
-         "absolute:T";
+  return sizes;
+}
+
+LaplacianKind kind_of(const IntrinsicSurface& surface) {
+  if (surface.tufted) return LaplacianKind::kTufted;
+  return surface.delaunay ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
 }
 
 }  // namespace
@@ -75,17 +92,12 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress) {
   Stopwatch watch;
-  if (laplacian == LaplacianKind::kTufted) {
-    return Error{ErrorCode::kNotAvailable,
-                 "--laplacian tufted is not available in this version; use auto, which flips every "
-                 "edge that has two faces"};
-  }
   auto built = build_intrinsic_surface(std::move(mesh), flip_rule(laplacian),
-                                       part_of(progress, 0.0, kAnalyzeFrom));
+                                       part_of(progress, 0.0, kAnalyzeFrom), cover_rule(laplacian));
   if (!built) return built.error();
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
-  out->laplacian = out->delaunay ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
+  out->laplacian = kind_of(*out);
   const auto positions = out->mesh->positions();
   const EdgeTable& edges = out->clean_edges;
 
@@ -123,12 +135,9 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
     out->on_boundary[out->row_of_vertex[edges.low(e)]] = 1;
     out->on_boundary[out->row_of_vertex[edges.high(e)]] = 1;
   }
-  for (const double mass : out->operators->mass) out->unit_area += mass;
-  if (!(out->unit_area > 0)) {
+  out->components = measure_components(*out);
+  if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};
-  }
-  if (out->operators->components.count > 1) {
-    out->scale_warning = compare_scales(*out);
   }
   out->operators_ms += watch.lap();
   return std::shared_ptr<const Surface>(std::move(out));

@@ -12,6 +12,13 @@
 
 namespace geotherm {
 
+/// How large a component (of OperatorMesh::components) is, in units of the intrinsic mesh.
+struct ComponentSize {
+  double mean_edge = 1;
+  double area = 0;
+  Index faces = 0;  ///< each once, also where operators have it twice
+};
+
 /// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a
 /// backend and renumbered into its elimination order. Immutable; shared by every HeatMethod of the
 /// same mesh, backend and Laplacian.
@@ -24,9 +31,8 @@ struct Surface : IntrinsicSurface {
   std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<const OperatorMesh> operators;
 
-  double unit_area = 0;  ///< total, in squares of mean_edge
+  std::vector<ComponentSize> components;
   double operators_ms = 0, analyze_ms = 0;
-  std::string scale_warning;  ///< for times that follow the mean edge; empty where that fits all
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".

@@ -22,11 +22,11 @@ constexpr double kLong = 0.35;
 
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
+  const double largest = std::max(std::abs(u1 - u0), std::abs(u2 - u0));
+  if (!(largest > kEquallyWarm * std::abs(u0)) || !std::isfinite(largest)) return {0, 0};
   Field g = gradient(p, u0, u1, u2);
   double square = g[0] * g[0] + g[1] * g[1];
   if (!(square > kSafeLow && square < kSafeHigh)) {
-    const double largest = std::max(std::abs(u1 - u0), std::abs(u2 - u0));
-    if (!(largest > 0) || !std::isfinite(largest)) return {0, 0};
     int exponent = 0;
     std::frexp(largest, &exponent);
     g = gradient(p, 0.0, std::ldexp(u1 - u0, -exponent), std::ldexp(u2 - u0, -exponent));
@@ -45,9 +45,16 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
 
 }  // namespace
 
-UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, BlockPool& pool)
-    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t)), pool_(pool) {
-  if (!(t > 0)) return;
+UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
+                     BlockPool& pool)
+    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), pool_(pool) {
+  if (!(root_t_ > 0)) return;
+  if (!t.same()) {
+    root_t_of_face_.reserve(mesh.faces.size());
+    for (const Face& face : mesh.faces) {
+      root_t_of_face_.push_back(std::sqrt(t.of(mesh.components.of[face[0]])));
+    }
+  }
   log_u_ = pool.take(heat.u.rows(), heat.u.cols());
   logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
   if (!heat.level.empty()) {
@@ -87,13 +94,15 @@ double UnitField::trust(Index row, Eigen::Index column) const {
   return trust_[static_cast<std::size_t>(mesh_.components.of[row] * log_u_.cols() + column)];
 }
 
-double UnitField::length(const FaceLayout& p, const Face& face, Eigen::Index column) const {
+double UnitField::length(Index f, Eigen::Index column) const {
   if (!(root_t_ > 0)) return 1;
+  const FaceLayout& p = mesh_.layout[f];
+  const Face& face = mesh_.faces[f];
   const Field g =
       gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
   const double square = g[0] * g[0] + g[1] * g[1];
   if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
-  const double whole = field_length(p.base, p.x, p.height, g[0], g[1], root_t_);
+  const double whole = field_length(p.base, p.x, p.height, g[0], g[1], root_t(f));
   return 1 - trust(face[0], column) * (1 - whole);
 }
 
@@ -113,7 +122,7 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   }
   const FaceLayout& p = mesh_.layout[f];
   const Field x = against_gradient(p, u[0], u[1], u[2]);
-  const double size = length(p, face, column);
+  const double size = length(f, column);
   return {x[0] * size, x[1] * size};
 }
 
@@ -145,6 +154,7 @@ void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   if (root_t_ > 0) {
     pass.log_u = log_u_.data() + first;
     pass.root_t = root_t_;
+    if (!root_t_of_face_.empty()) pass.root_t_of_face = root_t_of_face_.data();
   }
   add_unit_divergence(pass, group);
 }

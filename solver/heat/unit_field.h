@@ -20,8 +20,10 @@ namespace geotherm {
 /// to kLong of the component's extent, measured by how far log u falls, X goes back to length 1.
 class UnitField {
  public:
-  /// `t` in units of the intrinsic mesh squared, or 0. Keeps references. Cost: a logarithm a row.
-  UnitField(const OperatorMesh& mesh, const HeatField& heat, double t, BlockPool& pool);
+  /// `t` in units of the intrinsic mesh squared, or 0 everywhere. Keeps references. Cost: a
+  /// logarithm a row.
+  UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
+            BlockPool& pool);
   ~UnitField() { pool_.give(std::move(log_u_)); }
   UnitField(const UnitField&) = delete;
   UnitField& operator=(const UnitField&) = delete;
@@ -38,11 +40,15 @@ class UnitField {
   void add_group(Eigen::Index first, int group, Block& b) const;
   void measure_trust();
   double trust(Index row, Eigen::Index column) const;
-  double length(const FaceLayout& layout, const Face& face, Eigen::Index column) const;
+  double length(Index face, Eigen::Index column) const;
+  double root_t(Index face) const {
+    return root_t_of_face_.empty() ? root_t_ : root_t_of_face_[face];
+  }
 
   const OperatorMesh& mesh_;
   const HeatField& heat_;
-  double root_t_;
+  double root_t_;                       ///< of the first component, so of all where they share one
+  std::vector<double> root_t_of_face_;  ///< F; empty where they do
   BlockPool& pool_;
   Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
   std::vector<double> trust_;  ///< how far lengths count, per component and column; empty: wholly

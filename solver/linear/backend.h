@@ -76,6 +76,13 @@ class Analysis {
       std::shared_ptr<const SymmetricOperator> matrix, int threads) const = 0;
 
   virtual std::int64_t bytes() const { return 0; }
+
+  /// FactorStats::bytes of every factor of this pattern, known before one is made; 0 where none is
+  /// held.
+  virtual std::int64_t factor_bytes() const { return 0; }
+
+  /// What factorize() takes beside that while it works, the assembled matrix included.
+  virtual std::int64_t work_bytes() const { return 0; }
 };
 
 /// The error of every backend for a matrix whose pattern is not the analysed one.

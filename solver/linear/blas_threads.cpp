@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "solver/linear/blas_threads.h"
 
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <algorithm>
 #include <mutex>
 
 // Weak: with another BLAS these are absent and nothing is set.
@@ -23,6 +27,18 @@ std::mutex& guard() {
 }
 int users = 0;      // guarded
 int before_us = 1;  // guarded
+int buffers = 0;    // guarded; that OpenBLAS surely has: it keeps them
+
+/// What OpenBLAS maps for each thread that works (BUFFER_SIZE of x86-64; less elsewhere).
+constexpr std::size_t kBufferBytes = std::size_t{128} << 20;
+
+bool can_map(std::size_t bytes) {
+  constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+  void* const place = ::mmap(nullptr, bytes, PROT_NONE, kFlags, -1, 0);
+  if (place == MAP_FAILED) return false;
+  ::munmap(place, bytes);
+  return true;
+}
 
 bool adjustable() {
   return openblas_set_num_threads != nullptr && openblas_get_num_threads != nullptr;
@@ -30,7 +46,7 @@ bool adjustable() {
 
 }  // namespace
 
-BlasThreads::BlasThreads(int threads) {
+BlasThreads::BlasThreads(int threads) : threads_(threads) {
   if (threads == 1 && omp_set_max_active_levels != nullptr &&
       omp_get_max_active_levels != nullptr) {
     omp_levels_before_ = omp_get_max_active_levels();
@@ -46,7 +62,25 @@ BlasThreads::~BlasThreads() {
   if (omp_levels_before_ >= 0) omp_set_max_active_levels(omp_levels_before_);
   const std::lock_guard lock(guard());
   if (!adjustable()) return;
+  buffers = std::max(buffers, buffers_);
   if (--users == 0) openblas_set_num_threads(before_us);
+}
+
+bool BlasThreads::has_room(std::int64_t bytes_beside) {
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return true;
+  const std::lock_guard lock(guard());
+  if (!adjustable()) return true;
+  for (const int threads : {threads_, 1}) {
+    // Of those that work at the same time, each may be about to ask for its own.
+    const int missing = std::max(users - 1 + threads - buffers, 0);
+    const std::size_t bytes = static_cast<std::size_t>(missing) * kBufferBytes;
+    if (!can_map(bytes + static_cast<std::size_t>(bytes_beside) + 1)) continue;
+    if (threads < threads_) openblas_set_num_threads(threads);
+    buffers_ = threads;
+    return true;
+  }
+  return false;
 }
 
 std::string blas_name() {

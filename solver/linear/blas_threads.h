@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace geotherm {
@@ -13,10 +14,18 @@ class BlasThreads {
  public:
   explicit BlasThreads(int threads);
   ~BlasThreads();
+
+  /// Whether address space is left for the buffers of the BLAS and for so many bytes beside them;
+  /// on one thread, where it is not for all. OpenBLAS waits for its buffers for ever instead of
+  /// failing.
+  bool has_room(std::int64_t bytes_beside);
+
   BlasThreads(const BlasThreads&) = delete;
   BlasThreads& operator=(const BlasThreads&) = delete;
 
  private:
+  int threads_;
+  int buffers_ = 0;             ///< that are there when this ends
   int omp_levels_before_ = -1;  ///< -1: not touched
 };
 

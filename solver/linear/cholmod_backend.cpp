@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -118,15 +119,18 @@ template <class Int>
 class CholmodAnalysis final : public Analysis {
  public:
   /// `pattern_` must be set by analyze() below before use.
-  CholmodAnalysis(std::unique_ptr<CholmodFactor<Int>> symbolic, std::uint64_t pattern,
+  CholmodAnalysis(std::unique_ptr<CholmodFactor<Int>> symbolic, const SymmetricPattern& pattern,
                   std::vector<Index> order)
-      : symbolic_(std::move(symbolic)), pattern_(pattern), order_(std::move(order)) {
+      : symbolic_(std::move(symbolic)), pattern_(pattern_hash(pattern)), order_(std::move(order)) {
     if (symbolic_->factor->is_super) {
       structure_ = supernodal_structure<Int>(*symbolic_->factor);
     }
+    forecast_ = structure_ ? forecast_panels(pattern) : forecast_columns(pattern);
   }
 
   std::span<const Index> order() const override { return order_; }
+  std::int64_t factor_bytes() const override { return forecast_.factor; }
+  std::int64_t work_bytes() const override { return forecast_.work; }
 
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
                                                    int threads) const override {
@@ -134,7 +138,10 @@ class CholmodAnalysis final : public Analysis {
         !same) {
       return same.error();
     }
-    const BlasThreads blas(threads);
+    BlasThreads blas(threads);
+    if (structure_ && !blas.has_room(factor_bytes() + work_bytes())) {
+      return out_of_memory("factorisation", matrix->size());
+    }
     const LowerMatrix& lower = matrix->assembled();
     CholmodMatrix<Int> input(lower.start, lower.row, lower.value.data());
     auto numeric = std::make_shared<CholmodFactor<Int>>();
@@ -163,9 +170,35 @@ class CholmodAnalysis final : public Analysis {
   }
 
  private:
+  struct Forecast {
+    std::int64_t factor = 0, work = 0;  ///< bytes
+  };
+  static constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Int);
+
+  /// The assembled matrix, and CHOLMOD's transpose of it for factors by columns.
+  static std::int64_t matrix_bytes(const SymmetricPattern& pattern) {
+    return 2 * kEntryBytes * (pattern.size() + std::ssize(pattern.neighbor) / 2);
+  }
+
+  Forecast forecast_panels(const SymmetricPattern& pattern) const {
+    const cholmod_factor& factor = *symbolic_->factor;
+    const auto integers = static_cast<std::int64_t>(factor.ssize + 3 * factor.nsuper + factor.n);
+    return {supernodal_factor_bytes(*structure_),
+            matrix_bytes(pattern) + static_cast<std::int64_t>(sizeof(Int)) * integers +
+                static_cast<std::int64_t>(sizeof(double) * factor.maxcsize)};
+  }
+
+  /// CHOLMOD gives columns room to grow, and they are copied out of its factor.
+  Forecast forecast_columns(const SymmetricPattern& pattern) const {
+    const ColumnCounts counts = count_columns(pattern);
+    const auto below = std::accumulate(counts.below.begin(), counts.below.end(), std::int64_t{0});
+    return {column_factor_bytes(counts), matrix_bytes(pattern) + 2 * kEntryBytes * below};
+  }
+
   std::unique_ptr<CholmodFactor<Int>> symbolic_;
   std::uint64_t pattern_;
   std::vector<Index> order_;
+  Forecast forecast_;
   std::shared_ptr<const SupernodalStructure> structure_;
 };
 
@@ -201,9 +234,9 @@ Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
   std::vector<Index> final_order(permutation, permutation + symbolic->factor->n);
   for (std::size_t k = 0; k < symbolic->factor->n; ++k) permutation[k] = static_cast<Int>(k);
   symbolic->factor->ordering = CHOLMOD_NATURAL;
-  const std::uint64_t hash = pattern_hash(permuted(pattern, final_order));
-  return std::shared_ptr<const Analysis>(
-      std::make_shared<CholmodAnalysis<Int>>(std::move(symbolic), hash, std::move(final_order)));
+  const SymmetricPattern eliminated = permuted(pattern, final_order);
+  return std::shared_ptr<const Analysis>(std::make_shared<CholmodAnalysis<Int>>(
+      std::move(symbolic), eliminated, std::move(final_order)));
 }
 
 class CholmodBackend final : public Backend {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "solver/linear/column_counts.h"
 #include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
@@ -21,5 +22,8 @@ struct ColumnFactorData {
 /// kernels: no zeros are added, and row numbers are stored once a panel. Precondition: the complete
 /// pattern of a Cholesky factor. Cost: one copy.
 std::unique_ptr<TriangularFactor> make_column_factor(const ColumnFactorData& data);
+
+/// FactorStats::bytes of such a factor with these columns. Cost: O(n).
+std::int64_t column_factor_bytes(const ColumnCounts& counts);
 
 }  // namespace geotherm

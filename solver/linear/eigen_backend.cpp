@@ -2,6 +2,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <numeric>
 #include <string>
 
 #include "solver/core/number_text.h"
@@ -19,10 +20,18 @@ using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<
 /// applied, so that Eigen's own (most of its analysis) is the natural one.
 class EigenAnalysis final : public Analysis {
  public:
-  EigenAnalysis(std::vector<Index> order, std::uint64_t pattern)
-      : order_(std::move(order)), pattern_(pattern) {}
+  EigenAnalysis(std::vector<Index> order, const SymmetricPattern& pattern)
+      : order_(std::move(order)), pattern_(pattern_hash(pattern)) {
+    const ColumnCounts counts = count_columns(pattern);
+    const auto below = std::accumulate(counts.below.begin(), counts.below.end(), std::int64_t{0});
+    const std::int64_t lower = pattern.size() + std::ssize(pattern.neighbor) / 2;
+    factor_bytes_ = column_factor_bytes(counts);
+    work_bytes_ = kEntryBytes * (2 * lower + 2 * below);  // ours and Eigen's copy, of both
+  }
 
   std::span<const Index> order() const override { return order_; }
+  std::int64_t factor_bytes() const override { return factor_bytes_; }
+  std::int64_t work_bytes() const override { return work_bytes_; }
 
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
                                                    int /*threads*/) const override {
@@ -63,8 +72,11 @@ class EigenAnalysis final : public Analysis {
   }
 
  private:
+  static constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(int);
+
   std::vector<Index> order_;
   std::uint64_t pattern_;
+  std::int64_t factor_bytes_ = 0, work_bytes_ = 0;
 };
 
 class EigenBackend final : public Backend {
@@ -76,8 +88,9 @@ class EigenBackend final : public Backend {
                                                   std::span<const Vec3> positions,
                                                   int threads) const override {
     std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
-    const std::uint64_t hash = pattern_hash(permuted(pattern, order));
-    return std::shared_ptr<const Analysis>(std::make_shared<EigenAnalysis>(std::move(order), hash));
+    const SymmetricPattern eliminated = permuted(pattern, order);
+    return std::shared_ptr<const Analysis>(
+        std::make_shared<EigenAnalysis>(std::move(order), eliminated));
   }
 };
 

@@ -21,6 +21,11 @@ void SupernodalStructure::finish() {
   }
 }
 
+std::int64_t supernodal_factor_bytes(const SupernodalStructure& structure) {
+  const std::int64_t numbers = structure.value_start.back() + structure.first.back();
+  return numbers * static_cast<std::int64_t>(sizeof(double));
+}
+
 namespace {
 
 class SupernodalFactor final : public TriangularFactor {
@@ -40,8 +45,7 @@ class SupernodalFactor final : public TriangularFactor {
   const EliminationTree& tree() const override { return structure_->tree; }
   Index size() const override { return structure_->first.back(); }
   FactorStats stats() const override {
-    const std::int64_t entries = structure_->value_start.back();
-    return {entries, (entries + size()) * static_cast<std::int64_t>(sizeof(double))};
+    return {structure_->value_start.back(), supernodal_factor_bytes(*structure_)};
   }
 
   void forward(double* x, Eigen::Index stride, int columns,

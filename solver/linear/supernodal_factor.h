@@ -22,6 +22,9 @@ struct SupernodalStructure {
   void finish();
 };
 
+/// FactorStats::bytes of every factor of this structure.
+std::int64_t supernodal_factor_bytes(const SupernodalStructure& structure);
+
 /// M = L L^T stored as dense panels. `owner` keeps `values` alive.
 std::unique_ptr<TriangularFactor> make_supernodal_factor(
     std::shared_ptr<const SupernodalStructure> structure, const double* values,

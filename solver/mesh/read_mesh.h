@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/core/result.h"
@@ -27,5 +28,13 @@ struct MeshFile {
 /// announces is held against its size before memory is asked for. Independent of the locale. Cost:
 /// one pass over the mapped file; OBJ on all cores.
 Result<MeshFile> read_mesh(const std::string& path);
+
+/// The same in a format that is named, whatever the extension: obj | ply | off | stl. Errors: those
+/// and kNotAvailable (no such format).
+Result<MeshFile> read_mesh(const std::string& path, std::string_view format);
+
+/// From an open stream, such as standard input (0), to its end. `name`: in place of the path. The
+/// bytes are held in memory while they are parsed: at most half of what is free. Errors: the same.
+Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name);
 
 }  // namespace geotherm

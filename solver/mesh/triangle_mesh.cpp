@@ -37,4 +37,26 @@ Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vecto
   return TriangleMesh(std::move(positions), std::move(faces));
 }
 
+Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces,
+                                         std::vector<Index> same_as) {
+  auto mesh = build(std::move(positions), std::move(faces));
+  if (!mesh) return mesh;
+  const std::size_t count = same_as.size();
+  for (std::size_t v = 0; v < count; ++v) {
+    const Index low = same_as[v];
+    const bool valid = low >= 0 && static_cast<std::size_t>(low) <= v && same_as[low] == low;
+    if (valid && count == mesh->positions_.size()) continue;
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(v) + " of " + std::to_string(mesh->vertex_count()) +
+                     " cannot be the same as " + std::to_string(low) + " in a table of " +
+                     std::to_string(count) + "; name the lowest vertex that each is one with"};
+  }
+  if (same_as.empty()) return mesh;
+  for (Face& face : mesh->faces_) {
+    for (Index& corner : face) corner = same_as[corner];
+  }
+  mesh->same_as_ = std::move(same_as);
+  return mesh;
+}
+
 }  // namespace geotherm

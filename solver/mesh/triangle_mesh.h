@@ -20,10 +20,25 @@ class TriangleMesh {
   /// (each with its number). Cost: one pass over both arrays.
   static Result<TriangleMesh> build(std::vector<Vec3> positions, std::vector<Face> faces);
 
+  /// One some of whose vertices are one (weld()). `same_as`: V; the lowest vertex that each is one
+  /// with, itself where there is none lower. Corners become those. Errors: those of build(), a
+  /// table that is none (with its vertex).
+  static Result<TriangleMesh> build(std::vector<Vec3> positions, std::vector<Face> faces,
+                                    std::vector<Index> same_as);
+
   std::span<const Vec3> positions() const { return positions_; }
   std::span<const Face> faces() const { return faces_; }
   Index vertex_count() const { return static_cast<Index>(positions_.size()); }
   Index face_count() const { return static_cast<Index>(faces_.size()); }
+
+  /// V: the vertex that stands for each in all faces; empty where each stands for itself. Those
+  /// that another stands for belong to no face, and have its distance.
+  std::span<const Index> same_as() const { return same_as_; }
+
+  /// The vertex that stands for v. Precondition: v in [0, V).
+  Index standing_for(Index v) const {
+    return same_as_.empty() ? v : same_as_[static_cast<std::size_t>(v)];
+  }
 
  private:
   TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces)
@@ -31,6 +46,7 @@ class TriangleMesh {
 
   std::vector<Vec3> positions_;
   std::vector<Face> faces_;
+  std::vector<Index> same_as_;
 };
 
 }  // namespace geotherm

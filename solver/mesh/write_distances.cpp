@@ -17,6 +17,11 @@ Error unknown_extension(const std::string& path, const std::string& known) {
                                         known};
 }
 
+/// "-" is CSV.
+std::string extension_of(const std::string& path) {
+  return path == "-" ? ".csv" : io::file_extension(path);
+}
+
 /// Makes the bytes and writes them; building them may need more memory than there is.
 template <class MakeBytes>
 Result<void> write_made(const std::string& path, const MakeBytes& make_bytes) {
@@ -46,20 +51,35 @@ Result<void> check_distance_path(const std::string& path) {
   return unknown_extension(path, ".csv .npy .ply .vtp");
 }
 
+Result<void> check_field(const std::string& path, const DataField& field) {
+  const std::string extension = extension_of(path);
+  if (extension == ".ply" || extension == ".vtp") return {};
+  const bool on_faces = field.place == DataField::Place::kFaces;
+  if (extension == ".csv" && !on_faces) return {};
+  return Error{ErrorCode::kNotAvailable,
+               io::printable(path) + ": " + extension + " holds no field \"" + field.name +
+                   (on_faces ? "\", which has a value per face; write .ply or .vtp"
+                             : "\" beside the distances; write .csv, .ply or .vtp")};
+}
+
 Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
-                             std::span<const double> distances, std::span<const Index> nearest) {
+                             std::span<const double> distances, std::span<const Index> nearest,
+                             std::span<const DataField> fields) {
   if (Result<void> known = check_distance_path(path); !known) return known;
+  for (const DataField& field : fields) {
+    if (Result<void> held = check_field(path, field); !held) return held;
+  }
   if (distances.size() != mesh.positions().size()) {
     return Error{ErrorCode::kBadInput, io::printable(path) + ": " +
                                            std::to_string(distances.size()) + " distances for " +
                                            std::to_string(mesh.vertex_count()) + " vertices"};
   }
   return write_made(path, [&]() -> Result<std::string> {
-    const std::string extension = path == "-" ? ".csv" : io::file_extension(path);
+    const std::string extension = extension_of(path);
     if (extension == ".npy") return io::npy_bytes(distances, nearest);
-    if (extension == ".ply") return io::ply_bytes(mesh, distances, nearest);
-    if (extension == ".vtp") return io::vtp_bytes(mesh, distances, nearest);
-    return io::csv_bytes(distances, nearest);
+    if (extension == ".ply") return io::ply_bytes(mesh, distances, nearest, fields);
+    if (extension == ".vtp") return io::vtp_bytes(mesh, distances, nearest, fields);
+    return io::csv_bytes(distances, nearest, fields);
   });
 }
 

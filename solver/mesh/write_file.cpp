@@ -8,9 +8,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "solver/mesh/io/file_extension.h"
+#include "solver/mesh/unfinished_files.h"
 
 namespace geotherm {
 namespace {
@@ -45,15 +47,22 @@ Result<void> write_to_stdout(std::string_view bytes) {
   return failure("standard output", errno);
 }
 
-/// Creates a file of a new name beside `path`; the descriptor, or -1 with errno.
-int create_beside(const std::string& path, std::string& temporary) {
+/// Writes into a file of a new name beside `path` and renames it; 0, or the system's error code.
+int write_beside(const std::string& path, std::string_view bytes, std::optional<mode_t> mode) {
+  constexpr int kMostAttempts = 1000;
   const std::string stem = path + ".tmp-" + std::to_string(::getpid()) + '-';
-  for (int attempt = 0; attempt < 1000; ++attempt) {
-    temporary = stem + std::to_string(attempt);
-    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file >= 0 || errno != EEXIST) return file;
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    const std::string temporary = stem + std::to_string(attempt);
+    const UnfinishedFile file(temporary);
+    if (file.descriptor() < 0 && errno == EEXIST) continue;
+    if (file.descriptor() < 0) return errno;
+    if (mode) ::fchmod(file.descriptor(), *mode & 07777);
+    int code = write_and_close(file.descriptor(), bytes);
+    if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+    if (code != 0) ::unlink(temporary.c_str());
+    return code;
   }
-  return -1;
+  return EEXIST;
 }
 
 }  // namespace
@@ -73,16 +82,9 @@ Result<void> write_file(const std::string& path, std::string_view bytes) {
   // A link stays a link: what it points to is replaced.
   std::error_code unresolved;
   const std::string resolved = std::filesystem::weakly_canonical(path, unresolved).string();
-  const std::string& target = unresolved ? path : resolved;
-  std::string temporary;
-  const int file = create_beside(target, temporary);
-  if (file < 0) return failure(path, errno);
-  if (exists) ::fchmod(file, status.st_mode & 07777);
-  int code = write_and_close(file, bytes);
-  if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
-  if (code == 0) return {};
-  ::unlink(temporary.c_str());
-  return failure(path, code);
+  const int code = write_beside(unresolved ? path : resolved, bytes,
+                                exists ? std::optional(status.st_mode) : std::nullopt);
+  return code == 0 ? Result<void>() : failure(path, code);
 }
 
 }  // namespace geotherm

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/core/types.h"
+#include "solver/linear/fallback.h"
 
 namespace geotherm {
 
@@ -43,6 +44,10 @@ struct DistanceResult {
   Quality quality;
   QueryTiming timing;
   std::vector<std::string> warnings;  ///< one sentence each
+
+  /// Of the heat method: the backend that gave the answer, and those that failed at it before.
+  std::string backend;
+  std::vector<Fallback> fallbacks;
 
   /// V: the group (source_groups) of the nearest source, kNoIndex where none can be; only when
   /// asked for (QueryOptions::nearest) and from methods that carry it along: all but heat.

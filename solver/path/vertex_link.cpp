@@ -40,8 +40,8 @@ class Link {
       nodes_.push_back({arcs_.back().last});
     }
     std::ranges::sort(nodes_, {}, &Node::vertex);
-    const auto repeated = std::ranges::unique(nodes_, {}, &Node::vertex);
-    nodes_.erase(repeated.begin(), repeated.end());
+    const auto same = [](const Node& a, const Node& b) { return a.vertex == b.vertex; };
+    nodes_.erase(std::unique(nodes_.begin(), nodes_.end(), same), nodes_.end());
     at_node_.resize(nodes_.size());
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       at_node_[node(arcs_[i].next)].push_back(i);

@@ -166,11 +166,13 @@ inline double kinked(const Fit& fit, double at, double y) {
                plane_wave(fit.middle, fit.right, fit.half, x, y));
 }
 
-/// The shortest of all ways over the edge, for every target of a register.
+/// The shortest of all ways over the edge, for every target of a register. `nearest`: the least of
+/// the front's values.
 template <int Width, int Samples>
 typename Register<Width>::Values arrival(const Front<Samples>& front, double half,
                                          const typename Register<Width>::Values& x,
-                                         const typename Register<Width>::Values& y) {
+                                         const typename Register<Width>::Values& y,
+                                         double nearest) {
   using Values = typename Register<Width>::Values;
   const Values yy = y * y;
   const Values from_a = front.a + root((x + half) * (x + half) + yy);
@@ -188,7 +190,10 @@ typename Register<Width>::Values arrival(const Front<Samples>& front, double hal
       for (int i = 0; i < Width; ++i) best[i] = least(best[i], kinked(fit, x[i], y[i]));
     }
   }
-  return best;
+  // No wave arrives before it has met the edge, at most half a step from a sample. Fits that would,
+  // on slivers, could lower each other without end.
+  const Values soonest = Values{} + most(nearest - half / (Samples + 1), 0);
+  return best > soonest ? best : soonest;
 }
 
 /// The label of the way that gave `value` at a target: that of the point of the edge next to

@@ -14,6 +14,9 @@ constexpr double kBucketWidth = 0.5;
 constexpr double kRingSpan = 4;
 /// Visits between two calls of progress: a few milliseconds.
 constexpr std::size_t kVisitsBetweenCalls = 1 << 14;
+/// Visits of an edge, on average, and of few edges together, after which a wave is given up. Broken
+/// meshes take up to some dozens.
+constexpr std::size_t kMostVisits = 500, kMostOfFew = 1 << 20;
 
 using Point2 = Eigen::Vector2d;
 
@@ -25,24 +28,25 @@ WaveFront::WaveFront(const WaveTables& tables, int samples, InstructionSet set)
       set_(set),
       ring_(kBucketWidth * tables.mean_side, kRingSpan * tables.longest_side) {}
 
-bool WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-                    const Progress& progress) {
+WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
+                                  const Progress& progress) {
   reset(labels);
   WavePass pass = this->pass();
   ring_.begin(pass);
   seed(surface, seeds);
-  const auto edges = static_cast<double>(tables_.edge_count());
+  const auto edges = static_cast<std::size_t>(tables_.edge_count());
   std::size_t next_call = kVisitsBetweenCalls;
   while (ring_.advance(pass)) {
     do {
       visits_ += visit_current_bucket(pass, samples_, kVisitsBetweenCalls, set_);
       if (visits_ < next_call) continue;
       next_call = visits_ + kVisitsBetweenCalls;
-      const double share = std::min(static_cast<double>(visits_) / edges, 1.0);
-      if (!report(progress, "solve", share)) return false;
+      const double share = std::min(static_cast<double>(visits_) / static_cast<double>(edges), 1.0);
+      if (!report(progress, "solve", share)) return Outcome::kCancelled;
+      if (visits_ > kMostOfFew + kMostVisits * edges) return Outcome::kEndless;
     } while (pass.place > 0);
   }
-  return true;
+  return Outcome::kDone;
 }
 
 void WaveFront::reset(bool labels) {

@@ -18,9 +18,15 @@ class WaveFront {
   /// Keeps a reference. `samples`: 1 or 3 on each edge.
   WaveFront(const WaveTables& tables, int samples, InstructionSet set = best_instruction_set());
 
-  /// Lets the wave run; false when `progress` (stage "solve") said stop.
-  bool run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-           const Progress& progress);
+  enum class Outcome {
+    kDone,
+    kCancelled,  ///< `progress` (stage "solve") said stop
+    kEndless,    ///< values went on falling when each edge had been visited hundreds of times
+  };
+
+  /// Lets the wave run.
+  Outcome run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
+              const Progress& progress);
 
   /// After run(), by rank, in units of the intrinsic mesh; kUnreached where no source can be.
   std::span<const double> distances() const { return distance_; }

@@ -30,7 +30,7 @@ struct WavePass {
   Index* label;          ///< n: of the source that gave the distance; null where nobody asks
   Index* sample_label;   ///< E x samples
   std::uint8_t* queued;  ///< E
-  double* spread_below;  ///< n: where fans touch, a vertex spreads again when it falls below this
+  double* spread_below;  ///< n: a touching vertex spreads again when it falls below this
 
   WaveBucket* buckets;  ///< a ring of bucket_mask + 1
   std::int64_t bucket_mask;

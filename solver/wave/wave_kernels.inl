@@ -14,6 +14,10 @@ namespace {
 
 /// An edge is visited again when a value of it fell by this share of the face's longest side.
 constexpr double kNotice = 1e-4;
+/// Behind an edge so many times as long as its face is high nothing is reached before the edge: a
+/// fitted wave may be lower between the samples, and handed from one such face to the next, round
+/// where they lie on each other, it would fall for ever.
+constexpr double kThin = 1e-2;
 
 template <int Samples, bool Labels>
 class Wave {
@@ -121,9 +125,12 @@ class Wave {
     const WaveFace& face = p_.faces[face_of_code(code)];
     const int k = corner_of_code(code), next = k == 2 ? 0 : k + 1, previous = k == 0 ? 2 : k - 1;
     const Index vc = face.vertex[previous];
-    const double nearer = least(front.a, front.b);
-    if (p_.distance[vc] < nearer && vc != face.vertex[k] && vc != face.vertex[next] &&
-        face.vertex[k] != face.vertex[next]) {
+    double nearer = least(least(front.a, front.b), front.fits[0].middle);
+    if constexpr (Samples == 3) {
+      nearer = least(nearer, least(front.fits[0].right, front.fits[1].middle));
+    }
+    if (p_.distance[vc] < least(front.a, front.b) && vc != face.vertex[k] &&
+        vc != face.vertex[next] && face.vertex[k] != face.vertex[next]) {
       return;  // it came from there; with an offset beyond all digits every distance is the same
     }
     const double length = face.length[k], half = length / 2, inverse = 1 / length;
@@ -137,7 +144,10 @@ class Wave {
     for (int i = 0; i < Goals::kLanes; i += kWidth) {
       const auto opposite = load<Values>(Goals::kOpposite + i);
       const Values x = opposite * cx + load<Values>(Goals::kEdge + i) * half, y = opposite * cy;
-      store(arrival<kWidth>(front, half, x, y), values + i);
+      store(arrival<kWidth>(front, half, x, y, nearer), values + i);
+    }
+    if (cy < kThin * length) {
+      for (double& value : values) value = most(value, nearer);
     }
     Index labels[Goals::kLanes] = {};
     if constexpr (Labels) {
@@ -155,8 +165,8 @@ class Wave {
                   most(dc, front.b));
   }
 
-  /// Hands the value of a vertex to all its faces, where fans touch and no edge does it; unless all
-  /// have had it, but for what none would notice. Returns the number of corners.
+  /// Hands the value of a vertex to all its faces, where no edge does it (WaveFace::touching);
+  /// unless all have had it, but for what none would notice. Returns the number of corners.
   std::size_t spread(Index vertex) {
     if (!(p_.distance[vertex] < p_.spread_below[vertex])) return 0;
     const double value = p_.distance[vertex];

@@ -176,8 +176,13 @@ void list_corners(WaveTables& tables) {
   }
 }
 
-/// Marks corners at vertices whose faces are not all joined by edges at the vertex. There a wave
-/// has to be handed from fan to fan.
+/// A vertex whose longest side is that much longer than its shortest hands its distance on by
+/// itself: samples far out on a long side do not notice when it falls, and faces beyond would never
+/// know.
+constexpr double kStretched = 6;
+
+/// Marks corners at vertices whose faces are not all joined by edges at the vertex, where a wave
+/// has to be handed from fan to fan, and at stretched ones.
 class FanMarker {
  public:
   explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}
@@ -212,9 +217,20 @@ class FanMarker {
     fan_[root(first)] = root(begin);
     fan_[root(next_code(first))] = root(end);
   }
+  bool stretched(std::span<const SideCode> corners) const {
+    double longest = 0, shortest = kUnreached;
+    for (const SideCode c : corners) {
+      const auto& length = tables_.faces[face_of_code(c)].length;
+      for (const int side : {corner_of_code(c), previous_corner(corner_of_code(c))}) {
+        longest = std::max(longest, length[side]);
+        shortest = std::min(shortest, length[side]);
+      }
+    }
+    return longest > kStretched * shortest;
+  }
   void mark(std::span<const SideCode> corners) {
     const auto elsewhere = [&](SideCode c) { return root(c) != root(corners.front()); };
-    if (std::ranges::none_of(corners, elsewhere)) return;
+    if (std::ranges::none_of(corners, elsewhere) && !stretched(corners)) return;
     for (const SideCode c : corners) {
       auto& bits = tables_.faces[face_of_code(c)].touching;
       bits = static_cast<std::uint16_t>(bits | 1U << corner_of_code(c));

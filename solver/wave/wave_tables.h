@@ -17,7 +17,8 @@ struct alignas(64) WaveFace {
   std::array<double, 3> length;       ///< of the sides, in units of the intrinsic mesh
   double twice_area;
   std::uint16_t reversed;  ///< bit k: side k runs against the direction of its edge
-  std::uint16_t touching;  ///< bit k: at corner k several fans of faces touch
+  std::uint16_t touching;  ///< bit k: at corner k several fans of faces touch, or sides are of very
+                           ///< different lengths: the vertex hands its distance on by itself
 };
 
 /// Face 4 f + k stands for side k of face f, so that neither needs a division.

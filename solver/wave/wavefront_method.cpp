@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <new>
+#include <string>
 
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
@@ -66,10 +67,16 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
   if (!seeds) return seeds.error();
   DistanceResult result;
   auto front = pool->take();
-  const bool done = front->run(*surface, *seeds, query.nearest, progress);
-  if (done) copy_out(*front, query.nearest, result);
+  const WaveFront::Outcome outcome = front->run(*surface, *seeds, query.nearest, progress);
+  const std::size_t visits = front->visits();
+  if (outcome == WaveFront::Outcome::kDone) copy_out(*front, query.nearest, result);
   pool->give(std::move(front));
-  if (!done) return cancelled_error();
+  if (outcome == WaveFront::Outcome::kCancelled) return cancelled_error();
+  if (outcome == WaveFront::Outcome::kEndless) {
+    return Error{ErrorCode::kBudgetEnded, "waves on " + std::to_string(surface->face_count()) +
+                                              " faces: no end after " + std::to_string(visits) +
+                                              " visits of edges; use the method exact or heat"};
+  }
   result.timing.query = watch.lap();
   if (query.quality) judge_wave(*surface, *seeds, result);
   watch.lap();

@@ -11,7 +11,8 @@ namespace geotherm {
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
 /// from the distances at an edge's ends and at samples between them (docs/numerics.md,
 /// "Wavefront"). Quality figures: max_source_distance (0 but for round-off: a source starts at its
-/// offset and can only fall) and eikonal_error_mean alone.
+/// offset and can only fall) and eikonal_error_mean alone. A query ends with kBudgetEnded
+/// where values would fall for ever.
 class WavefrontMethod final : public DistanceMethod {
  public:
   /// Samples inside an edge: its midpoint, or its quarter points.

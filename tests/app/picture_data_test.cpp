@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "app/picture/heat_direction.h"
 #include "app/picture/picture_scale.h"
+#include "solver/heat/heat_direction.h"
 #include "solver/heat/heat_method.h"
 #include "tests/support/shapes.h"
 
@@ -186,8 +186,8 @@ TEST(HeatDirection, IsThatOfTheHeatWhateverFactorItHas) {
     near.push_back(std::log(2 + p[0]));
     far.push_back(near.back() - 50'000);
   }
-  const std::vector<Vec3> expected = app::heat_directions(*mesh, near);
-  const std::vector<Vec3> actual = app::heat_directions(*mesh, far);
+  const std::vector<Vec3> expected = heat_directions(*mesh, near);
+  const std::vector<Vec3> actual = heat_directions(*mesh, far);
   // The logarithm of a number of 20,000 digits keeps ten of its own.
   constexpr double kDigitsLeft = 1e-9;
   for (std::size_t f = 0; f < expected.size(); ++f) {

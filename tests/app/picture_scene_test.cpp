@@ -71,6 +71,28 @@ TEST(PictureSceneOfView, PaintsErrorsByTheMapAndRegionsWhereTheyAreKnown) {
   EXPECT_TRUE(scene_of(View::kExactError).markers.visible);
 }
 
+TEST(PictureSceneOfView, PaintsFacesByScalesOfTheirOwn) {
+  PictureData data = solved();
+  PictureSettings settings;
+  settings.view = View::kNonDelaunay;
+  settings.range_max = 0.5;  // of distances
+  data.face_values = {0, 2};
+  data.face_view = settings.view;
+  data.face_title = "edges";
+  data.largest_face_value = 3;
+  const auto scale = app::picture_scale(data, settings);
+  const auto scene = app::scene_of(data, settings, scale);
+  EXPECT_EQ(scene.surface.paint, engine::Paint::kFaces);
+  EXPECT_EQ(scene.surface.range_max, 3);
+  EXPECT_EQ(scene.surface.line_spacing, 0);
+  EXPECT_FALSE(scene.markers.visible) << "the mesh has no sources";
+  const engine::Legend legend = app::legend_of(data, settings, scale);
+  EXPECT_EQ(legend.title, "edges");
+  ASSERT_EQ(legend.ticks.size(), 4U);
+  EXPECT_EQ(legend.ticks[3].label, "3");
+  EXPECT_EQ(legend.ticks[3].position, 1);
+}
+
 /// What is 0 is neutral, and errors of both signs look equally large.
 TEST(PictureSceneOfView, ShowsNoErrorWithoutColourAndBothSignsAlike) {
   PictureData data;

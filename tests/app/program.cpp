@@ -15,8 +15,12 @@ namespace {
 
 /// In the child: never returns.
 [[noreturn]] void become_program(const std::string& folder, std::vector<char*> argv,
-                                 const std::string& out, const std::string& err, Stdout output) {
+                                 const std::string& in, const std::string& out,
+                                 const std::string& err, Stdout output, unsigned seconds) {
   constexpr int kCannotStart = 120;
+  const int input = ::open(in.c_str(), O_RDONLY);
+  ::dup2(input, STDIN_FILENO);
+  ::close(input);
   const int error = ::open(err.c_str(), O_WRONLY | O_CREAT, 0600);
   ::dup2(error, STDERR_FILENO);
   ::close(error);
@@ -35,35 +39,49 @@ namespace {
     ::dup2(file, STDOUT_FILENO);
     ::close(file);
   }
+  ::alarm(seconds);  // outlives exec
   if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
   ::_exit(kCannotStart);
 }
 
 }  // namespace
 
-ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments,
-                       Stdout output) {
-  const TemporaryDirectory streams;
-  const std::string out = streams.path("out");
-  const std::string err = streams.path("err");
+RunningProgram::RunningProgram(const std::string& folder, const std::vector<std::string>& arguments,
+                               Stdout output, unsigned seconds, const std::string& input)
+    : output_(output) {
   std::vector<std::string> words = {GEOTHERM_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) become_program(folder, argv, out, err, output);
+  process_ = ::fork();
+  if (process_ == 0) {
+    become_program(folder, argv, input.empty() ? "/dev/null" : input, streams_.path("out"),
+                   streams_.path("err"), output, seconds);
+  }
+}
+
+void RunningProgram::signal(int number) const {
+  if (process_ > 0) ::kill(process_, number);
+}
+
+ProgramRun RunningProgram::wait() const {
   int status = 0;
-  if (child < 0 || ::waitpid(child, &status, 0) != child) {
+  if (process_ < 0 || ::waitpid(process_, &status, 0) != process_) {
     ADD_FAILURE() << "the program could not be started";
     return {};
   }
   ProgramRun run;
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  if (output == Stdout::kCaptured) run.out = bytes_of(out);
-  run.err = bytes_of(err);
+  if (output_ == Stdout::kCaptured) run.out = bytes_of(streams_.path("out"));
+  run.err = bytes_of(streams_.path("err"));
   return run;
+}
+
+ProgramRun run_program(const std::string& folder, const std::vector<std::string>& arguments,
+                       Stdout output, unsigned seconds, const std::string& input) {
+  return RunningProgram(folder, arguments, output, seconds, input).wait();
 }
 
 }  // namespace geotherm::test

@@ -65,7 +65,8 @@ TEST_P(ProgramViews, ArePicturesOfTheModel) {
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramViews,
                          testing::Values("wireframe", "flat", "smooth", "sources", "heat-gradient",
-                                         "gradient-error", "contours"),
+                                         "gradient-error", "contours", "eikonal-error",
+                                         "lost-gradients", "triangle-quality", "non-delaunay"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -99,6 +100,22 @@ TEST_F(SessionTest, ThePictureOfADifferenceHasBothSigns) {
   EXPECT_LE(*high, 1);
   const double unit = session.explored().difference->most;
   EXPECT_DOUBLE_EQ(data.value_unit, unit);
+}
+
+TEST_F(SessionTest, ABackendThatTakesOverIsNamedAndTheLogSaysWhy) {
+  run({"open " + small_model(), "source set 5", "backend eigen-ldlt", "memory-limit 0.01"});
+  EXPECT_EQ(session.explored().a->options.backend, "eigen-ldlt");
+  EXPECT_EQ(session.explored().a->result.backend, "cg");
+  const auto said = [this](LogLine::Kind kind, const std::string& text) {
+    return std::ranges::any_of(session.log(), [&](const LogLine& line) {
+      return line.kind == kind && line.text.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said(LogLine::Kind::kNote, "solved with cg"));
+  EXPECT_TRUE(said(LogLine::Kind::kWarning, "eigen-ldlt failed: needs about"));
+  ASSERT_FALSE(session.submit(*parse_command("strict on")));
+  run({"undo", "memory-limit free"});
+  EXPECT_EQ(session.explored().a->result.backend, "eigen-ldlt");
 }
 
 TEST_F(SessionTest, SettingsAloneFactorWhatTheyMustAndNoMore) {

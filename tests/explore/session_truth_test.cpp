@@ -66,6 +66,21 @@ TEST_F(SessionTruth, TheViewOfTheErrorIsSignedAndAsksForIt) {
   EXPECT_NE(data.value_title.find("exact"), std::string::npos);
 }
 
+TEST_F(SessionTruth, ViewsOfFacesHaveAValueForEachAndLeaveNoneBehind) {
+  run({"open " + small_model(), "source clear", "view triangle-quality"});
+  const std::size_t faces = shown().faces.size();
+  EXPECT_EQ(shown().face_values.size(), faces) << "without a solve";
+  EXPECT_EQ(shown().largest_face_value, 1);
+  run({"view eikonal-error"});
+  EXPECT_TRUE(shown().face_values.empty()) << "there are no distances yet";
+  run({"source set 5"});
+  EXPECT_EQ(shown().face_values.size(), faces);
+  run({"view lost-gradients"});
+  EXPECT_EQ(shown().face_values, std::vector<float>(faces, 0));
+  run({"view contours"});
+  EXPECT_TRUE(shown().face_values.empty());
+}
+
 TEST_F(SessionTruth, BothAnswersHaveTheirError) {
   run({"open " + small_model(), "source set 5", "check exact", "keep", "time-factor 50"});
   const Explored& explored = session.explored();

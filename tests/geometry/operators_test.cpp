@@ -145,7 +145,7 @@ class OperatorsOnRegularMeshes : public Operators {};
 
 TEST_P(OperatorsOnRegularMeshes, MassesSumToTheArea) {
   const Intrinsic in = intrinsic_of(*mesh, true);
-  ASSERT_EQ(in.mesh.mollified_by, 0);
+  ASSERT_EQ(in.mesh.mollified.most, 0);
   const auto p = mesh->positions();
   double area = 0;
   for (const auto& [a, b, c] : in.clean.faces) {

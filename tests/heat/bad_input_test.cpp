@@ -104,8 +104,6 @@ const BadOption kBadOptions[] = {
      ErrorCode::kBadInput, "penalty"},
     {"unknown_backend", [](HeatOptions& o) { o.backend = "gauss"; }, ErrorCode::kNotAvailable,
      "gauss"},
-    {"tufted", [](HeatOptions& o) { o.laplacian = LaplacianKind::kTufted; },
-     ErrorCode::kNotAvailable, "auto"},
 };
 
 void PrintTo(const BadOption& bad, std::ostream* out) { *out << bad.name; }

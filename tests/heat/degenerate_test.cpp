@@ -144,24 +144,6 @@ TEST(GradedDisc, HasDistancesOnItsSmallestTriangles) {
   }
 }
 
-TEST(ComponentOfAnotherScale, IsSaid) {
-  const auto warnings = [](double scale, TimeRule rule) {
-    Draft draft = sphere(2);
-    append(draft, transformed(sphere(2), scale, Vec3(5, 0, 0), false));
-    HeatOptions options;
-    options.time_step = {rule, 1, 0.01};
-    return method_of(finish(draft), options).warnings();
-  };
-  EXPECT_TRUE(warnings(1.0 / 3, TimeRule::kMeanEdge).empty());
-  EXPECT_TRUE(warnings(1e-3, TimeRule::kAbsolute).empty());
-  for (const TimeRule rule : {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea}) {
-    const auto said = warnings(1e-3, rule);
-    ASSERT_EQ(said.size(), 1U);
-    EXPECT_EQ(said[0].find("1 of 2 components"), 0U) << said[0];
-    EXPECT_NE(said[0].find("--time-step absolute"), std::string::npos) << said[0];
-  }
-}
-
 TEST(MeshWithoutArea, IsOneClearError) {
   Draft points, line;
   points.positions.assign(3, Vec3(1, 2, 3));

@@ -14,7 +14,7 @@ constexpr double kSlope = 1e-6;
 constexpr double kIterative = 1e-6;
 constexpr double kDirect = 1e-9;
 
-constexpr Index kLength = 3000;
+constexpr Index kLength = 5000;
 
 class FarField : public testing::TestWithParam<std::string> {};
 

@@ -89,6 +89,68 @@ TEST_F(DistanceFile, vtp_appends_each_array_where_the_xml_says) {
             (std::vector<std::int64_t>{3, 6, 9, 12, 15, 18}));
 }
 
+/// One value a vertex and one a face, of both types.
+std::vector<DataField> fields() {
+  using Place = DataField::Place;
+  using Type = DataField::Type;
+  return {{"error", Place::kVertices, Type::kFloat64, {0, -0.5, 0.25, 1e-300, kUnreached}},
+          {"quality", Place::kFaces, Type::kFloat64, {1, 0.5, 0.25, 0.125, 0, 1}},
+          {"edges", Place::kFaces, Type::kUint8, {0, 1, 2, 3, 0, 255}}};
+}
+
+TEST_F(DistanceFile, ply_holds_fields_of_vertices_and_faces_and_still_reads_back) {
+  const std::string path = directory.path("f.ply");
+  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, {}, fields()));
+  const std::string bytes = bytes_of(path);
+  EXPECT_NE(bytes.find("property double error\nelement face"), std::string::npos);
+  EXPECT_NE(bytes.find("vertex_indices\nproperty double quality\nproperty uchar edges\nend_header"),
+            std::string::npos);
+  const std::size_t vertices = bytes.find("end_header\n") + 11;
+  EXPECT_EQ(values_at<double>(bytes, vertices + 40 + 32, 1)[0], -0.5);
+  const std::size_t faces = vertices + 5 * 40;
+  EXPECT_EQ(values_at<double>(bytes, faces + 3 * 22 + 13, 1)[0], 0.125);
+  EXPECT_EQ(values_at<std::uint8_t>(bytes, faces + 5 * 22 + 21, 1)[0], 255);
+  EXPECT_EQ(bytes.size(), faces + 6 * 22u);
+  const Result<MeshFile> file = read_mesh(path);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_TRUE(std::ranges::equal(file->mesh.faces(), pyramid_faces()));
+}
+
+TEST_F(DistanceFile, vtp_holds_fields_as_point_and_cell_data) {
+  const std::string path = directory.path("f.vtp");
+  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, std::vector<Index>(5, 0), fields()));
+  const std::string bytes = bytes_of(path);
+  const std::size_t data = bytes.find("<AppendedData encoding=\"raw\">\n_") + 31;
+  const auto start_of = [&](const std::string& name) {
+    const std::size_t array = bytes.find("Name=\"" + name + "\"");
+    return data + std::stoul(bytes.substr(bytes.find("offset=\"", array) + 8)) + 8;
+  };
+  const std::size_t cells = bytes.find("<CellData>");
+  EXPECT_LT(bytes.find("Name=\"error\""), bytes.find("</PointData>"));
+  EXPECT_LT(cells, bytes.find("Name=\"quality\""));
+  EXPECT_LT(bytes.find("type=\"UInt8\" Name=\"edges\""), bytes.find("</CellData>"));
+  EXPECT_EQ(values_at<double>(bytes, start_of("error"), 5), fields()[0].values);
+  EXPECT_EQ(values_at<double>(bytes, start_of("quality"), 6), fields()[1].values);
+  EXPECT_EQ(values_at<std::uint8_t>(bytes, start_of("edges"), 6),
+            (std::vector<std::uint8_t>{0, 1, 2, 3, 0, 255}));
+  EXPECT_EQ(values_at<double>(bytes, start_of("Points"), 15)[14], 1.5);
+}
+
+TEST_F(DistanceFile, csv_holds_fields_of_vertices_and_npy_none) {
+  const std::vector<DataField> all = fields();
+  const std::string path = directory.path("f.csv");
+  ASSERT_TRUE(write_distances(path, pyramid(), kDistances, {}, std::span(all).first(1)));
+  EXPECT_EQ(bytes_of(path),
+            "vertex,distance,error\n0,0,0\n1,0.1,-0.5\n2,0.3333333333333333,0.25\n"
+            "3,1e+300,1e-300\n4,inf,inf\n");
+  for (const char* name : {"g.csv", "g.npy"}) {
+    const auto refused = write_distances(directory.path(name), pyramid(), kDistances, {}, all);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("write "), std::string::npos) << refused.error().message;
+    EXPECT_FALSE(std::filesystem::exists(directory.path(name)));
+  }
+}
+
 TEST_F(DistanceFile, obj_is_refused_with_the_formats_that_hold_values) {
   const Result<void> done = write_distances(directory.path("a.obj"), pyramid(), kDistances);
   ASSERT_FALSE(done);

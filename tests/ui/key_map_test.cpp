@@ -31,7 +31,9 @@ INSTANTIATE_TEST_SUITE_P(
                       TypedKey{"3", "view smooth"}, TypedKey{"4", "view sources"},
                       TypedKey{"5", "view heat-gradient"}, TypedKey{"6", "view gradient-error"},
                       TypedKey{"7", "view contours"}, TypedKey{"8", "view exact-error"},
-                      TypedKey{"9", "view regions"}, TypedKey{"+", "source more"},
+                      TypedKey{"9", "view regions"}, TypedKey{"0", "view eikonal-error"},
+                      TypedKey{"g", "view lost-gradients"}, TypedKey{"t", "view triangle-quality"},
+                      TypedKey{"n", "view non-delaunay"}, TypedKey{"+", "source more"},
                       TypedKey{"-", "source fewer"}, TypedKey{"h", "source shuffle"},
                       TypedKey{"f", "camera frame"}, TypedKey{"k", "keep"},
                       TypedKey{"K", "keep"}));  // with the caps lock

@@ -38,7 +38,7 @@ class FanBook : public testing::TestWithParam<int> {
     EXPECT_TRUE(seeds);
     const WaveTables tables = build_wave_tables(**surface);
     WaveFront front(tables, GetParam());
-    EXPECT_TRUE(front.run(**surface, *seeds, false, {}));
+    EXPECT_EQ(front.run(**surface, *seeds, false, {}), WaveFront::Outcome::kDone);
     return front.visits();
   }
 };

@@ -152,6 +152,17 @@ TEST_P(TouchingFans, OneTriangleIsExact) {
   EXPECT_NEAR(d[2], std::hypot(0.75, 3.0), 1e-12);
 }
 
+TEST_P(TouchingFans, StretchedStripsHandDistanceOn) {
+  // Along the lower border from the left end: no sample on the long sides to the right end's upper
+  // corner, a source itself, comes to know of it.
+  constexpr Index kLength = 6;
+  const Index upper = grid_vertex(kLength, kLength, 1), lower = grid_vertex(kLength, kLength, 0);
+  const auto d = distances(finish(plane_grid(kLength, 1, kLength, 40)), GetParam(),
+                           SourceSet::of_vertices({0, upper, grid_vertex(kLength, 2, 1)}));
+  const bool first_order = GetParam() == MethodKind::kFastMarching;
+  EXPECT_NEAR(d[lower], kLength, first_order ? 0.05 : 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, TouchingFans, testing::ValuesIn(kWaveKinds),
                          [](const auto& each) { return kind_name(each.param); });
 

@@ -18,6 +18,45 @@ void append_faces(std::string& bytes, const Face& face) {
   for (const Index corner : face) io::append_little(bytes, corner);
 }
 
+constexpr auto kOnVertices = DataField::Place::kVertices;
+constexpr auto kOnFaces = DataField::Place::kFaces;
+
+bool is_small(const DataField& field) { return field.type == DataField::Type::kUint8; }
+
+/// The value of one element in every field that has one there.
+void append_fields(std::string& bytes, std::span<const DataField> fields, DataField::Place place,
+                   std::size_t i) {
+  for (const DataField& field : fields) {
+    if (field.place != place) continue;
+    if (is_small(field)) {
+      io::append_little(bytes, static_cast<std::uint8_t>(field.values[i]));
+    } else {
+      io::append_little(bytes, field.values[i]);
+    }
+  }
+}
+
+std::string ply_properties(std::span<const DataField> fields, DataField::Place place) {
+  std::string text;
+  for (const DataField& field : fields) {
+    if (field.place != place) continue;
+    text += (is_small(field) ? "property uchar " : "property double ") + field.name + '\n';
+  }
+  return text;
+}
+
+/// Bytes of all values.
+std::uint64_t length_of(const DataField& field) {
+  return field.values.size() * (is_small(field) ? 1 : sizeof(double));
+}
+
+void append_array(std::string& bytes, const DataField& field) {
+  io::append_little(bytes, length_of(field));
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    append_fields(bytes, {&field, 1}, field.place, i);
+  }
+}
+
 }  // namespace
 
 std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest) {
@@ -39,29 +78,35 @@ std::string npy_bytes(std::span<const double> distances, std::span<const Index> 
 }
 
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
-                      std::span<const Index> nearest) {
+                      std::span<const Index> nearest, std::span<const DataField> fields) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(mesh.vertex_count()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!distances.empty()) bytes += "property double distance\n";
   if (!nearest.empty()) bytes += "property int nearest_source\n";
+  bytes += ply_properties(fields, kOnVertices);
   bytes += "element face " + std::to_string(mesh.face_count()) +
-           "\nproperty list uchar int vertex_indices\nend_header\n";
-  bytes.reserve(bytes.size() + 32 * mesh.positions().size() + 13 * mesh.faces().size());
+           "\nproperty list uchar int vertex_indices\n";
+  bytes += ply_properties(fields, kOnFaces) + "end_header\n";
+  std::size_t values = 0;
+  for (const DataField& field : fields) values += length_of(field);
+  bytes.reserve(bytes.size() + 36 * mesh.positions().size() + 13 * mesh.faces().size() + values);
   for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
     append_little(bytes, mesh.positions()[v]);
     if (!distances.empty()) append_little(bytes, distances[v]);
     if (!nearest.empty()) append_little(bytes, nearest[v]);
+    append_fields(bytes, fields, kOnVertices, v);
   }
-  for (const Face& face : mesh.faces()) {
+  for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
     bytes += '\3';
-    append_faces(bytes, face);
+    append_faces(bytes, mesh.faces()[f]);
+    append_fields(bytes, fields, kOnFaces, f);
   }
   return bytes;
 }
 
 std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
-                      std::span<const Index> nearest) {
+                      std::span<const Index> nearest, std::span<const DataField> fields) {
   const std::uint64_t vertices = mesh.positions().size();
   const std::uint64_t faces = mesh.faces().size();
   std::uint64_t offset = 0;
@@ -70,6 +115,15 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
     const std::string start = std::to_string(offset);
     offset += sizeof(std::uint64_t) + length;
     return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
+  };
+  const auto field_arrays = [&](DataField::Place place) {
+    std::string text;
+    for (const DataField& field : fields) {
+      if (field.place != place) continue;
+      const std::string type = is_small(field) ? "UInt8" : "Float64";
+      text += array("type=\"" + type + "\" Name=\"" + field.name + '"', length_of(field));
+    }
+    return text;
   };
   const std::uint64_t lengths[] = {8 * vertices, 24 * vertices, 12 * faces, 8 * faces};
   const std::uint64_t nearest_length = 4 * vertices;
@@ -81,7 +135,10 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
       std::to_string(faces) + "\">\n<PointData Scalars=\"distance\">\n";
   bytes += array("type=\"Float64\" Name=\"distance\"", lengths[0]);
   if (!nearest.empty()) bytes += array("type=\"Int32\" Name=\"nearest_source\"", nearest_length);
-  bytes += "</PointData>\n<Points>\n";
+  bytes += field_arrays(kOnVertices) + "</PointData>\n";
+  const std::string on_faces = field_arrays(kOnFaces);
+  if (!on_faces.empty()) bytes += "<CellData>\n" + on_faces + "</CellData>\n";
+  bytes += "<Points>\n";
   bytes += array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", lengths[1]);
   bytes += "</Points>\n<Polys>\n";
   bytes += array("type=\"Int32\" Name=\"connectivity\"", lengths[2]);
@@ -92,6 +149,11 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distance
   for (const double distance : distances) append_little(bytes, distance);
   if (!nearest.empty()) append_little(bytes, nearest_length);
   for (const Index source : nearest) append_little(bytes, source);
+  for (const auto place : {kOnVertices, kOnFaces}) {
+    for (const DataField& field : fields) {
+      if (field.place == place) append_array(bytes, field);
+    }
+  }
   append_little(bytes, lengths[1]);
   for (const Vec3& p : mesh.positions()) append_little(bytes, p);
   append_little(bytes, lengths[2]);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "solver/core/result.h"
+#include "solver/mesh/data_field.h"
 #include "solver/mesh/triangle_mesh.h"
 
 // The bytes of a file, one function per format. Numbers in text have the fewest digits that read
@@ -12,18 +13,20 @@
 namespace geotherm::io {
 
 // `nearest`: one number per vertex, or none at all: the column, property or array `nearest_source`.
-std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest = {});
+// `fields`: what follows it under its own name, faces' values where the format holds faces.
+std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest = {},
+                      std::span<const DataField> fields = {});
 
 /// Shape V, or V x 2 with `nearest`.
 std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest = {});
 
 /// Binary little endian with the vertex property `double distance`, unless there are none.
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances = {},
-                      std::span<const Index> nearest = {});
+                      std::span<const Index> nearest = {}, std::span<const DataField> fields = {});
 
 /// VTK XML PolyData; the arrays are appended raw, with 64-bit lengths.
 std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
-                      std::span<const Index> nearest = {});
+                      std::span<const Index> nearest = {}, std::span<const DataField> fields = {});
 
 std::string obj_bytes(const TriangleMesh& mesh);
 std::string off_bytes(const TriangleMesh& mesh);

@@ -26,9 +26,12 @@ void append(std::string& text, const Vec3& p) {
 
 }  // namespace
 
-std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest) {
-  std::string text = nearest.empty() ? "vertex,distance\n" : "vertex,distance,nearest_source\n";
-  text.reserve(28 * distances.size() + 32);
+std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest,
+                      std::span<const DataField> fields) {
+  std::string text = nearest.empty() ? "vertex,distance" : "vertex,distance,nearest_source";
+  for (const DataField& field : fields) text += ',' + field.name;
+  text += '\n';
+  text.reserve((28 + 20 * fields.size()) * distances.size() + text.size());
   for (std::size_t v = 0; v < distances.size(); ++v) {
     append(text, v);
     text += ',';
@@ -36,6 +39,10 @@ std::string csv_bytes(std::span<const double> distances, std::span<const Index> 
     if (!nearest.empty()) {
       text += ',';
       append(text, nearest[v]);
+    }
+    for (const DataField& field : fields) {
+      text += ',';
+      append(text, field.values[v]);
     }
     text += '\n';
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/picture/heat_direction.h"
+#include "solver/heat/heat_direction.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace geotherm::app {
+namespace geotherm {
 
 std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const double> log_heat) {
   const std::span<const Vec3> positions = mesh.positions();
@@ -25,4 +25,4 @@ std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const doub
   return out;
 }
 
-}  // namespace geotherm::app
+}  // namespace geotherm

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "app/model_reading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/option_value.h"
+#include "app/text.h"
+
+namespace geotherm::app {
+
+Result<ModelReading> model_reading(const ReadingArguments& arguments) {
+  ModelReading reading;
+  const Result<void> all = first_failure({
+      take(parse_format(arguments.format), "--format", reading.format),
+      take(parse_weld(arguments.weld), "--weld", reading.weld),
+  });
+  if (!all) return all.error();
+  return reading;
+}
+
+Result<std::string> parse_format(const std::string& text) {
+  if (text.empty() || text == "auto") return std::string();
+  constexpr std::string_view kFormats[] = {"obj", "ply", "off", "stl"};
+  if (std::ranges::find(kFormats, text) != std::end(kFormats)) return text;
+  return Error{ErrorCode::kNotAvailable,
+               "'" + one_line(text) + "' is no format of models; there are obj, ply, off, stl"};
+}
+
+Result<std::optional<double>> parse_weld(const std::string& text) {
+  if (text.empty() || text == "off") return std::optional<double>();
+  const auto distance = number_in<double>(text);
+  if (distance && *distance >= 0 && std::isfinite(*distance)) return std::optional(*distance);
+  return Error{ErrorCode::kBadInput,
+               "'" + one_line(text) +
+                   "' is no distance; give a length in model units, or 0 for vertices that are "
+                   "equal"};
+}
+
+}  // namespace geotherm::app

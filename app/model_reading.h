@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "solver/core/result.h"
+
+// How a model is read, beside its name.
+namespace geotherm::app {
+
+struct ModelReading {
+  std::string format;          ///< obj, ply, off or stl; empty: what the extension says
+  std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
+
+  bool operator==(const ModelReading&) const = default;
+};
+
+/// As typed.
+struct ReadingArguments {
+  std::string format;  ///< empty: the extension's
+  std::string weld;    ///< empty: off
+};
+
+/// The name that is standard input.
+inline constexpr std::string_view kStandardInput = "-";
+
+/// Errors: kBadInput or kNotAvailable, with the option's name and what is expected.
+Result<ModelReading> model_reading(const ReadingArguments& arguments);
+
+/// "auto", and empty, are the extension's.
+Result<std::string> parse_format(const std::string& text);
+/// "off", and empty, are none.
+Result<std::optional<double>> parse_weld(const std::string& text);
+
+}  // namespace geotherm::app

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/mollify.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "solver/geometry/face_components.h"
+
+namespace geotherm {
+namespace {
+
+using Lengths = std::array<double, 3>;
+
+/// By how much each triangle inequality must be strict, relative to the longest side of the face:
+/// faces of any size keep their shape unless that is degenerate.
+constexpr double kStrict = 1e-5;
+/// What is lengthened gets a tenth more, so that corrections which call for each other come to an
+/// end.
+constexpr double kAim = 1.1 * kStrict;
+/// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
+constexpr double kPoint = 1e-70;
+/// Steps for each face at most: ordinary files take some three for each of the faces that fail.
+constexpr std::size_t kStepsPerFace = 20;
+
+/// What is missing to the triangle inequality over side k, at most 0 where it is strict enough.
+double missing(const Lengths& l, int k, double strict) {
+  const double longest = std::max({l[0], l[1], l[2]});
+  const double size = longest > kPoint ? longest : 1.0;
+  return strict * size + l[k] - l[next_corner(k)] - l[previous_corner(k)];
+}
+
+/// The smallest length that makes a face strict when added to all three sides.
+double addition(const Lengths& l) {
+  const double most =
+      std::max({missing(l, 0, kStrict), missing(l, 1, kStrict), missing(l, 2, kStrict)});
+  return std::max(0.0, most / (1 - kStrict));  // the longest side grows as well
+}
+
+std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths) {
+  std::vector<Index> out;
+  for (std::size_t f = 0; f < lengths.size(); ++f) {
+    if (addition(lengths[f]) > 0) out.push_back(static_cast<Index>(f));
+  }
+  return out;
+}
+
+/// Lengthens the edges of failing faces and follows what that makes fail.
+class LocalRepair {
+ public:
+  LocalRepair(std::vector<Lengths>& lengths, const EdgeTable& edges)
+      : lengths_(lengths), edges_(edges), edge_of_(3 * lengths.size()) {
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      for (const Side side : edges.sides(e)) edge_of_[side] = e;
+    }
+  }
+
+  /// False where the work does not end.
+  bool run(std::vector<Index> queue) {
+    std::vector<char> queued(lengths_.size(), 0);
+    for (const Index f : queue) queued[f] = 1;
+    const std::size_t most = kStepsPerFace * lengths_.size() + 1000;
+    for (std::size_t next = 0; next < queue.size(); ++next) {
+      if (next > most) return false;
+      const Index f = queue[next];
+      queued[f] = 0;
+      if (!(addition(lengths_[f]) > 0)) continue;
+      for (int k = 0; k < 3; ++k) {
+        const double lack = missing(lengths_[f], k, kAim);
+        if (!(lack > 0)) continue;
+        // The shorter of the two takes the more: a needle keeps its long sides as they are.
+        const int i = next_corner(k), j = previous_corner(k);
+        const double a = lengths_[f][i], b = lengths_[f][j];
+        const double share = a + b > 0 ? b / (a + b) : 0.5;
+        lengthen(3 * f + i, share * lack);
+        lengthen(3 * f + j, (1 - share) * lack);
+      }
+      for (int k = 0; k < 3; ++k) {
+        for (const Side side : edges_.sides(edge_of_[3 * f + k])) {
+          const Index g = face_of(side);
+          if (queued[g]) continue;
+          queued[g] = 1;
+          queue.push_back(g);
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  void lengthen(Side side, double by) {
+    for (const Side other : edges_.sides(edge_of_[side])) {
+      lengths_[face_of(other)][corner_of(other)] += by;
+    }
+  }
+
+  std::vector<Lengths>& lengths_;
+  const EdgeTable& edges_;
+  std::vector<Index> edge_of_;
+};
+
+void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& components) {
+  std::vector<double> needed(static_cast<std::size_t>(components.count), 0.0);
+  for (std::size_t f = 0; f < lengths.size(); ++f) {
+    double& most = needed[components.of[f]];
+    most = std::max(most, addition(lengths[f]));
+  }
+  for (std::size_t f = 0; f < lengths.size(); ++f) {
+    for (double& length : lengths[f]) length += needed[components.of[f]];
+  }
+}
+
+}  // namespace
+
+Mollification mollify(std::vector<Lengths>& lengths, const CleanFaces& clean) {
+  Mollification out;
+  const std::vector<Index> failing = faces_that_fail(lengths);
+  if (failing.empty()) return out;
+  Index vertices = 0;
+  for (const Face& face : clean.faces) {
+    vertices = std::max({vertices, face[0] + 1, face[1] + 1, face[2] + 1});
+  }
+  const std::vector<Lengths> before = lengths;
+  const FaceComponents components = face_components(clean.faces, vertices);
+  if (!LocalRepair(lengths, clean.edges).run(failing)) {
+    lengths = before;
+    add_to_components(lengths, components);
+  }
+  std::vector<char> touched(static_cast<std::size_t>(components.count), 0);
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    const Side side = clean.edges.sides(e).front();
+    const double added =
+        lengths[face_of(side)][corner_of(side)] - before[face_of(side)][corner_of(side)];
+    if (!(added > 0)) continue;
+    ++out.edges;
+    out.most = std::max(out.most, added);
+    touched[components.of[face_of(side)]] = 1;
+  }
+  out.faces = static_cast<Index>(failing.size());
+  out.components = static_cast<Index>(std::count(touched.begin(), touched.end(), 1));
+  return out;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/geometry/clean_faces.h"
+
+namespace geotherm {
+
+/// What mollify() did; all 0 where no face needed it.
+struct Mollification {
+  double most = 0;       ///< the largest length added to an edge
+  Index faces = 0;       ///< faces that were degenerate or nearly so
+  Index edges = 0;       ///< edges that were lengthened
+  Index components = 0;  ///< components (through shared vertices) that hold one of them
+};
+
+/// Lengthens edges until every triangle inequality is strict by 1e-5 of the face's longest side
+/// (the condition of Sharp, Crane 2020, section 4.5, where one length is added to all edges). Here
+/// only edges of faces that fail are lengthened, the shorter ones of the face, and those of
+/// neighbours that fail because of it: a degenerate face leaves no trace a few faces away. Where
+/// this has no end within a bounded number of steps, the smallest common length that does it is
+/// added to all edges of the component.
+///
+/// `lengths`: F x 3, the same for all sides of an edge, in units of about their mean.
+/// Cost: O(F), and a few steps a failing face.
+Mollification mollify(std::vector<std::array<double, 3>>& lengths, const CleanFaces& clean);
+
+}  // namespace geotherm

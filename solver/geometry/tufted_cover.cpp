@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/tufted_cover.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace geotherm {
+namespace {
+
+/// Corners of a back are (0, 2, 1) of its face: side k of the face is side 2 - k of the back.
+Side on_back(const IntrinsicMesh& mesh, Side side) {
+  return 3 * mesh.back[face_of(side)] + 2 - corner_of(side);
+}
+
+/// The sides of an edge in their order round it, counterclockwise seen against the way from its low
+/// to its high end; where angles are the same, by number.
+class SidesInOrder {
+ public:
+  SidesInOrder(std::span<const Vec3> positions, const CleanFaces& clean)
+      : positions_(positions), clean_(clean) {}
+
+  std::span<const Side> operator()(Index edge) {
+    const auto sides = clean_.edges.sides(edge);
+    if (sides.size() <= 2) return sides;
+    const Vec3& low = positions_[clean_.edges.low(edge)];
+    const Vec3 axis = (positions_[clean_.edges.high(edge)] - low).stableNormalized();
+    at_angle_.clear();
+    Vec3 zero = Vec3::Zero(), quarter = Vec3::Zero();
+    for (const Side side : sides) {
+      const Vec3 out =
+          positions_[clean_.faces[face_of(side)][previous_corner(corner_of(side))]] - low;
+      const Vec3 across = (out - axis * axis.dot(out)).stableNormalized();
+      if (zero.isZero(0)) {
+        zero = across;
+        quarter = axis.cross(across);
+      }
+      at_angle_.emplace_back(std::atan2(across.dot(quarter), across.dot(zero)), side);
+    }
+    std::ranges::sort(at_angle_);
+    sorted_.clear();
+    for (const auto& [angle, side] : at_angle_) sorted_.push_back(side);
+    return sorted_;
+  }
+
+ private:
+  std::span<const Vec3> positions_;
+  const CleanFaces& clean_;
+  std::vector<std::pair<double, Side>> at_angle_;
+  std::vector<Side> sorted_;
+};
+
+void add_backs(IntrinsicMesh& mesh, const std::vector<char>& doubled) {
+  const Index fronts = mesh.face_count();
+  mesh.back.assign(static_cast<std::size_t>(fronts), kNoIndex);
+  for (Index f = 0; f < fronts; ++f) {
+    if (!doubled[f]) continue;
+    mesh.back[f] = mesh.face_count();
+    const Face face = mesh.faces[f];
+    const std::array<double, 3> l = mesh.lengths[f];
+    mesh.faces.push_back({face[0], face[2], face[1]});
+    mesh.lengths.push_back({l[2], l[1], l[0]});
+  }
+  mesh.twin.resize(3 * mesh.faces.size(), kNoSide);
+}
+
+}  // namespace
+
+bool is_oriented_manifold(const CleanFaces& clean, Index edge) {
+  const auto sides = clean.edges.sides(edge);
+  return sides.size() == 1 || (sides.size() == 2 && sides_agree(clean.faces, sides[0], sides[1]));
+}
+
+std::vector<char> faces_that_need_cover(const CleanFaces& clean, Index vertex_count) {
+  std::vector<char> needed;
+  FaceComponents components;
+  std::vector<char> marked;
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    if (is_oriented_manifold(clean, e)) continue;
+    if (marked.empty()) {
+      components = face_components(clean.faces, vertex_count);
+      marked.assign(static_cast<std::size_t>(components.count), 0);
+    }
+    marked[components.of[face_of(clean.edges.sides(e).front())]] = 1;
+  }
+  for (const Index component : components.of) needed.push_back(marked[component]);
+  return needed;
+}
+
+void make_tufted_cover(IntrinsicMesh& mesh, std::span<const Vec3> positions,
+                       const CleanFaces& clean, const std::vector<char>& doubled) {
+  add_backs(mesh, doubled);
+  SidesInOrder in_order(positions, clean);
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    if (!doubled[face_of(clean.edges.sides(e).front())]) continue;
+    const std::span<const Side> sides = in_order(e);
+    // Of the two copies of a side one runs upwards, low to high, and looks towards the next side.
+    const auto copy = [&](Side side, bool upwards) {
+      const bool front = clean.faces[face_of(side)][corner_of(side)] == clean.edges.low(e);
+      return front == upwards ? side : on_back(mesh, side);
+    };
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const Side here = copy(sides[i], true);
+      const Side next = copy(sides[i + 1 < sides.size() ? i + 1 : 0], false);
+      mesh.twin[here] = next;
+      mesh.twin[next] = here;
+    }
+  }
+}
+
+SurfacePoint on_back(const IntrinsicMesh& mesh, const SurfacePoint& point) {
+  const auto& w = point.weights;
+  return SurfacePoint::in_face(mesh.back[point.face], {w[0], w[2], w[1]});
+}
+
+}  // namespace geotherm

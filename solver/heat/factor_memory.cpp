@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/factor_memory.h"
+
+#include <algorithm>
+#include <string>
+
+#include "solver/core/free_memory.h"
+#include "solver/core/number_text.h"
+
+namespace geotherm {
+namespace {
+
+constexpr double kMegabyte = 1024.0 * 1024.0;
+/// As much as goes without asking the system, which takes longer than to factor a small mesh.
+constexpr double kUnasked = 16 * kMegabyte;
+
+std::string size_text(double bytes) {
+  const double megabytes = bytes / kMegabyte;
+  constexpr double kGigabyte = 1024;
+  return megabytes < kGigabyte ? rounded_text(megabytes) + " MB"
+                               : rounded_text(megabytes / kGigabyte) + " GB";
+}
+
+Error too_large(std::string_view backend, double factors, double work, int count,
+                const std::string& there_is, const char* cure) {
+  return {ErrorCode::kOutOfMemory,
+          std::string(backend) + " needs about " + size_text(factors) + " for " +
+              counted_text(static_cast<std::size_t>(count), "factor", "factors") + " and " +
+              size_text(work) + " to make them, and " + there_is + "; " + cure};
+}
+
+bool uses_free_border(BoundaryRule rule) { return rule != BoundaryRule::kDirichlet; }
+bool uses_held_border(BoundaryRule rule) { return rule != BoundaryRule::kNeumann; }
+
+}  // namespace
+
+FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, bool poisson_kept,
+                        int threads) {
+  int heat = 0, missing = 0;
+  for (const auto uses : {uses_free_border, uses_held_border}) {
+    if (!uses(rule)) continue;
+    ++heat;
+    missing += !kept || !uses(*kept);
+  }
+  const bool both = missing > 0 && !poisson_kept;
+  return {heat + 1, missing + !poisson_kept, both && threads > 1 ? 2 : 1};
+}
+
+Result<void> check_factor_memory(const Analysis& analysis, std::string_view backend,
+                                 const FactorPlan& plan, double limit_mb) {
+  const auto one = static_cast<double>(analysis.factor_bytes());
+  const double work =
+      static_cast<double>(analysis.work_bytes()) * std::min(plan.at_once, plan.missing);
+  if (one == 0) return {};
+  if (limit_mb > 0) {
+    const double all = one * plan.factors;
+    if (all + work <= limit_mb * kMegabyte) return {};
+    return too_large(backend, all, work, plan.factors,
+                     "the limit is " + size_text(limit_mb * kMegabyte),
+                     "raise --memory-limit, try --backend cg, which holds no factor, or take a "
+                     "mesh with fewer faces");
+  }
+  const double missing = one * plan.missing;
+  if (missing + work <= kUnasked) return {};
+  const auto free = free_memory();
+  if (!free || missing + work <= static_cast<double>(*free)) return {};
+  return too_large(backend, missing, work, plan.missing,
+                   size_text(static_cast<double>(*free)) + " are free",
+                   "close other programs, try --backend cg, which holds no factor, or take a mesh "
+                   "with fewer faces");
+}
+
+}  // namespace geotherm

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "solver/core/result.h"
+#include "solver/heat/heat_options.h"
+#include "solver/linear/backend.h"
+
+namespace geotherm {
+
+/// The factors that a method needs.
+struct FactorPlan {
+  int factors = 2;  ///< that it will hold
+  int missing = 2;  ///< of those, that are still to be made
+  int at_once = 1;  ///< of the missing, made side by side
+};
+
+/// `kept`: the rule whose factors of the heat step are there already. With several threads both
+/// steps are set up at once.
+FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, bool poisson_kept,
+                        int threads);
+
+/// Says no before the memory ends. With `limit_mb` > 0 (in 2^20 bytes) all factors and the working
+/// space of those that are made must stay below it; otherwise what is still missing must fit into
+/// free_memory(). What holds no factor always fits. Error kOutOfMemory, with what is needed, what
+/// there is, and the cure.
+Result<void> check_factor_memory(const Analysis& analysis, std::string_view backend,
+                                 const FactorPlan& plan, double limit_mb);
+
+}  // namespace geotherm

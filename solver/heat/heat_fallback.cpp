@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The parts of HeatMethod that go on with another backend where one fails.
+#include <new>
+
+#include "solver/core/stopwatch.h"
+#include "solver/heat/heat_state.h"
+
+namespace geotherm {
+namespace {
+
+HeatOptions with_backend(HeatOptions options, const std::string& backend) {
+  options.backend = backend;
+  return options;
+}
+
+}  // namespace
+
+Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
+                                     const HeatOptions& options, const Progress& progress) try {
+  const std::string asked = backend_name(options);
+  if (const auto known = find_backend(asked); !known) return known.error();
+  if (const auto valid = check_options(options); !valid) return valid.error();
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
+  const Stopwatch watch;
+  std::vector<Fallback> failed;
+  auto method = first_that_works<HeatMethod>(
+      asked, options.strict, failed,
+      [&](const std::string& backend, std::span<const Fallback> before) {
+        return set_up(mesh, with_backend(options, backend), before, watched);
+      });
+  if (!method) return method;
+  auto timed = std::make_shared<State>(*method->state_);
+  timed->timing.setup = watch.milliseconds();
+  return HeatMethod(std::move(timed));
+} catch (const std::bad_alloc&) {
+  return out_of_memory_error("set-up", mesh->face_count(), backend_name(options));
+}
+
+Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const
+    try {
+  if (const auto valid = check_options(options); !valid) return valid.error();
+  const std::string asked = backend_name(options);
+  const std::string& at_work = state_->options.backend;
+  const bool taken_over = asked == state_->asked() && !options.strict &&
+                          options.memory_limit_mb == state_->options.memory_limit_mb;
+  if (options.laplacian != state_->options.laplacian || (asked != at_work && !taken_over)) {
+    return build(state_->surface->mesh, options, progress);
+  }
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
+  std::vector<Fallback> failed;
+  if (asked != at_work) failed = state_->failed;
+  return first_that_works<HeatMethod>(
+      at_work, options.strict, failed,
+      [&](const std::string& backend, std::span<const Fallback> before) {
+        const HeatOptions tried = with_backend(options, backend);
+        return backend == at_work ? factorised(tried, before, watched)
+                                  : set_up(state_->surface->mesh, tried, before, watched);
+      });
+} catch (const std::bad_alloc&) {
+  return out_of_memory_error("factorisation", state_->surface->mesh->face_count(),
+                             backend_name(options));
+}
+
+/// Waits for a thread that sets the same one up.
+Result<HeatMethod> HeatMethod::substitute(const std::string& backend,
+                                          std::span<const Fallback> failed,
+                                          const Progress& progress) const {
+  const std::lock_guard lock(state_->substitutes->mutex);
+  auto& methods = state_->substitutes->methods;
+  if (const auto known = methods.find(backend); known != methods.end()) return known->second;
+  Trial<HeatMethod> made =
+      set_up(state_->surface->mesh, with_backend(state_->options, backend), failed, progress);
+  if (made.outcome) methods.emplace(backend, *made.outcome);
+  return std::move(made.outcome);
+}
+
+Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
+                                                           const QueryOptions& query,
+                                                           const Progress& progress) const try {
+  using Results = std::vector<DistanceResult>;
+  const std::string& at_work = state_->options.backend;
+  std::string backend = at_work;
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
+  std::vector<Fallback> failed = state_->failed;
+  auto results = first_that_works<Results>(
+      at_work, state_->options.strict, failed,
+      [&](const std::string& tried, std::span<const Fallback> before) -> Trial<Results> {
+        backend = tried;
+        if (tried == at_work) return ask(sets, query, watched);
+        constexpr double kSetUpShare = 0.5;
+        const auto other = substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
+        if (!other) return {other.error(), Successor::kAny};
+        return other->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
+      });
+  if (!results) return results;
+  failed.erase(failed.begin(), failed.begin() + std::ssize(state_->failed));
+  for (DistanceResult& result : *results) {
+    result.backend = backend;
+    result.fallbacks = failed;
+    if (!failed.empty()) result.warnings.push_back(takeover_text(failed, backend));
+  }
+  return results;
+} catch (const std::bad_alloc&) {
+  return out_of_memory_error("query", state_->surface->mesh->face_count(), state_->options.backend);
+}
+
+const std::vector<Fallback>& HeatMethod::fallbacks() const { return state_->failed; }
+
+}  // namespace geotherm

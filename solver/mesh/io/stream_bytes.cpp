@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/io/stream_bytes.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "solver/core/free_memory.h"
+#include "solver/mesh/io/mapped_file.h"
+
+namespace geotherm::io {
+namespace {
+
+constexpr std::size_t kStep = std::size_t{1} << 20;
+
+/// Bytes that may be taken: while a buffer grows the old one is there as well.
+std::size_t most_bytes() {
+  const auto free = free_memory();
+  if (!free) return std::numeric_limits<std::size_t>::max() / 4;
+  return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
+}
+
+Error too_large(const std::string& name, std::size_t size) {
+  return {ErrorCode::kOutOfMemory, name + ": not enough memory for a model of more than " +
+                                       std::to_string(size) +
+                                       " bytes from a stream; write it to a file and name that"};
+}
+
+}  // namespace
+
+Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
+  StreamBytes out;
+  try {
+    const std::size_t most = most_bytes();
+    for (;;) {
+      if (out.buffer_.size() < out.size_ + kStep + MappedFile::kPadding) {
+        if (out.size_ + kStep > most) return too_large(name, out.size_);
+        const std::size_t grown = std::min(most, out.size_ + std::max(kStep, out.size_ / 2));
+        out.buffer_.resize(grown + MappedFile::kPadding);
+      }
+      const std::size_t room = out.buffer_.size() - MappedFile::kPadding - out.size_;
+      const ssize_t got = ::read(descriptor, out.buffer_.data() + out.size_, room);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) {
+        return Error{ErrorCode::kBadFile,
+                     name + ": cannot be read: " + std::generic_category().message(errno)};
+      }
+      if (got == 0) break;
+      out.size_ += static_cast<std::size_t>(got);
+    }
+  } catch (const std::bad_alloc&) {
+    return too_large(name, out.size_);
+  } catch (const std::length_error&) {
+    return too_large(name, out.size_);
+  }
+  if (out.size_ == 0) return Error{ErrorCode::kBadFile, name + ": there was nothing to read"};
+  std::fill(out.buffer_.begin() + static_cast<std::ptrdiff_t>(out.size_), out.buffer_.end(), '\0');
+  return out;
+}
+
+}  // namespace geotherm::io

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/subdivide.h"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "solver/mesh/edge_table.h"
+
+namespace geotherm {
+namespace {
+
+/// What TriangleMesh can number.
+constexpr std::int64_t kMost = std::numeric_limits<Index>::max() / 3;
+
+struct Arrays {
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+};
+
+bool repeats_corner(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
+
+/// The midpoint of each side, numbered from `first` in the order of the edges; kNoIndex for faces
+/// that repeat a corner.
+std::vector<Face> add_midpoints(std::vector<Vec3>& positions, const std::vector<Face>& faces) {
+  std::vector<Face> whole;
+  std::vector<Index> number;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (repeats_corner(faces[f])) continue;
+    whole.push_back(faces[f]);
+    number.push_back(static_cast<Index>(f));
+  }
+  const auto first = static_cast<Index>(positions.size());
+  const EdgeTable edges(first, whole);
+  positions.reserve(positions.size() + static_cast<std::size_t>(edges.edge_count()));
+  std::vector<Face> middles(faces.size(), Face{kNoIndex, kNoIndex, kNoIndex});
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    positions.push_back(0.5 * positions[edges.low(e)] + 0.5 * positions[edges.high(e)]);
+    for (const Side side : edges.sides(e)) {
+      middles[number[face_of(side)]][corner_of(side)] = first + e;
+    }
+  }
+  return middles;
+}
+
+void cut_into_four(Arrays& mesh) {
+  const std::vector<Face> middles = add_midpoints(mesh.positions, mesh.faces);
+  std::vector<Face> parts;
+  parts.reserve(4 * mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto [a, b, c] = mesh.faces[f];
+    const auto [ab, bc, ca] = middles[f];
+    if (ab == kNoIndex) {
+      parts.insert(parts.end(), 4, mesh.faces[f]);
+    } else {
+      parts.insert(parts.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+  }
+  mesh.faces = std::move(parts);
+}
+
+/// How often at most, and the number of faces then.
+std::pair<int, std::int64_t> most_times(std::int64_t faces) {
+  int times = 0;
+  for (; 4 * faces <= kMost; faces *= 4) ++times;
+  return {times, faces};
+}
+
+Result<void> check(std::int64_t faces, int times) {
+  const auto [most, result] = most_times(faces);
+  if (times >= 0 && times <= most) return {};
+  return Error{ErrorCode::kBadInput,
+               "a mesh of " + std::to_string(faces) + " faces cannot be refined " +
+                   std::to_string(times) + " times (at most " + std::to_string(kMost) +
+                   " faces can be numbered); refine it at most " + std::to_string(most) +
+                   " times, to " + std::to_string(result) + " faces"};
+}
+
+}  // namespace
+
+Result<TriangleMesh> subdivide(const TriangleMesh& mesh, int times) try {
+  if (auto possible = check(mesh.face_count(), times); !possible) return possible.error();
+  Arrays arrays{{mesh.positions().begin(), mesh.positions().end()},
+                {mesh.faces().begin(), mesh.faces().end()}};
+  for (int i = 0; i < times; ++i) cut_into_four(arrays);
+  return TriangleMesh::build(std::move(arrays.positions), std::move(arrays.faces));
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended while " + std::to_string(mesh.face_count()) +
+                   " faces were refined " + std::to_string(times) +
+                   " times, each time to four times as many; refine less often"};
+}
+
+SurfacePoint subdivided_point(SurfacePoint point, int times) {
+  if (point.is_vertex()) return point;
+  for (int i = 0; i < times; ++i) {
+    const std::array<double, 3> w = point.weights;
+    const auto corner = std::ranges::find_if(w, [](double x) { return x >= 0.5; }) - w.begin();
+    point.face = 4 * point.face + static_cast<Index>(corner);  // 3: the part in the middle
+    if (corner == 3) {
+      for (int k = 0; k < 3; ++k) point.weights[k] = std::max(0.0, 1 - 2 * w[previous_corner(k)]);
+      continue;
+    }
+    for (int k = 0; k < 3; ++k) point.weights[k] = k == corner ? 2 * w[k] - 1 : 2 * w[k];
+  }
+  // The sum of weights may have been off by a rounding error, which every step doubles.
+  const double sum = point.weights[0] + point.weights[1] + point.weights[2];
+  for (double& w : point.weights) w /= sum;
+  return point;
+}
+
+std::vector<Index> subdivided_side(std::span<const Face> faces, Index f, int k, int times) {
+  const int parts = 1 << times;
+  std::vector<Index> vertices;
+  for (int i = 0; i <= parts; ++i) {
+    SurfacePoint point = SurfacePoint::in_face(f, {});
+    point.weights[next_corner(k)] = static_cast<double>(i) / parts;
+    point.weights[k] = 1 - point.weights[next_corner(k)];
+    point = subdivided_point(point, times);
+    const auto corner = std::ranges::find(point.weights, 1.0) - point.weights.begin();
+    vertices.push_back(faces[point.face][static_cast<std::size_t>(corner)]);
+  }
+  return vertices;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/geometry/intrinsic_surface.h"
+#include "solver/method/distance_method.h"
+
+namespace geotherm {
+
+/// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
+/// vertices that are one (TriangleMesh::same_as()). Immutable.
+class MeshMapping {
+ public:
+  /// `refine`: how often faces are cut; at 0 the mesh is solved on as it is, and only vertices that
+  /// are one count. Errors: those of subdivide(). Cost: that, and O(F).
+  static Result<MeshMapping> build(std::shared_ptr<const TriangleMesh> mesh, int refine);
+
+  const TriangleMesh& mesh() const { return *mesh_; }
+  const std::shared_ptr<const TriangleMesh>& inner() const { return inner_; }  ///< solved on
+  int refine() const { return refine_; }
+  double milliseconds() const { return milliseconds_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The same sources on the inner mesh; source_groups() are the same. Errors: those of
+  /// check_sources(), with the numbers of the outer mesh.
+  Result<SourceSet> inner_sources(const SourceSet& sources) const;
+
+  /// Values of the inner mesh's vertices become those of the outer mesh's.
+  void take_back(DistanceResult& result) const;
+
+ private:
+  MeshMapping() = default;
+  void add_edge(const std::array<Index, 2>& edge, std::vector<std::array<Index, 2>>& edges) const;
+
+  std::shared_ptr<const TriangleMesh> mesh_, inner_;
+  int refine_ = 0;
+  IntrinsicSurface surface_;  ///< of the outer mesh, without lengths; only where it is refined
+  double milliseconds_ = 0;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace geotherm

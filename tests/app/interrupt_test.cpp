@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Signals at any moment of a run: each output is absent or whole, and nothing else is left.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+
+#include "tests/app/program.h"
+
+namespace geotherm::test {
+namespace {
+
+constexpr std::uint64_t kSeed = 20254;
+
+class Interrupt : public testing::TestWithParam<int> {};
+
+TEST_P(Interrupt, EndsTheProgramByTheSignalWithoutHalfAFile) {
+  constexpr int kRuns = 5;
+  const std::vector<std::string> arguments = {"generate", "terrain", "--faces",
+                                              "40000",    "-o",      "terrain.obj"};
+  std::size_t whole = 0;
+  {
+    const TemporaryDirectory folder;
+    ASSERT_EQ(run_program(folder.path("."), arguments).code, 0);
+    whole = bytes_of(folder.path("terrain.obj")).size();
+  }
+  std::mt19937_64 random(kSeed);
+  for (int i = 0; i < kRuns; ++i) {
+    const TemporaryDirectory folder;
+    const RunningProgram program(folder.path("."), arguments);
+    ::usleep(static_cast<useconds_t>(5000 + random() % 60000));
+    program.signal(GetParam());
+    const ProgramRun run = program.wait();
+    EXPECT_TRUE(run.code == 0 || run.code == 128 + GetParam()) << run.code << run.err;
+    EXPECT_EQ(run.err, "");
+    for (const std::string& name : folder.names()) {
+      EXPECT_EQ(name, "terrain.obj");
+      EXPECT_EQ(bytes_of(folder.path(name)).size(), whole);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& test) {
+                           if (test.param == SIGINT) return "Sigint";
+                           return test.param == SIGTERM ? "Sigterm" : "Sighup";
+                         });
+
+TEST(IgnoredSignal, StaysIgnored) {
+  const TemporaryDirectory folder;
+  const auto before = ::signal(SIGHUP, SIG_IGN);  // as nohup does
+  const RunningProgram program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "a.csv"});
+  ::signal(SIGHUP, before);
+  ::usleep(20000);
+  program.signal(SIGHUP);
+  EXPECT_EQ(program.wait().code, 0);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"a.csv"});
+}
+
+}  // namespace
+}  // namespace geotherm::test

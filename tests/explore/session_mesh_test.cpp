@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What a session does to the mesh before it solves: refining, welding, other formats.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/explore/session_fixture.h"
+
+namespace geotherm::app {
+namespace {
+
+class SessionMesh : public SessionFixture {
+ protected:
+  /// Two unit squares whose common side is cracked by a thousandth.
+  std::string cracked(const std::string& name) const {
+    write(folder() + name,
+          "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1.001 0 0\nv 2 0 0\nv 2 1 0\nv 1.001 1 0\n"
+          "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 5 7 8\n");
+    return folder() + name;
+  }
+
+  const DistanceResult& shown() const { return session.explored().a->result; }
+};
+
+TEST_F(SessionMesh, RefiningLessensTheErrorAtTheSameVertices) {
+  run({"open " + small_model(), "source set 5", "check exact"});
+  for (const char* method : {"heat", "fast-marching"}) {
+    run({std::string("method ") + method, "refine 0"});
+    const double coarse = session.explored().a->error->figures.mean_relative;
+    run({"keep", "refine 2", "show difference"});
+    EXPECT_LT(session.explored().a->error->figures.mean_relative, 0.8 * coarse) << method;
+    EXPECT_EQ(shown().distances.size(), session.explored().b->result.distances.size());
+    EXPECT_GT(session.explored().difference->most, 0);
+    run({"forget"});
+  }
+}
+
+TEST_F(SessionMesh, ARefinedMethodDoesNotServeForTheMeshItself) {
+  run({"open " + small_model(), "source set 5"});
+  for (const char* method : {"wavefront", "heat"}) {
+    run({std::string("method ") + method});
+    const std::vector<double> plain = shown().distances;
+    run({"refine 1"});
+    EXPECT_NE(shown().distances, plain) << method;
+    run({"refine 0"});
+    EXPECT_EQ(shown().distances, plain) << method;
+  }
+}
+
+TEST_F(SessionMesh, WeldingReadsTheModelAgainAndIsUndone) {
+  run({"open " + cracked("a.obj"), "source set 0"});
+  EXPECT_TRUE(std::isinf(shown().distances[6]));
+  run({"weld 0.002"});
+  EXPECT_TRUE(std::isfinite(shown().distances[6]));
+  EXPECT_EQ(shown().distances[4], shown().distances[1]);
+  run({"undo"});
+  EXPECT_TRUE(std::isinf(shown().distances[6]));
+  run({"redo", "open " + small_model()});
+  EXPECT_EQ(session.state().reading, ModelReading()) << "it belonged to the other model";
+}
+
+TEST_F(SessionMesh, ASavedSessionHoldsHowTheModelIsRead) {
+  const std::string saved = folder() + "s.geotherm";
+  std::vector<Command> commands;
+  for (const std::string& line : {"open " + cracked("a.txt"), std::string("format obj"),
+                                  std::string("weld 0.002"), std::string("source set 0")}) {
+    commands.push_back(*parse_command(line));
+  }
+  const auto done = session.submit_all(commands);
+  ASSERT_TRUE(done) << done.error().message;
+  run({"save session " + saved, "open " + small_model(), "run " + saved});
+  EXPECT_EQ(session.state().reading.format, "obj");
+  EXPECT_TRUE(std::isfinite(shown().distances[6]));
+}
+
+TEST_F(SessionMesh, SaysWhyAModelCannotBeReadSo) {
+  run({"open " + cracked("b.obj"), "source set 0"});
+  const auto done = session.submit(*parse_command("weld 9"));
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("every face collapses"), std::string::npos);
+  run({"undo"});
+  EXPECT_EQ(shown().distances[0], 0);
+  EXPECT_FALSE(session.submit(*parse_command("open -")));
+}
+
+}  // namespace
+}  // namespace geotherm::app

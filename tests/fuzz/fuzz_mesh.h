@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/mesh/surface_point.h"
+#include "solver/method/build_method.h"
+#include "tests/fuzz/fuzz_targets.h"
+
+namespace geotherm::test {
+
+/// What arbitrary bytes ask of the solver.
+struct FuzzCase {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< null: too few bytes for one
+  MethodOptions options;                     ///< of any method
+  SourceSet sources;                         ///< may be wrong
+};
+
+/// Up to 40 vertices on a coarse grid, which makes degenerate and coinciding faces likely, or
+/// anywhere, at any scale and place; up to 80 faces of any corners. Every text of bytes is a case.
+FuzzCase decode_case(Bytes bytes);
+
+}  // namespace geotherm::test

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+// What is fed with arbitrary bytes, by libFuzzer (docs/testing.md) and by the replay of the corpus.
+// Each returns what is wrong, for people, or nothing. Errors of the library are not wrong: a crash,
+// a NaN and an error that is not one sentence are.
+namespace geotherm::test {
+
+using Bytes = std::span<const std::uint8_t>;
+
+// The bytes of a file, through its reader.
+std::string fuzz_obj(Bytes bytes);
+std::string fuzz_ply(Bytes bytes);
+std::string fuzz_off(Bytes bytes);
+std::string fuzz_stl(Bytes bytes);
+
+/// A script: parsed, applied to the state of a viewer and written again. Each line is read as a
+/// source and as the value of an option, too.
+std::string fuzz_command(Bytes bytes);
+
+/// Options, a small mesh and sources (fuzz_mesh.h), solved by one method after the other.
+std::string fuzz_solve(Bytes bytes);
+
+/// What is wrong with the message of an error, or nothing: it is one line without control
+/// characters and not long, but for so many bytes that it may quote.
+std::string message_fault(const std::string& message, std::size_t quoted = 0);
+
+}  // namespace geotherm::test

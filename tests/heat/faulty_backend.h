@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "solver/linear/backend.h"
+
+namespace geotherm::test {
+
+/// Where a backend fails.
+enum class Fault { kAnalysis, kFactor, kSolve, kNone };
+
+/// "faulty": the last direct backend of the build, but for one step, which ends with this error.
+std::unique_ptr<const Backend> faulty_backend(Fault fault, Error error);
+
+}  // namespace geotherm::test

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// A signal at any moment of a write: the target is as it was or whole, and nothing lies beside it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "solver/mesh/unfinished_files.h"
+#include "solver/mesh/write_file.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+constexpr int kInterruptions = 25;
+constexpr std::uint64_t kSeed = 20252;
+constexpr std::size_t kBytes = 4 << 20;  // most of the time of a write lies between begin and end
+
+extern "C" void remove_and_end(int number) {
+  remove_unfinished_files();
+  ::raise(number);
+}
+
+/// In the child: writes the same two files again and again on two threads, until a signal ends it.
+[[noreturn]] void write_for_ever(const TemporaryDirectory& folder, const std::string& bytes) {
+  struct sigaction action {};
+  action.sa_handler = remove_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGTERM, &action, nullptr);
+  const auto write = [&](const char* name) {
+    while (write_file(folder.path(name), bytes)) continue;
+    for (;;) ::pause();  // refused: the handler is at work
+  };
+  std::thread other(write, "a");
+  write("b");
+  ::_exit(1);
+}
+
+TEST(InterruptedWrite, LeavesWholeFilesAndNoOthers) {
+  const std::string bytes(kBytes, 'x');
+  std::mt19937_64 random(kSeed);
+  int written = 0;
+  for (int i = 0; i < kInterruptions; ++i) {
+    const TemporaryDirectory folder;
+    const pid_t child = ::fork();
+    if (child == 0) write_for_ever(folder, bytes);
+    ::usleep(static_cast<useconds_t>(2000 + random() % 10000));
+    ::kill(child, SIGTERM);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+    for (const std::string& name : folder.names()) {
+      EXPECT_TRUE(name == "a" || name == "b") << name;
+      EXPECT_EQ(bytes_of(folder.path(name)).size(), kBytes) << name;
+      ++written;
+    }
+  }
+  EXPECT_GT(written, 0);
+}
+
+}  // namespace
+}  // namespace geotherm::test
