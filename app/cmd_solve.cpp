@@ -12,6 +12,7 @@
 #include "app/report_table.h"
 #include "app/solve_fields.h"
 #include "app/solve_model.h"
+#include "solver/heat/heat_method.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
 
@@ -43,7 +44,8 @@ Result<void> check_answer(SolveFigures& figures, const Progress& progress) {
     if (!report) return report.error();
     figures.error = *std::move(report);
     if (!needs_cause(*figures.error, options.method)) return {};
-    return find_cause(*figures.error, figures.model.mesh, options, figures.sources,
+    return find_cause(*figures.error, figures.model.mesh, options,
+                      figures.method->heat()->relative_t(), figures.sources,
                       figures.result.distances, with_prefix(progress, "finding the cause: "));
   };
   const auto checked = check();

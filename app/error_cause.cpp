@@ -2,6 +2,7 @@
 #include "app/error_cause.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,10 @@ std::string way_out(const Diagnosis& diagnosis, const MethodOptions& options, In
   if (diagnosis.refined) {
     return "neither another option nor more faces lower it much; the method wavefront is nearer";
   }
-  return "no other option lowers it much; try --refine " + std::to_string(options.refine + 1) +
-         " or --method wavefront-fine";
+  const std::int64_t refined = std::int64_t{faces} << (2 * (options.refine + 1));
+  return "no other option lowers it much; --refine " + std::to_string(options.refine + 1) +
+         " was not tried, for its " + grouped(refined) + " faces are more than " +
+         grouped(kMostFacesDiagnosed) + "; try it or --method wavefront-fine";
 }
 
 }  // namespace
@@ -31,12 +34,12 @@ bool needs_cause(const ErrorReport& report, MethodKind checked) {
 }
 
 Result<void> find_cause(ErrorReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                        const MethodOptions& options, const SourceSet& sources,
+                        const MethodOptions& options, double relative_t, const SourceSet& sources,
                         std::span<const double> distances, const Progress& progress) {
   std::vector<double> better(distances.begin(), distances.end());
   for (std::size_t v = 0; v < better.size(); ++v) better[v] -= report.values[v];
   for (double& d : better) d = std::isfinite(d) ? d : kUnreached;
-  auto diagnosis = diagnose(mesh, options, sources, distances, better, progress);
+  auto diagnosis = diagnose(mesh, options, relative_t, sources, distances, better, progress);
   if (!diagnosis) return diagnosis.error();
   const std::string error =
       grade(report.figures.mean_relative) + ": " + percent(report.figures.mean_relative);

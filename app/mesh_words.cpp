@@ -3,6 +3,7 @@
 
 #include "app/text.h"
 #include "solver/core/number_text.h"
+#include "solver/heat/auto_laplacian.h"
 
 namespace geotherm::app {
 namespace {
@@ -13,16 +14,16 @@ constexpr double kNeedle = 0.01;
 }  // namespace
 
 LaplacianChoice auto_laplacian(const MeshReport& mesh) {
-  if (mesh.tufted_components > 0) {
-    return {LaplacianKind::kTufted, grouped(mesh.tufted_components) + " of " +
-                                        counted(mesh.components, "component is", "components are") +
-                                        " no oriented manifold along all edges"};
+  const LaplacianKind kind = auto_kind(mesh);
+  if (kind == LaplacianKind::kTufted) {
+    return {kind, grouped(mesh.tufted_components) + " of " +
+                      counted(mesh.components, "component is", "components are") +
+                      " no oriented manifold along all edges"};
   }
-  if (mesh.non_delaunay_edges > 0) {
-    return {LaplacianKind::kIntrinsicDelaunay,
-            counted(mesh.non_delaunay_edges, "edge is", "edges are") + " not Delaunay"};
+  if (kind == LaplacianKind::kIntrinsicDelaunay) {
+    return {kind, counted(mesh.non_delaunay_edges, "edge is", "edges are") + " not Delaunay"};
   }
-  return {LaplacianKind::kCotan, "every inner edge is Delaunay"};
+  return {kind, "every inner edge is Delaunay"};
 }
 
 std::string mesh_in_words(const MeshReport& mesh) {
@@ -36,7 +37,7 @@ std::string mesh_in_words(const MeshReport& mesh) {
 
 std::string crack_note(const CrackReport& cracks) {
   const std::string distance = number_text(cracks.distance);
-  return counted(cracks.vertices, "border vertex lies", "border vertices lie") +
+  return counted(cracks.vertices, "vertex lies", "vertices lie") +
          (cracks.distance > 0 ? " within " + distance + " of another"
                               : " exactly where another one does") +
          ": the surface is cracked; --weld " + distance + " closes " +

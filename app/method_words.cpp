@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/text.h"
+#include "solver/heat/option_text.h"
 
 namespace geotherm::app {
 
@@ -22,5 +23,7 @@ std::string method_caption(const DistanceMethod& method) {
   const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
   return (is_double ? "t = " + significant(t) + ", " : "") + heat->options().backend;
 }
+
+std::string laplacian_name(const HeatMethod& method) { return to_text(method.laplacian()); }
 
 }  // namespace geotherm::app

@@ -17,4 +17,7 @@ std::string solver_at_work(const DistanceMethod& method, const DistanceResult& r
 /// "t = 0.0123, cholmod", or the name of another method.
 std::string method_caption(const DistanceMethod& method);
 
+/// "cotan", or what else the Laplacian of a method is that was built.
+std::string laplacian_name(const HeatMethod& method);
+
 }  // namespace geotherm::app

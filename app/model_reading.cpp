@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/model_reading.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/option_value.h"
 #include "app/text.h"
+#include "solver/mesh/read_mesh.h"
 
 namespace geotherm::app {
 
@@ -21,10 +21,9 @@ Result<ModelReading> model_reading(const ReadingArguments& arguments) {
 
 Result<std::string> parse_format(const std::string& text) {
   if (text.empty() || text == "auto") return std::string();
-  constexpr std::string_view kFormats[] = {"obj", "ply", "off", "stl"};
-  if (std::ranges::find(kFormats, text) != std::end(kFormats)) return text;
-  return Error{ErrorCode::kNotAvailable,
-               "'" + one_line(text) + "' is no format of models; there are obj, ply, off, stl"};
+  const auto known = check_mesh_format(text);
+  if (!known) return known.error();
+  return text;
 }
 
 Result<std::optional<double>> parse_weld(const std::string& text) {

@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "app/explore/settings.h"
 #include "app/method_words.h"
@@ -30,12 +31,20 @@ void draw_named_choice(Frame& frame, std::string_view name, std::string_view lab
   if (chosen) frame.set(name, *chosen + value(*chosen));
 }
 
-/// t as the present settings mean it, rounded so that it can be read.
+/// The t that the present settings mean, as far as it is known without solving: with several
+/// components each has its own, and refined faces are not there yet.
+std::optional<double> time_now(const Frame& frame) {
+  const MethodOptions& options = frame.state().options;
+  if (!frame.model() || frame.model()->mesh.components != 1 || options.refine != 0) return {};
+  return app::diffusion_time(options.time_step, frame.model()->mesh);
+}
+
+/// That t, or else the one of the answer, rounded so that it can be read.
 std::string rounded_time(const Frame& frame) {
-  const double t = frame.model()
-                       ? app::diffusion_time(frame.state().options.time_step, frame.model()->mesh)
-                       : 0.01;
-  return app::significant(t, 4);
+  const app::Answer* answer = frame.answer();
+  const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
+  const double other = heat ? heat->t() : 0.01;
+  return app::significant(time_now(frame).value_or(other), 4);
 }
 
 void draw_factor(Frame& frame) {
@@ -77,16 +86,17 @@ void draw_time(Frame& frame) {
     draw_factor(frame);
   }
   if (!frame.model()) return;
-  if (frame.state().options.refine == 0) {  // else h and A/F are those of faces not there yet
-    const double t = app::diffusion_time(step, frame.model()->mesh);
-    draw_value(frame, "t now", app::significant(t), "",
+  if (const auto t = time_now(frame)) {
+    draw_value(frame, "t now", app::significant(*t), "",
                "Diffusion time that these settings mean, model units squared.");
   }
   const app::Answer* answer = frame.answer();
   if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
-    draw_value(frame, "t of the answer", app::significant(heat->t()), "",
-               "Diffusion time that the distances shown were computed with.",
-               frame.session.stale() ? frame.colours().warning : frame.colours().text);
+    draw_value(
+        frame, "t of the answer", app::significant(heat->t()), "",
+        "Diffusion time that the distances shown were computed with, of the component with most "
+        "faces.",
+        frame.session.stale() ? frame.colours().warning : frame.colours().text);
   }
 }
 
@@ -115,7 +125,7 @@ void draw_constraint(Frame& frame) {
   }
 }
 
-/// The backend that was asked for, the one at work where that is another, and what rules this.
+/// The backend that was asked for, and the one at work where that is another.
 void draw_backend(Frame& frame) {
   draw_setting_choice(frame, "backend", "backend");
   const app::Answer* answer = frame.answer();
@@ -123,9 +133,14 @@ void draw_backend(Frame& frame) {
     draw_value(frame, "at work", answer->result.backend, "",
                "The backend that was asked for failed; the log says why.", frame.colours().warning);
   }
-  draw_setting_flag(frame, "strict", "no other where it fails");
+}
+
+/// What backends may take, and what follows where they fail.
+void draw_limits(Frame& frame) {
+  draw_setting_field(frame, "threads", "threads");
   draw_setting_field(frame, "memory-limit", "memory limit", "",
                      "Most that factors may take, MB; free: what the machine has left.");
+  draw_setting_flag(frame, "strict", "no other backend where one fails");
 }
 
 void draw_failure(Frame& frame) {
@@ -139,11 +154,11 @@ void draw_failure(Frame& frame) {
 
 std::string laplacian_tip(const Frame& frame) {
   std::string tip =
-      "auto flips edges where weights would be negative; cotan takes the mesh as it is.";
+      "auto flips edges where weights would be negative, on the tufted cover where "
+      "edges have three faces; cotan takes the mesh as it is.";
   const app::Answer* answer = frame.answer();
   if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
-    const bool flipped = heat->laplacian() == LaplacianKind::kIntrinsicDelaunay;
-    tip += std::string("\nNow: ") + (flipped ? "intrinsic-delaunay" : "cotan") + ", " +
+    tip += "\nNow: " + app::laplacian_name(*heat) + ", " +
            app::counted(heat->flips(), "flip", "flips") + ".";
   }
   return tip;
@@ -185,7 +200,7 @@ void draw_solver_panel(Frame& frame) {
   draw_setting_choice(frame, "laplacian", "Laplacian", laplacian_tip(frame));
   draw_setting_choice(frame, "variant", "variant",
                       "corrected: this program's; classic: as first published.");
-  draw_setting_field(frame, "threads", "threads");
+  draw_limits(frame);
   draw_mesh_settings(frame);
 }
 

@@ -66,7 +66,8 @@ struct Explored {
   std::uint64_t version = 0;      ///< another one with every change
 };
 
-/// The t that a time step means on a mesh, model units squared.
+/// The t that a time step means on a mesh, model units squared. Precondition: it has one component;
+/// of several each has its own.
 double diffusion_time(const TimeStep& step, const MeshReport& mesh);
 
 /// A or B (for the difference: A); null while there is none.

@@ -10,6 +10,7 @@
 #include "solver/core/number_text.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
+#include "solver/mesh/read_mesh.h"
 
 namespace geotherm::app {
 namespace {
@@ -134,7 +135,7 @@ const std::vector<Setting>& all() {
        [](const State& s) { return to_text(s.options.laplacian); },
        [](State& s, const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
        [] {
-         return Names{"auto", "cotan", "intrinsic-delaunay"};
+         return Names{"auto", "cotan", "intrinsic-delaunay", "tufted"};
        }},
       {"variant", "how the method is discretised", true,
        [](const State& s) { return to_text(s.options.variant); },
@@ -172,7 +173,9 @@ const std::vector<Setting>& all() {
        [](const State& s) { return s.reading.format.empty() ? Text("auto") : s.reading.format; },
        [](State& s, const Text& t) { return store(parse_format(t), s.reading.format); },
        [] {
-         return Names{"auto", "obj", "ply", "off", "stl"};
+         Names names = mesh_formats();
+         names.insert(names.begin(), "auto");
+         return names;
        }},
       {"check", "what the distances are held against", false,
        [](const State& s) { return check_text(s.check); }, set_check,

@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/intrinsic_mesh.h"
-#include "solver/mesh/merge_close.h"
+#include "solver/mesh/repeats_corner.h"
+#include "solver/mesh/weld.h"
 
 namespace geotherm {
 namespace {
@@ -16,41 +19,28 @@ namespace {
 /// Of the mean edge: nothing, the rounding of 32-bit floats and of printed digits, a sloppy export.
 constexpr double kShares[] = {0, 1e-6, 1e-4, 1e-2};
 
-using Ends = std::array<Index, 2>;
-
-std::vector<Ends> border_of(const EdgeTable& edges) {
-  std::vector<Ends> border;
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    if (edges.sides(e).size() == 1) border.push_back({edges.low(e), edges.high(e)});
-  }
-  return border;
-}
-
-/// How many edges lie on another one. Precondition: the ends of each are sorted.
-Index count_shared(std::vector<Ends> edges) {
-  std::ranges::sort(edges);
-  Index shared = 0;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const bool before = i > 0 && edges[i - 1] == edges[i];
-    shared += before || (i + 1 < edges.size() && edges[i + 1] == edges[i]);
-  }
-  return shared;
-}
-
+/// The least number of one digit, such as 3e-05, that is not below x. Precondition: x > 0, finite.
 double one_digit_up(double x) {
-  const double unit = std::pow(10.0, std::floor(std::log10(x)));
-  return std::isnormal(unit) ? std::ceil(x / unit) * unit : x;
+  std::array<char, 32> buffer{};
+  char* const begin = buffer.data();
+  char* const end =
+      std::to_chars(begin, begin + buffer.size(), x, std::chars_format::scientific, 0).ptr;
+  double rounded = x;
+  std::from_chars(begin, end, rounded);
+  if (rounded >= x) return rounded;
+  const std::string up = std::to_string(*begin - '0' + 1) + std::string(begin + 1, end);
+  rounded = x;
+  std::from_chars(up.data(), up.data() + up.size(), rounded);
+  return rounded;
 }
 
+/// Tries distances on one mesh.
 class Seeker {
  public:
-  explicit Seeker(const TriangleMesh& mesh)
-      : mesh_(mesh), clean_(clean_faces(mesh)), border_(border_of(clean_.edges)) {
-    for (const Ends& edge : border_) vertices_.insert(vertices_.end(), edge.begin(), edge.end());
-    std::ranges::sort(vertices_);
-    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-    for (const Index v : vertices_) points_.push_back(mesh.positions()[v]);
-    same_as_.resize(static_cast<std::size_t>(mesh.vertex_count()));
+  explicit Seeker(const TriangleMesh& mesh) : mesh_(mesh), clean_(clean_faces(mesh)) {
+    for (Index e = 0; e < clean_.edges.edge_count(); ++e) {
+      if (clean_.edges.sides(e).size() == 1) border_.push_back(e);
+    }
   }
 
   CrackReport run() {
@@ -60,47 +50,48 @@ class Seeker {
     if (border_.empty() || !std::isfinite(mean)) return best;
     for (const double share : kShares) {
       const double distance = share > 0 ? one_digit_up(share * mean) : 0;
-      const Index merged = merge(distance);
-      if (collapses()) break;
-      const Index closed = count_closed();
-      if (closed > best.closed_edges) best = {merged, distance, best.border_edges, closed};
+      const auto welded = weld(mesh_, distance);
+      if (!welded || collapses(welded->mesh)) break;
+      const Index closed = count_closed(welded->mesh);
+      if (closed > best.closed_edges) {
+        best = {welded->merged, distance, best.border_edges, closed};
+      }
     }
     return best;
   }
 
  private:
-  Index merge(double distance) {
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) same_as_[v] = v;
-    const std::vector<Index> lowest = merge_close(points_, distance);
-    Index merged = 0;
-    for (std::size_t i = 0; i < vertices_.size(); ++i) {
-      same_as_[vertices_[i]] = vertices_[lowest[i]];
-      merged += vertices_[lowest[i]] != vertices_[i];
-    }
-    return merged;
+  /// Whether two corners lie on each other, so that any distance makes the face collapse.
+  bool is_collapsed(const Face& face) const {
+    const auto& p = mesh_.positions();
+    return p[face[0]] == p[face[1]] || p[face[1]] == p[face[2]] || p[face[2]] == p[face[0]];
   }
 
-  bool collapses() const {
-    return std::ranges::any_of(clean_.faces, [this](const Face& face) {
-      const Index a = same_as_[face[0]], b = same_as_[face[1]], c = same_as_[face[2]];
-      return a == b || b == c || c == a;
+  /// Whether a face repeats a corner that has three different ones, and at different places.
+  bool collapses(const TriangleMesh& welded) const {
+    return std::ranges::any_of(clean_.original, [&](Index f) {
+      return repeats_corner(welded.faces()[f]) && !is_collapsed(mesh_.faces()[f]);
     });
   }
 
-  Index count_closed() const {
-    std::vector<Ends> edges = border_;
-    for (Ends& edge : edges) {
-      for (Index& end : edge) end = same_as_[end];
-      std::ranges::sort(edge);
+  /// How many edges of the border have two faces or more.
+  Index count_closed(const TriangleMesh& welded) const {
+    const CleanFaces clean = clean_faces(welded);
+    std::vector<std::array<Index, 2>> inner;
+    for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+      if (clean.edges.sides(e).size() > 1)
+        inner.push_back({clean.edges.low(e), clean.edges.high(e)});
     }
-    return count_shared(std::move(edges));
+    return static_cast<Index>(std::ranges::count_if(border_, [&](Index e) {
+      const auto [low, high] = std::minmax(
+          {welded.standing_for(clean_.edges.low(e)), welded.standing_for(clean_.edges.high(e))});
+      return std::ranges::binary_search(inner, std::array<Index, 2>{low, high});
+    }));
   }
 
   const TriangleMesh& mesh_;
   CleanFaces clean_;
-  std::vector<Ends> border_;
-  std::vector<Index> vertices_, same_as_;
-  std::vector<Vec3> points_;
+  std::vector<Index> border_;  ///< edges with one face
 };
 
 }  // namespace

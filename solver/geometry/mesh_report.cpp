@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
+#include "solver/core/disjoint_sets.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
-#include "solver/geometry/disjoint_sets.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/tufted_cover.h"
 

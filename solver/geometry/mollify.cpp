@@ -2,7 +2,6 @@
 #include "solver/geometry/mollify.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "solver/geometry/face_components.h"
 
@@ -19,8 +18,8 @@ constexpr double kStrict = 1e-5;
 constexpr double kAim = 1.1 * kStrict;
 /// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
 constexpr double kPoint = 1e-70;
-/// Steps for each face at most: ordinary files take some three for each of the faces that fail.
-constexpr std::size_t kStepsPerFace = 20;
+/// Rounds at most: ordinary files take three.
+constexpr int kMostRounds = 100;
 
 /// What is missing to the triangle inequality over side k, at most 0 where it is strict enough.
 double missing(const Lengths& l, int k, double strict) {
@@ -48,54 +47,63 @@ std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths) {
 class LocalRepair {
  public:
   LocalRepair(std::vector<Lengths>& lengths, const EdgeTable& edges)
-      : lengths_(lengths), edges_(edges), edge_of_(3 * lengths.size()) {
+      : lengths_(lengths),
+        edges_(edges),
+        edge_of_(3 * lengths.size()),
+        wanted_(static_cast<std::size_t>(edges.edge_count()), 0.0) {
     for (Index e = 0; e < edges.edge_count(); ++e) {
       for (const Side side : edges.sides(e)) edge_of_[side] = e;
     }
   }
 
-  /// False where the work does not end.
-  bool run(std::vector<Index> queue) {
-    std::vector<char> queued(lengths_.size(), 0);
-    for (const Index f : queue) queued[f] = 1;
-    const std::size_t most = kStepsPerFace * lengths_.size() + 1000;
-    for (std::size_t next = 0; next < queue.size(); ++next) {
-      if (next > most) return false;
-      const Index f = queue[next];
-      queued[f] = 0;
-      if (!(addition(lengths_[f]) > 0)) continue;
-      for (int k = 0; k < 3; ++k) {
-        const double lack = missing(lengths_[f], k, kAim);
-        if (!(lack > 0)) continue;
-        // The shorter of the two takes the more: a needle keeps its long sides as they are.
-        const int i = next_corner(k), j = previous_corner(k);
-        const double a = lengths_[f][i], b = lengths_[f][j];
-        const double share = a + b > 0 ? b / (a + b) : 0.5;
-        lengthen(3 * f + i, share * lack);
-        lengthen(3 * f + j, (1 - share) * lack);
-      }
-      for (int k = 0; k < 3; ++k) {
-        for (const Side side : edges_.sides(edge_of_[3 * f + k])) {
-          const Index g = face_of(side);
-          if (queued[g]) continue;
-          queued[g] = 1;
-          queue.push_back(g);
+  /// In rounds, each of which sees the lengths that the one before has left: the order of faces
+  /// does not matter. False where the work does not end.
+  bool run(std::vector<Index> active) {
+    for (int round = 0; round < kMostRounds; ++round) {
+      std::vector<Index> called;
+      for (const Index f : active) ask_for(f, called);
+      if (called.empty()) return true;
+      active.clear();
+      for (const Index e : called) {
+        for (const Side side : edges_.sides(e)) {
+          lengths_[face_of(side)][corner_of(side)] += wanted_[e];
+          active.push_back(face_of(side));
         }
+        wanted_[e] = 0;
       }
+      std::ranges::sort(active);
+      active.erase(std::unique(active.begin(), active.end()), active.end());
     }
-    return true;
+    return false;
   }
 
  private:
-  void lengthen(Side side, double by) {
-    for (const Side other : edges_.sides(edge_of_[side])) {
-      lengths_[face_of(other)][corner_of(other)] += by;
+  /// What a face that fails wants of its edges, which are added to `called`.
+  void ask_for(Index f, std::vector<Index>& called) {
+    if (!(addition(lengths_[f]) > 0)) return;
+    for (int k = 0; k < 3; ++k) {
+      const double lack = missing(lengths_[f], k, kAim);
+      if (!(lack > 0)) continue;
+      // The shorter of the two takes the more: a needle keeps its long sides as they are.
+      const int i = next_corner(k), j = previous_corner(k);
+      const double a = lengths_[f][i], b = lengths_[f][j];
+      const double share = a + b > 0 ? b / (a + b) : 0.5;
+      want(edge_of_[3 * f + i], share * lack, called);
+      want(edge_of_[3 * f + j], (1 - share) * lack, called);
     }
+  }
+
+  /// Of several faces that want an edge longer, the one that wants most is heard.
+  void want(Index edge, double by, std::vector<Index>& called) {
+    if (!(by > 0)) return;
+    if (wanted_[edge] == 0) called.push_back(edge);
+    wanted_[edge] = std::max(wanted_[edge], by);
   }
 
   std::vector<Lengths>& lengths_;
   const EdgeTable& edges_;
   std::vector<Index> edge_of_;
+  std::vector<double> wanted_;  // of each edge in this round
 };
 
 void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& components) {

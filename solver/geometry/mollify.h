@@ -20,11 +20,11 @@ struct Mollification {
 /// (the condition of Sharp, Crane 2020, section 4.5, where one length is added to all edges). Here
 /// only edges of faces that fail are lengthened, the shorter ones of the face, and those of
 /// neighbours that fail because of it: a degenerate face leaves no trace a few faces away. Where
-/// this has no end within a bounded number of steps, the smallest common length that does it is
+/// this has no end within a hundred rounds, the smallest common length that does it is
 /// added to all edges of the component.
 ///
 /// `lengths`: F x 3, the same for all sides of an edge, in units of about their mean.
-/// Cost: O(F), and a few steps a failing face.
+/// Cost: O(F), and a few visits of each failing face.
 Mollification mollify(std::vector<std::array<double, 3>>& lengths, const CleanFaces& clean);
 
 }  // namespace geotherm

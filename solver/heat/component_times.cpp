@@ -31,7 +31,8 @@ Result<DiffusionTimes> diffusion_times(const Surface& surface, const TimeStep& s
     if (size.faces > surface.components[largest].faces) largest = c;
     t.push_back(unit_time(surface, size, step));
     relative.push_back(t.back() / size.mean_edge / size.mean_edge);
-    if (t.back() > 0 && std::isfinite(t.back())) continue;
+    const auto usable = [](double each) { return each > 0 && std::isfinite(each); };
+    if (usable(t.back()) && usable(relative.back())) continue;
     return Error{ErrorCode::kBadInput, "the diffusion time is " + rounded_text(relative.back()) +
                                            " squared mean edges, where an edge is " +
                                            rounded_text(size.mean_edge * surface.mean_edge) +

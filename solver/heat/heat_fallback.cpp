@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The parts of HeatMethod that go on with another backend where one fails.
+#include <chrono>
 #include <new>
+#include <thread>
 
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_state.h"
@@ -64,16 +66,22 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
 }
 
 /// Waits for a thread that sets the same one up.
-Result<HeatMethod> HeatMethod::substitute(const std::string& backend,
-                                          std::span<const Fallback> failed,
-                                          const Progress& progress) const {
-  const std::lock_guard lock(state_->substitutes->mutex);
+Trial<HeatMethod> HeatMethod::substitute(const std::string& backend,
+                                         std::span<const Fallback> failed,
+                                         const Progress& progress) const {
+  constexpr std::chrono::milliseconds kBetweenLooks(2);
+  std::unique_lock lock(state_->substitutes->mutex, std::defer_lock);
+  while (!lock.try_lock()) {
+    if (!report(progress, "analyze", 0.0)) return {cancelled_error()};
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
   auto& methods = state_->substitutes->methods;
   if (const auto known = methods.find(backend); known != methods.end()) return known->second;
   Trial<HeatMethod> made =
       set_up(state_->surface->mesh, with_backend(state_->options, backend), failed, progress);
-  if (made.outcome) methods.emplace(backend, *made.outcome);
-  return std::move(made.outcome);
+  const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
+  if (!cancelled) methods.emplace(backend, made);
+  return made;
 }
 
 Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const SourceSet> sets,
@@ -92,8 +100,8 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
         if (tried == at_work) return ask(sets, query, watched);
         constexpr double kSetUpShare = 0.5;
         const auto other = substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
-        if (!other) return {other.error(), Successor::kAny};
-        return other->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
+        if (!other.outcome) return {other.outcome.error(), other.successor};
+        return other.outcome->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
       });
   if (!results) return results;
   failed.erase(failed.begin(), failed.begin() + std::ssize(state_->failed));

@@ -137,7 +137,8 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
         }
       });
   if (!heat_done) {
-    const Error error = with_time_cure(heat_done.error(), next->times.extreme);
+    const Error error =
+        with_time_cure(heat_done.error(), next->times.extreme, options.time_step.rule);
     return {error, is_extreme_time(next->times.extreme) && error.code != ErrorCode::kOutOfMemory
                        ? Successor::kNone
                        : successor_of(error)};
@@ -159,15 +160,7 @@ Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> se
                                                    const Progress& progress) const try {
   const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson,
                                state_->options,  state_->times, *state_->pool};
-  auto results = run_queries(pipeline, sets, query, progress);
-  if (results) return {std::move(results)};
-  const Error& error = results.error();
-  if (error.code == ErrorCode::kOutOfMemory)
-    throw std::bad_alloc();  // for the sizes in the message
-  const bool fails = successor_of(error) != Successor::kNone;
-  const bool helpless =
-      error.code == ErrorCode::kNumericalFailure && is_extreme_time(state_->times.extreme);
-  return {error, fails && !helpless ? Successor::kFactored : Successor::kNone};
+  return run_queries(pipeline, sets, query, progress);
 } catch (const std::bad_alloc&) {
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
   return {

@@ -82,8 +82,8 @@ class HeatMethod final : public DistanceMethod {
                                const Progress& progress) const;
   Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
                                          const Progress& progress) const;
-  Result<HeatMethod> substitute(const std::string& backend, std::span<const Fallback> failed,
-                                const Progress& progress) const;
+  Trial<HeatMethod> substitute(const std::string& backend, std::span<const Fallback> failed,
+                               const Progress& progress) const;
   explicit HeatMethod(std::shared_ptr<const State> state) : state_(std::move(state)) {}
   std::shared_ptr<const State> state_;
 };

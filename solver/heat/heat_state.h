@@ -17,10 +17,10 @@ namespace geotherm {
 
 /// What a HeatMethod is made of: for its own two files, heat_method.cpp and heat_fallback.cpp.
 struct HeatMethod::State {
-  /// Methods that answer where this one fails, by their backends.
+  /// Methods that answer where this one fails, by their backends, and why there is none.
   struct Substitutes {
     std::mutex mutex;
-    std::map<std::string, HeatMethod> methods;
+    std::map<std::string, Trial<HeatMethod>> methods;
   };
 
   HeatOptions options;  ///< with the backend at work

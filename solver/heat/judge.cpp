@@ -23,6 +23,11 @@ constexpr double kWrongSlope = 0.4;
 /// Above this share of all faces they are.
 constexpr double kBorderShare = 0.1;
 
+/// The option that t follows from.
+std::string time_option(TimeRule rule) {
+  return rule == TimeRule::kAbsolute ? "--time-step absolute:T" : "--time-factor";
+}
+
 std::string share(Index count, std::size_t of) {
   return "(" + rounded_text(100.0 * count / static_cast<double>(std::max<std::size_t>(of, 1))) +
          " %)";
@@ -37,8 +42,10 @@ void add_lost_faces(const HeatOptions& options, const FaceCounts& faces, Distanc
       "the heat has no direction on " + std::to_string(lost) + " of " +
       std::to_string(faces.in_reach) + " faces " +
       share(lost, static_cast<std::size_t>(faces.in_reach)) +
-      (dirichlet ? ": the border, held at 0, cuts them off; use --boundary neumann or average"
-                 : ", distances there follow their surroundings; raise --time-factor"));
+      (dirichlet ? std::string(
+                       ": the border, held at 0, cuts them off; use --boundary neumann or average")
+                 : ", distances there follow their surroundings; raise " +
+                       time_option(options.time_step.rule)));
 }
 
 void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
@@ -61,12 +68,12 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
 
 bool is_extreme_time(double unit_t) { return unit_t > kLargeTime || unit_t < kSmallTime; }
 
-Error with_time_cure(Error error, double unit_t) {
+Error with_time_cure(Error error, double unit_t, TimeRule rule) {
   const bool numerical =
       error.code == ErrorCode::kNumericalFailure || error.code == ErrorCode::kBudgetEnded;
   if (!numerical || !is_extreme_time(unit_t)) return error;
   error.message += "; t is " + rounded_text(unit_t) + " squared mean edges, so try a " +
-                   (unit_t > 1 ? "smaller" : "larger") + " --time-factor first";
+                   (unit_t > 1 ? "smaller " : "larger ") + time_option(rule) + " first";
   return error;
 }
 
@@ -87,15 +94,16 @@ Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& 
       return with_time_cure(
           {ErrorCode::kNumericalFailure,
            text + ", which is no solution" + (is_extreme_time(unit_t) ? "" : others)},
-          unit_t);
+          unit_t, options.time_step.rule);
     }
     result.warnings.push_back(text);
   }
   if (q.eikonal_error_mean > kWrongSlope) {
-    result.warnings.push_back("the slope of the distance is off by " +
-                              rounded_text(q.eikonal_error_mean) + " on average, where 1 is right" +
-                              " (t is " + rounded_text(unit_t) + " squared mean edges); " +
-                              (unit_t > 1 ? "use a smaller --time-factor" : "refine the mesh"));
+    result.warnings.push_back(
+        "the slope of the distance is off by " + rounded_text(q.eikonal_error_mean) +
+        " on average, where 1 is right" + " (t is " + rounded_text(unit_t) +
+        " squared mean edges); " +
+        (unit_t > 1 ? "use a smaller " + time_option(options.time_step.rule) : "refine the mesh"));
   }
   return {};
 }

@@ -14,7 +14,7 @@ bool is_extreme_time(double unit_t);
 /// A kNumericalFailure or kBudgetEnded of the heat step with what to do about the diffusion time
 /// added, where that is extreme.
 /// `unit_t`: t in squares of the mean edge.
-Error with_time_cure(Error error, double unit_t);
+Error with_time_cure(Error error, double unit_t, TimeRule rule);
 
 /// Appends to an answer what a person should know about its quality figures, which must be filled
 /// in. Errors: kNumericalFailure where residuals say

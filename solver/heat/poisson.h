@@ -40,6 +40,12 @@ class PoissonSolver {
   Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors,
                               const Progress& progress = {}) const;
 
+  /// True when a query with these sources makes a factor of its own.
+  bool needs_own_system(const SourceAnchors& anchors) const {
+    return constraint_.mode == ConstraintMode::kPinSources &&
+           (iterative_ || anchors.anchors.size() > kMostSchurRows);
+  }
+
   FactorStats stats() const { return system_->factor().stats(); }
   const Constraint& constraint() const { return constraint_; }
 

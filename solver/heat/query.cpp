@@ -5,11 +5,13 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <thread>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/heat/factor_memory.h"
 #include "solver/heat/judge.h"
 #include "solver/heat/normalize.h"
 #include "solver/heat/quality.h"
@@ -72,13 +74,56 @@ double extreme_time(const DiffusionTimes& times, const SourceAnchors& anchors) {
   return extreme;
 }
 
+double extreme_time(const DiffusionTimes& times, const std::vector<SourceAnchors>& group) {
+  double extreme = 1;
+  for (const SourceAnchors& anchors : group) {
+    const double t = extreme_time(times, anchors);
+    if (std::abs(std::log(t)) > std::abs(std::log(extreme))) extreme = t;
+  }
+  return extreme;
+}
+
+/// Who may answer a group of sources after this error.
+Successor successor_in_query(const Error& error, double extreme) {
+  if (error.code == ErrorCode::kOutOfMemory) return Successor::kFactorless;
+  const bool helpless = error.code == ErrorCode::kNumericalFailure && is_extreme_time(extreme);
+  return helpless || successor_of(error) == Successor::kNone ? Successor::kNone
+                                                             : Successor::kFactored;
+}
+
+/// As many threads as memory allows, up to `threads`, where each may hold a factor of its own.
+Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& groups,
+                              int threads) {
+  const auto makes_factor = [&p](const Group& group) {
+    return p.heat.needs_own_system(group.anchors.front(), p.options.heat) ||
+           std::ranges::any_of(group.anchors,
+                               [&p](const auto& set) { return p.poisson.needs_own_system(set); });
+  };
+  int own = static_cast<int>(
+      std::min<std::ptrdiff_t>(std::ranges::count_if(groups, makes_factor), threads));
+  if (own == 0) return threads;
+  for (;; own = threads = own - 1) {
+    FactorPlan plan = plan_factors(p.options.boundary, {}, false, 1);
+    plan.factors += own;
+    plan.missing = plan.at_once = own;
+    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend, plan,
+                                          p.options.memory_limit_mb);
+    if (fits) return threads;
+    if (own == 1) return fits.error();
+  }
+}
+
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, std::span<DistanceResult> results,
                          const Progress& progress) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool,
                              part_of(progress, 0.0, kHeatShare));
-  if (!heat) return with_time_cure(heat.error(), p.times.extreme);
+  const auto with_cure = [&](Error error) {
+    return with_time_cure(std::move(error), extreme_time(p.times, anchors),
+                          p.options.time_step.rule);
+  };
+  if (!heat) return with_cure(heat.error());
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   if (!report(progress, "solve", kHeatShare)) return cancelled_error();
   const UnitField field(*p.surface.operators, heat->field,
@@ -94,7 +139,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     const auto normalized =
         normalize(p.surface, phi[c], anchors[c], p.options.constraint.mode, results[c]);
-    if (!normalized) return with_time_cure(normalized.error(), p.times.extreme);
+    if (!normalized) return with_cure(normalized.error());
   }
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
@@ -141,14 +186,17 @@ class GroupRunner {
         progress_(progress),
         watch_(progress_.function()) {}
 
-  std::optional<Error> run(int threads) {
+  /// What ended for want of memory is thrown.
+  std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
     {
       std::vector<std::jthread> helpers;
       for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back([this] { work(); });
       work();
     }
-    return failure_;
+    if (memory_ended_) throw std::bad_alloc();
+    if (!failure_) return std::nullopt;
+    return Trial<std::vector<DistanceResult>>{*failure_, successor_};
   }
 
  private:
@@ -158,20 +206,24 @@ class GroupRunner {
       const Progress part =
           part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
       const Group& group = groups_[g];
-      Result<void> done = Error{ErrorCode::kOutOfMemory, "a query ran out of memory"};
       try {
-        done = solve_group(pipeline_, group.anchors, query_,
-                           results_.subspan(group.first, group.anchors.size()), part);
-      } catch (const std::bad_alloc&) {  // `done` says so
+        const auto done = solve_group(pipeline_, group.anchors, query_,
+                                      results_.subspan(group.first, group.anchors.size()), part);
+        if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
+      } catch (const std::bad_alloc&) {
+        memory_ended_ = true;
+        return progress_.stop();
       }
-      if (!done) return fail(done.error());
     }
   }
 
   /// The first failure counts; the other threads stop because of it.
-  void fail(Error error) {
+  void fail(Error error, double extreme) {
     const std::lock_guard lock(mutex_);
-    if (!failure_) failure_ = std::move(error);
+    if (!failure_) {
+      successor_ = successor_in_query(error, extreme);
+      failure_ = std::move(error);
+    }
     progress_.stop();
   }
 
@@ -183,24 +235,29 @@ class GroupRunner {
   const Progress watch_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
+  std::atomic<bool> memory_ended_{false};
   std::optional<Error> failure_;
+  Successor successor_ = Successor::kNone;
 };
 
 }  // namespace
 
-Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
-                                                std::span<const SourceSet> sets,
-                                                const QueryOptions& query,
-                                                const Progress& progress) {
+Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                               std::span<const SourceSet> sets,
+                                               const QueryOptions& query,
+                                               const Progress& progress) {
   const Stopwatch watch;
   const auto groups = cut_into_groups(pipeline, sets);
-  if (!groups) return groups.error();
+  if (!groups) return {groups.error()};
   std::vector<DistanceResult> results(sets.size());
   const double placing = watch.milliseconds();
   GroupRunner runner(pipeline, *groups, query, results, progress);
-  const int threads =
-      std::min<int>(thread_count(pipeline.options.threads), static_cast<int>(groups->size()));
-  if (auto failure = runner.run(threads)) return *failure;
+  const auto fitting = threads_in_memory(
+      pipeline, *groups,
+      std::min<int>(thread_count(pipeline.options.threads), static_cast<int>(groups->size())));
+  if (!fitting) return {fitting.error(), Successor::kFactorless};
+  const int threads = *fitting;
+  if (auto failure = runner.run(threads)) return *std::move(failure);
   // Threads work side by side: a set's share of the wall clock is that much smaller.
   for (DistanceResult& result : results) {
     for (double* ms : {&result.timing.diffuse, &result.timing.gradient, &result.timing.poisson,
@@ -211,7 +268,7 @@ Result<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
     result.timing.diffuse += share;
     result.timing.query += share;
   }
-  return results;
+  return {std::move(results)};
 }
 
 }  // namespace geotherm

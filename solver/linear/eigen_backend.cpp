@@ -2,6 +2,8 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -25,6 +27,7 @@ class EigenAnalysis final : public Analysis {
     const ColumnCounts counts = count_columns(pattern);
     const auto below = std::accumulate(counts.below.begin(), counts.below.end(), std::int64_t{0});
     const std::int64_t lower = pattern.size() + std::ssize(pattern.neighbor) / 2;
+    entries_ = std::max(lower, below);
     factor_bytes_ = column_factor_bytes(counts);
     work_bytes_ = kEntryBytes * (2 * lower + 2 * below);  // ours and Eigen's copy, of both
   }
@@ -38,6 +41,12 @@ class EigenAnalysis final : public Analysis {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();
+    }
+    if (constexpr std::int64_t kMost = std::numeric_limits<int>::max(); entries_ > kMost) {
+      return Error{ErrorCode::kOutOfMemory, "eigen-ldlt needs a factor of " +
+                                                std::to_string(entries_) + " entries, at most " +
+                                                std::to_string(kMost) +
+                                                " can be counted; try --backend cg"};
     }
     const LowerMatrix& lower = matrix->assembled();
     const std::vector<int> start(lower.start.begin(), lower.start.end());
@@ -76,7 +85,7 @@ class EigenAnalysis final : public Analysis {
 
   std::vector<Index> order_;
   std::uint64_t pattern_;
-  std::int64_t factor_bytes_ = 0, work_bytes_ = 0;
+  std::int64_t entries_ = 0, factor_bytes_ = 0, work_bytes_ = 0;
 };
 
 class EigenBackend final : public Backend {

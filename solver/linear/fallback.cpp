@@ -66,14 +66,14 @@ std::string takeover_text(std::span<const Fallback> failed, std::string_view by)
 }
 
 Error joint_error(std::span<const Fallback> failed) {
-  const Error& first = failed.front().error;
-  if (failed.size() == 1) return first;
-  Error error{first.code, {}};
+  const Error& last = failed.back().error;
+  if (failed.size() == 1) return last;
+  Error error{last.code, {}};
   for (const Fallback& each : failed) {
     error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.reason;
   }
-  const std::size_t cure = first.message.find(kCureAfter);
-  if (cure != std::string::npos) error.message += first.message.substr(cure);
+  const std::size_t cure = last.message.find(kCureAfter);
+  if (cure != std::string::npos) error.message += last.message.substr(cure);
   return error;
 }
 

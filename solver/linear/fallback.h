@@ -44,7 +44,7 @@ std::string next_backend(std::span<const Fallback> failed, Successor successor);
 /// "A failed: REASON; B took over". Precondition: `failed` is not empty.
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by);
 
-/// What all of them say, with the code and the cure of the first. Precondition: not empty.
+/// What all of them say, with the code and the cure of the last. Precondition: not empty.
 Error joint_error(std::span<const Fallback> failed);
 
 /// Tries `backend`, and where it fails the others in the order of backend_names(), as far as they

@@ -4,28 +4,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solver/core/disjoint_sets.h"
+
 namespace geotherm {
 namespace {
 
 constexpr std::size_t kLeaf = 8;
-
-/// Disjoint sets whose root is the lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 /// A k-d tree whose pairs of nodes are looked at from the whole down to points: nodes that are too
 /// far apart, or one already, are passed over, and such as lie close altogether become one at once.
@@ -142,7 +126,7 @@ class Merger {
   double distance_;
   std::vector<Index> order_;
   std::vector<Node> nodes_;
-  Sets sets_;
+  DisjointSets sets_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "solver/mesh/box_tree.h"
+#include "solver/mesh/repeats_corner.h"
 
 namespace geotherm {
 namespace {
@@ -32,8 +33,6 @@ struct Frame {
 
   Vec3 into(const Vec3& p) const { return (p - centre) * scale; }
 };
-
-bool repeats_corner(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
 
 Frame frame_of(const TriangleMesh& mesh) {
   constexpr double kMost = std::numeric_limits<double>::max();

@@ -58,12 +58,25 @@ const Format* format_of(std::string_view extension) {
 Result<const Format*> format_named(std::string_view name) {
   const Format* const format = format_of("." + std::string(name));
   if (format) return format;
-  return Error{
-      ErrorCode::kNotAvailable,
-      "'" + io::printable(name) + "' is no format of models; there are " + "obj, ply, off, stl"};
+  std::string known;
+  for (const std::string& each : mesh_formats()) known += (known.empty() ? "" : ", ") + each;
+  return Error{ErrorCode::kNotAvailable,
+               "'" + io::printable(name) + "' is no format of models; there are " + known};
 }
 
 }  // namespace
+
+std::vector<std::string> mesh_formats() {
+  std::vector<std::string> names;
+  for (const Format& format : kFormats) names.emplace_back(format.extension.substr(1));
+  return names;
+}
+
+Result<void> check_mesh_format(std::string_view name) {
+  const auto known = format_named(name);
+  if (!known) return known.error();
+  return {};
+}
 
 Result<MeshFile> read_mesh(const std::string& path) {
   const std::string shown = io::printable(path);

@@ -29,8 +29,14 @@ struct MeshFile {
 /// one pass over the mapped file; OBJ on all cores.
 Result<MeshFile> read_mesh(const std::string& path);
 
-/// The same in a format that is named, whatever the extension: obj | ply | off | stl. Errors: those
-/// and kNotAvailable (no such format).
+/// The names of the formats: obj, ply, off, stl.
+std::vector<std::string> mesh_formats();
+
+/// Errors: kNotAvailable (no such format), with those that there are.
+Result<void> check_mesh_format(std::string_view name);
+
+/// The same in a format that is named, whatever the extension. Errors: those and those of
+/// check_mesh_format().
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format);
 
 /// From an open stream, such as standard input (0), to its end. `name`: in place of the path. The

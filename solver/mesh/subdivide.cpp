@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "solver/mesh/edge_table.h"
+#include "solver/mesh/repeats_corner.h"
 
 namespace geotherm {
 namespace {
@@ -19,8 +20,6 @@ struct Arrays {
   std::vector<Vec3> positions;
   std::vector<Face> faces;
 };
-
-bool repeats_corner(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
 
 /// The midpoint of each side, numbered from `first` in the order of the edges; kNoIndex for faces
 /// that repeat a corner.

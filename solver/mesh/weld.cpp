@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "solver/core/number_text.h"
 #include "solver/mesh/merge_close.h"
+#include "solver/mesh/repeats_corner.h"
 
 namespace geotherm {
 namespace {
-
-bool repeats_corner(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
 
 /// Ascending.
 std::vector<Index> vertices_in_use(const TriangleMesh& mesh) {

@@ -31,7 +31,7 @@ Result<std::vector<DistanceResult>> MappedMethod::solve_each(std::span<const Sou
   }
   auto results = inner_->solve_each(mapped, query, progress);
   if (!results) return results;
-  for (DistanceResult& result : *results) mapping_->take_back(result);
+  for (std::size_t i = 0; i < sets.size(); ++i) mapping_->take_back(sets[i], (*results)[i]);
   return results;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory, "the memory ended in a query; refine the mesh less often"};

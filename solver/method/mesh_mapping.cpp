@@ -86,7 +86,32 @@ void MeshMapping::add_edge(const std::array<Index, 2>& edge,
   for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({line[i - 1], line[i]});
 }
 
-void MeshMapping::take_back(DistanceResult& result) const {
+/// The first group of the sources in each of their groups on the inner mesh. More of them touch
+/// there: vertices are one, and points very near a vertex are that. Cutting edges changes none.
+std::vector<Index> MeshMapping::outer_groups(const SourceSet& sources) const {
+  SourceSet set = with_standing(*mesh_, sources);
+  if (refine_ > 0) {
+    for (SurfacePoint& point : set.points) point = clean_point(surface_, point);
+  }
+  const SourceGroups outer = source_groups(sources), inner = source_groups(set);
+  std::vector<Index> first(static_cast<std::size_t>(inner.count), kNoIndex);
+  const auto note = [&first](const std::vector<Index>& in, const std::vector<Index>& out) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      if (first[in[i]] == kNoIndex) first[in[i]] = out[i];
+    }
+  };
+  note(inner.of_point, outer.of_point);
+  note(inner.of_edge, outer.of_edge);
+  return first;
+}
+
+void MeshMapping::take_back(const SourceSet& sources, DistanceResult& result) const {
+  if (!result.nearest_source.empty()) {
+    const std::vector<Index> outer = outer_groups(sources);
+    for (Index& group : result.nearest_source) {
+      if (group != kNoIndex) group = outer[group];
+    }
+  }
   keep_own_vertices(*mesh_, result.distances);
   keep_own_vertices(*mesh_, result.nearest_source);
   keep_own_vertices(*mesh_, result.heat);

@@ -24,15 +24,17 @@ class MeshMapping {
   double milliseconds() const { return milliseconds_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// The same sources on the inner mesh; source_groups() are the same. Errors: those of
-  /// check_sources(), with the numbers of the outer mesh.
+  /// The same sources on the inner mesh. Errors: those of check_sources(), with the numbers of the
+  /// outer mesh.
   Result<SourceSet> inner_sources(const SourceSet& sources) const;
 
-  /// Values of the inner mesh's vertices become those of the outer mesh's.
-  void take_back(DistanceResult& result) const;
+  /// Values of the inner mesh's vertices become those of the outer mesh's, and groups those of the
+  /// outer sources; of such as touch on the inner mesh alone, the first stands for all.
+  void take_back(const SourceSet& sources, DistanceResult& result) const;
 
  private:
   MeshMapping() = default;
+  std::vector<Index> outer_groups(const SourceSet& sources) const;
   void add_edge(const std::array<Index, 2>& edge, std::vector<std::array<Index, 2>>& edges) const;
 
   std::shared_ptr<const TriangleMesh> mesh_, inner_;

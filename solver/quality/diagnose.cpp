@@ -7,7 +7,7 @@
 
 #include "solver/core/number_text.h"
 #include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_method.h"
+#include "solver/heat/auto_laplacian.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
 #include "solver/method/distance_error.h"
@@ -26,24 +26,10 @@ struct Change {
   MethodOptions options;
 };
 
-/// sqrt(t) in mean edges, or 0 where the mesh has none.
-double time_in_edges(const TimeStep& step, const MeshReport& mesh) {
-  const double h = mesh.mean_edge_length;
-  if (!(h > 0)) return 0;
-  switch (step.rule) {
-    case TimeRule::kMeanEdge:
-      return std::sqrt(step.factor);
-    case TimeRule::kMeanFaceArea:
-      return std::sqrt(step.factor * (mesh.area / h) / h / mesh.faces);
-    case TimeRule::kAbsolute:
-      break;
-  }
-  return std::sqrt(step.absolute) / h;
-}
-
 class Changes {
  public:
-  Changes(const MethodOptions& options, const MeshReport& mesh) : options_(options), mesh_(mesh) {
+  Changes(const MethodOptions& options, const MeshReport& mesh, double relative_t)
+      : options_(options), mesh_(mesh), relative_t_(relative_t) {
     add_time_steps();
     add_laplacian();
     if (mesh.boundary_edges > 0) {
@@ -79,7 +65,7 @@ class Changes {
 
   void add_time_steps() {
     const TimeStep& step = options_.time_step;
-    const double edges = time_in_edges(step, mesh_);
+    const double edges = std::sqrt(relative_t_);
     const std::string because = std::string("t is too ") + (edges > 1 ? "large" : "small") + " (";
     const std::string measured = "sqrt(t) = " + rounded_text(edges) + " mean edges)";
     if (step.rule != TimeRule::kAbsolute && step.factor != 1) {
@@ -94,15 +80,26 @@ class Changes {
 
   void add_laplacian() {
     if (options_.laplacian == LaplacianKind::kAuto) return;
-    const Index edges = mesh_.non_delaunay_edges;
-    if (options_.laplacian == LaplacianKind::kCotan && edges == 0) return;
-    const std::string count =
-        counted_text(static_cast<std::size_t>(edges), "edge has", "edges have");
+    const LaplacianKind usual = auto_kind(mesh_);
+    if (options_.laplacian == usual) return;
     add("laplacian", to_text(LaplacianKind::kAuto),
-        "the Laplacian is " + to_text(options_.laplacian) + " and " + count +
-            " a negative weight (smallest angle " + rounded_text(mesh_.smallest_angle) +
-            " degrees)")
+        "the Laplacian is " + to_text(options_.laplacian) + fault_of_laplacian(usual))
         .options.laplacian = LaplacianKind::kAuto;
+  }
+
+  std::string fault_of_laplacian(LaplacianKind usual) const {
+    if (options_.laplacian == LaplacianKind::kCotan && mesh_.non_delaunay_edges > 0) {
+      const auto edges = static_cast<std::size_t>(mesh_.non_delaunay_edges);
+      return " and " + counted_text(edges, "edge has", "edges have") +
+             " a negative weight (smallest angle " + rounded_text(mesh_.smallest_angle) +
+             " degrees)";
+    }
+    if (usual == LaplacianKind::kTufted) {
+      const auto components = static_cast<std::size_t>(mesh_.tufted_components);
+      return " and " + counted_text(components, "component is", "components are") +
+             " no oriented manifold";
+    }
+    return " where auto takes " + to_text(usual);
   }
 
   void add_backend() {
@@ -115,6 +112,7 @@ class Changes {
 
   const MethodOptions& options_;
   const MeshReport& mesh_;
+  double relative_t_;
   std::vector<Change> changes_;
 };
 
@@ -172,14 +170,14 @@ class Search {
 }  // namespace
 
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
-                           const MethodOptions& options, const SourceSet& sources,
-                           std::span<const double> distances, std::span<const double> better,
-                           const Progress& progress) {
+                           const MethodOptions& options, double relative_t,
+                           const SourceSet& sources, std::span<const double> distances,
+                           std::span<const double> better, const Progress& progress) {
   const double before = distance_error(distances, better).mean_relative;
   if (!(before > 0)) return Diagnosis{};
   if (mesh->face_count() > kMostFacesDiagnosed) return Diagnosis{.cause = {}, .skipped = true};
   const MeshReport report = inspect_mesh(*mesh);
-  const std::vector<Change> changes = Changes(options, report).take();
+  const std::vector<Change> changes = Changes(options, report, relative_t).take();
   Search search(mesh, sources, better, before);
   double done = 0;
   for (const Change& change : changes) {

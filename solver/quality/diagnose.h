@@ -20,7 +20,8 @@ struct ErrorCause {
 struct Diagnosis {
   std::optional<ErrorCause> cause;  ///< absent: no change lowers the error by much
   bool skipped = false;             ///< nothing was tried: the mesh has too many faces
-  bool refined = false;             ///< more faces were tried as well
+  bool refined = false;             ///< more faces were tried as well; else they were too many, or
+                                    ///< there was no need
 };
 
 /// Meshes with more faces are not solved again to find a cause, nor refined beyond that.
@@ -34,12 +35,12 @@ inline constexpr double kGoodError = 0.02;
 /// relative error most. Where none brings it to kGoodError, MethodOptions::refine + 1 is tried as
 /// well, and named if it leaves less than half of what the best of them leaves. Only what takes
 /// more than a fifth of the error away is a cause. Options whose solve fails are none. `distances`:
-/// the answer of `options`; `better`: those of the reference. Preconditions: options.method is
-/// kHeat; both spans have one number a vertex. Errors: kCancelled. Cost: a set-up and a query for
-/// each option tried, at most nine.
+/// the answer of `options`, whose HeatMethod::relative_t() is given; `better`: those of the
+/// reference. Preconditions: options.method is kHeat; both spans have one number a vertex. Errors:
+/// kCancelled. Cost: a set-up and a query for each option tried, at most nine.
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
-                           const MethodOptions& options, const SourceSet& sources,
-                           std::span<const double> distances, std::span<const double> better,
-                           const Progress& progress = {});
+                           const MethodOptions& options, double relative_t,
+                           const SourceSet& sources, std::span<const double> distances,
+                           std::span<const double> better, const Progress& progress = {});
 
 }  // namespace geotherm

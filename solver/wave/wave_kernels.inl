@@ -185,7 +185,7 @@ class Wave {
         values[j] = front.a + face.length[k] * (j + 1) / (Samples + 1);
         front.labels[j] = label;
       }
-      for (Fit& fit : front.fits) fit.right = kFar;
+      for (Fit& fit : front.fits) fit.middle = fit.right = kFar;
       const bool fell = lower_vertex(face.vertex[next], front.b, label, kNotice * face.length[k]);
       lower_samples(face, k, values, front.labels, kNotice * face.length[k], fell, front.b);
       cross(code, front);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <random>
 
@@ -39,6 +40,43 @@ TEST_P(Interrupt, EndsTheProgramByTheSignalWithoutHalfAFile) {
       EXPECT_EQ(bytes_of(folder.path(name)).size(), whole);
     }
   }
+}
+
+/// Waits until the program writes a file and halts it there, sends the signal and lets it go on.
+/// False where the file was written before it could be halted.
+bool interrupt_writing(const RunningProgram& program, const TemporaryDirectory& folder,
+                       int number) {
+  constexpr int kMostLooks = 200'000, kBetweenLooks = 50, kUntilHalted = 5000;  // microseconds
+  const auto is_writing = [](const std::string& name) { return name.find(".tmp-") != name.npos; };
+  for (int look = 0; look < kMostLooks; ++look) {
+    const auto names = folder.names();
+    if (std::ranges::any_of(names, is_writing)) break;
+    if (!names.empty()) break;  // it is there already
+    ::usleep(kBetweenLooks);
+  }
+  program.signal(SIGSTOP);
+  ::usleep(kUntilHalted);
+  const bool halted = std::ranges::any_of(folder.names(), is_writing);
+  program.signal(number);
+  program.signal(SIGCONT);
+  return halted;
+}
+
+TEST_P(Interrupt, RemovesTheFileThatIsBeingWritten) {
+  constexpr int kMostRuns = 20;
+  bool halted = false;
+  for (int i = 0; i < kMostRuns && !halted; ++i) {
+    const TemporaryDirectory folder;
+    const RunningProgram program(folder.path("."),
+                                 {"generate", "terrain", "--faces", "100000", "-o", "terrain.obj"});
+    halted = interrupt_writing(program, folder, GetParam());
+    const ProgramRun run = program.wait();
+    if (!halted) continue;
+    EXPECT_EQ(run.code, 128 + GetParam()) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(folder.names(), std::vector<std::string>{});
+  }
+  EXPECT_TRUE(halted) << "no run was halted while it wrote";
 }
 
 INSTANTIATE_TEST_SUITE_P(By, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP),

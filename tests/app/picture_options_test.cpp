@@ -107,7 +107,7 @@ TEST(PictureText, ReadsBack) {
     EXPECT_EQ(to_text(*app::parse_fit(name)), name);
   }
   EXPECT_EQ(app::view_names().front(), "contours");
-  EXPECT_EQ(app::view_names().size(), 9U);
+  EXPECT_EQ(app::view_names().size(), 13U);
 }
 
 struct Wrong {

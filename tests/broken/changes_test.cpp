@@ -75,12 +75,12 @@ struct Compared {
   double rare;       ///< a share of the meshes
 };
 // Coordinates moved by a million sizes keep ten digits; what waits at one distance, and which of
-// two diagonals of a circle's quadrangle is taken, hangs on the order of things. A face whose
-// corners are equally warm has a direction of heat that is round-off: one mesh in five hundred.
+// two diagonals of a circle's quadrangle is taken, hangs on the order of things. Measured on 2,000
+// meshes: heat differs by more than 1e-8 on 6 of them, by up to 0.11; exact by up to 1.4e-8.
 constexpr Compared kMethods[] = {
-    {MethodKind::kHeat, 1e-8, 0.8, 0.02},
+    {MethodKind::kHeat, 1e-8, 0.2, 0.01},
     {MethodKind::kWavefrontFine, 2e-3, 0.1, 0.04},
-    {MethodKind::kExact, 1e-8, 1e-3, 0.02},
+    {MethodKind::kExact, 1e-8, 1e-6, 0.01},
 };
 
 /// Distances from some vertices, in the numbering before the change; empty where refused.
@@ -100,12 +100,14 @@ std::vector<double> distances(const Draft& draft, const std::vector<Index>& numb
   return out;
 }
 
-/// Largest difference over the largest distance.
+/// Largest difference over the largest distance; infinite where one of both is no number.
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0, range = 0;
   for (std::size_t v = 0; v < a.size(); ++v) {
     if (a[v] == b[v]) continue;  // infinities too
-    most = std::max(most, std::abs(a[v] - b[v]));
+    const double off = std::abs(a[v] - b[v]);
+    if (std::isnan(off)) return kUnreached;
+    most = std::max(most, off);
     if (std::isfinite(b[v])) range = std::max(range, b[v]);
   }
   return most > 0 ? most / range : 0;
@@ -116,7 +118,7 @@ class AnyMesh : public testing::TestWithParam<std::tuple<Change, Compared>> {};
 TEST_P(AnyMesh, KeepsItsDistances) {
   const auto& [change, method] = GetParam();
   const int count = broken_mesh_count(kCases, kFewCases);
-  int scattered = 0;
+  int scattered = 0, refused = 0;
   for (int i = 0; i < count; ++i) {
     const auto seed = static_cast<std::uint64_t>(i) + 77'000;
     const BrokenMesh mesh = broken_mesh(seed, {i % 2 == 0 ? 0 : kDefects, false});
@@ -130,6 +132,8 @@ TEST_P(AnyMesh, KeepsItsDistances) {
     Draft changed = mesh.draft;
     const double factor = change.apply(changed, number, dice);
     auto after = distances(changed, number, sources, method.kind);
+    refused += before.empty() ? 1 : 0;
+    EXPECT_EQ(before.empty(), after.empty()) << "refused before or after alone";
     if (before.empty() || after.empty()) continue;
     for (double& d : after) d /= factor;
     const double by = difference(after, before);
@@ -137,6 +141,7 @@ TEST_P(AnyMesh, KeepsItsDistances) {
     scattered += by > method.most ? 1 : 0;
   }
   EXPECT_LE(scattered, method.rare * count + 3);  // few meshes scatter
+  EXPECT_LE(refused, count / 50 + 2);             // those of which nothing is left
 }
 
 INSTANTIATE_TEST_SUITE_P(Changes, AnyMesh,

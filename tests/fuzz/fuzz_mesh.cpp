@@ -42,9 +42,11 @@ class ByteReader {
   Bytes rest_;
 };
 
-MethodOptions read_options(ByteReader& reader) {
+/// The options, and what is welded.
+void read_options(ByteReader& reader, FuzzCase& out) {
   constexpr double kFactors[] = {1, 1, 1, 1e-6, 0.01, 30, 1e4, 1e12};
-  MethodOptions options;
+  constexpr double kTightMb = 1e-3;
+  MethodOptions& options = out.options;
   options.threads = 1;
   const std::vector<std::string> backends = backend_names();
   options.backend = backends[reader.below(static_cast<int>(backends.size()))];
@@ -56,8 +58,12 @@ MethodOptions read_options(ByteReader& reader) {
   options.heat = reader.one_of(HeatMode::kHold);
   options.boundary = reader.one_of(BoundaryRule::kAverage);
   options.laplacian = reader.one_of(LaplacianKind::kTufted);
-  options.variant = reader.one_of(Variant::kClassic);
-  return options;
+  const int bits = reader.byte();
+  options.variant = (bits & 1) != 0 ? Variant::kClassic : Variant::kCorrected;
+  options.refine = (bits & 2) != 0 ? 1 : 0;
+  options.strict = (bits & 4) != 0;
+  if ((bits & 8) != 0) options.memory_limit_mb = kTightMb;
+  out.welding = static_cast<Welding>(bits >> 4 & 3);
 }
 
 std::vector<Vec3> read_positions(ByteReader& reader, int count) {
@@ -121,7 +127,7 @@ SourceSet read_sources(ByteReader& reader, int vertices) {
 FuzzCase decode_case(Bytes bytes) {
   ByteReader reader(bytes);
   FuzzCase result;
-  result.options = read_options(reader);
+  read_options(reader, result);
   const int vertices = 3 + reader.below(kMostVertices - 2);
   result.sources = read_sources(reader, vertices);
   std::vector<Vec3> positions = read_positions(reader, vertices);

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "solver/geometry/cracks.h"
+#include "solver/geometry/mesh_report.h"
+#include "solver/mesh/weld.h"
+#include "solver/method/distance_error.h"
+#include "solver/quality/diagnose.h"
+#include "solver/quality/quality_fields.h"
 #include "tests/fuzz/fuzz_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"
 
@@ -24,20 +32,36 @@ std::vector<char> reach_of(const TriangleMesh& mesh, const SourceSet& sources) {
     used[a] = used[b] = used[c] = 1;
   }
   for (const SurfacePoint& point : sources.points) {
-    hot[root(point.is_vertex() ? point.vertex : mesh.faces()[point.face][0])] = 1;
+    hot[root(point.is_vertex() ? mesh.standing_for(point.vertex) : mesh.faces()[point.face][0])] =
+        1;
   }
-  for (const auto& edge : sources.edges) hot[root(edge[0])] = 1;
+  for (const auto& edge : sources.edges) hot[root(mesh.standing_for(edge[0]))] = 1;
   std::vector<char> reached(parent.size());
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    reached[v] = static_cast<char>(used[v] && hot[root(v)]);
+    const Index stands = mesh.standing_for(v);
+    reached[v] = static_cast<char>(used[stands] && hot[root(stands)]);
   }
   return reached;
 }
+
+bool is_number(double value) { return !std::isnan(value); }
 
 std::string quality_fault(const Quality& quality) {
   for (const double figure : {quality.heat_residual, quality.poisson_residual,
                               quality.max_source_distance, quality.eikonal_error_mean}) {
     if (std::isnan(figure) || figure < 0) return "a quality figure is no number";
+  }
+  return "";
+}
+
+std::string nearest_fault(const std::vector<char>& reached, const DistanceResult& result) {
+  if (result.nearest_source.empty()) return "";
+  if (result.nearest_source.size() != reached.size()) return "not one nearest source per vertex";
+  for (std::size_t v = 0; v < reached.size(); ++v) {
+    const Index source = result.nearest_source[v];
+    if (source < kNoIndex || (source != kNoIndex) != (reached[v] != 0)) {
+      return "vertex " + std::to_string(v) + " has the source " + std::to_string(source);
+    }
   }
   return "";
 }
@@ -52,10 +76,30 @@ std::string distance_fault(const FuzzCase& given, const DistanceResult& result) 
              (reached[v] ? "" : "not ") + "in reach";
     }
   }
-  return quality_fault(result.quality);
+  const std::string fault = nearest_fault(reached, result);
+  return fault.empty() ? quality_fault(result.quality) : fault;
 }
 
-std::string method_fault(const FuzzCase& given, MethodKind kind) {
+/// Every field that the answer has.
+std::string fields_fault(const TriangleMesh& mesh, const DistanceResult& answer) {
+  if (!std::ranges::all_of(answer.heat, is_number) ||
+      !std::ranges::all_of(answer.log_heat, is_number)) {
+    return "u is no number";
+  }
+  const auto error = signed_error(answer.distances, answer.distances);
+  for (const QualityField field : all_quality_fields()) {
+    if (needs_heat(field) && answer.log_heat.empty()) continue;
+    const DataField made = quality_field(field, mesh, answer, error);
+    const auto size =
+        made.place == DataField::Place::kFaces ? mesh.faces().size() : mesh.positions().size();
+    if (made.values.size() != size) return made.name + " has not one value each";
+    if (!std::ranges::all_of(made.values, is_number)) return made.name + " is no number";
+  }
+  return "";
+}
+
+/// `distances` becomes those of the answer; empty where there is none.
+std::string method_fault(const FuzzCase& given, MethodKind kind, std::vector<double>& distances) {
   MethodOptions options = given.options;
   options.method = kind;
   const auto method = build_method(given.mesh, options);
@@ -63,21 +107,76 @@ std::string method_fault(const FuzzCase& given, MethodKind kind) {
   for (const std::string& warning : (*method)->warnings()) {
     if (const std::string fault = message_fault(warning); !fault.empty()) return fault;
   }
-  const auto result = (*method)->solve(given.sources);
+  const auto result =
+      (*method)->solve(given.sources, {.quality = true, .fields = true, .nearest = true});
   if (!result) return message_fault(result.error().message);
-  return distance_fault(given, *result);
+  for (const std::string& warning : result->warnings) {
+    if (const std::string fault = message_fault(warning); !fault.empty()) return fault;
+  }
+  if (const std::string fault = distance_fault(given, *result); !fault.empty()) return fault;
+  distances = result->distances;
+  return fields_fault(*given.mesh, *result);
+}
+
+std::string diagnosis_fault(const FuzzCase& given, std::span<const double> heat,
+                            std::span<const double> better) {
+  const auto diagnosis = diagnose(given.mesh, given.options, 1, given.sources, heat, better);
+  if (!diagnosis) return message_fault(diagnosis.error().message);
+  if (!diagnosis->cause) return "";
+  const ErrorCause& cause = *diagnosis->cause;
+  if (!(cause.mean_relative_after < cause.mean_relative_before)) return "a cause without effect";
+  return message_fault(cause.because);
+}
+
+std::string report_fault(const TriangleMesh& mesh) {
+  const MeshReport report = inspect_mesh(mesh);
+  for (const double figure : {report.mean_edge_length, report.shortest_edge, report.longest_edge,
+                              report.area, report.smallest_angle, report.mean_quality}) {
+    if (!(figure >= 0)) return "a figure of the mesh is no number";
+  }
+  const CrackReport cracks = find_cracks(mesh);
+  if (!(cracks.distance >= 0) || cracks.vertices < 0 || cracks.closed_edges > cracks.border_edges) {
+    return "cracks that cannot be";
+  }
+  return "";
+}
+
+/// The distance to weld with.
+double distance_of(Welding welding, const TriangleMesh& mesh) {
+  if (welding == Welding::kCracks) return find_cracks(mesh).distance;
+  if (welding == Welding::kEqual) return 0;
+  const MeshReport report = inspect_mesh(mesh);
+  return (report.box_max - report.box_min).stableNorm() / 4;
+}
+
+/// Welds the mesh; it stays as it is where that is refused.
+std::string welding_fault(FuzzCase& given) {
+  if (given.welding == Welding::kNone) return "";
+  auto welded = weld(*given.mesh, distance_of(given.welding, *given.mesh));
+  if (!welded) return message_fault(welded.error().message);
+  given.mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+  return report_fault(*given.mesh);
 }
 
 }  // namespace
 
 std::string fuzz_solve(Bytes bytes) {
-  const FuzzCase given = decode_case(bytes);
+  FuzzCase given = decode_case(bytes);
   if (!given.mesh) return "";
+  if (const std::string fault = report_fault(*given.mesh); !fault.empty()) return fault;
+  if (const std::string fault = welding_fault(given); !fault.empty()) return "weld: " + fault;
+  std::vector<double> heat, better;
   for (const std::string& name : method_names()) {
-    const std::string fault = method_fault(given, *parse_method(name));
+    const MethodKind kind = *parse_method(name);
+    std::vector<double> distances;
+    const std::string fault = method_fault(given, kind, distances);
     if (!fault.empty()) return name + ": " + fault;
+    if (kind == MethodKind::kHeat) heat = distances;
+    if (kind == MethodKind::kWavefrontFine) better = distances;
   }
-  return "";
+  if (heat.empty() || better.empty()) return "";
+  const std::string fault = diagnosis_fault(given, heat, better);
+  return fault.empty() ? "" : "diagnosis: " + fault;
 }
 
 }  // namespace geotherm::test

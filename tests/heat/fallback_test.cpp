@@ -217,6 +217,21 @@ TEST_P(MemoryLimit, CountsTheFactorThatAnotherBoundaryRuleAdds) {
   EXPECT_TRUE(method.with(average));
 }
 
+TEST_P(MemoryLimit, HoldsForTheFactorThatAQueryMakes) {
+  double enough = free.memory_mb();
+  while (!HeatMethod::build(mesh, limited(enough, true))) enough += free.memory_mb() / 8;
+  std::vector<Index> many(200);
+  for (Index v = 0; v < 200; ++v) many[static_cast<std::size_t>(v)] = v;
+  const SourceSet sources = SourceSet::of_vertices(many);
+  const auto refused = method_of(mesh, limited(enough, true)).solve(sources);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kOutOfMemory);
+  EXPECT_NE(refused.error().message.find("3 factors"), std::string::npos)
+      << refused.error().message;
+  const DistanceResult answer = solve(method_of(mesh, limited(enough)), sources);
+  EXPECT_EQ(answer.backend, iterative_backends().front());
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, MemoryLimit, testing::ValuesIn(direct_backends()),
                          backend_test_name);
 

@@ -41,8 +41,8 @@ TEST(Fallback, SaysWhoFailedWhyAndWhoTookOver) {
       failure_of("first", kPivot), failure_of("second", {ErrorCode::kOutOfMemory, "2 GB; less"})};
   EXPECT_EQ(takeover_text(failed, "third"),
             "first failed: pivot 3 of 8; second failed: 2 GB; third took over");
-  EXPECT_EQ(joint_error(failed).message, "first: pivot 3 of 8, second: 2 GB; try another");
-  EXPECT_EQ(joint_error(failed).code, ErrorCode::kNumericalFailure);
+  EXPECT_EQ(joint_error(failed).message, "first: pivot 3 of 8, second: 2 GB; less");
+  EXPECT_EQ(joint_error(failed).code, ErrorCode::kOutOfMemory);
   EXPECT_EQ(joint_error({failed.data(), 1}).message, kPivot.message);
 }
 

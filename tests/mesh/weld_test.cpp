@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "solver/core/number_text.h"
 #include "solver/geometry/cracks.h"
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/merge_close.h"
@@ -126,6 +127,47 @@ TEST(FindCracks, FindsTheDistanceThatClosesThem) {
 TEST(FindCracks, LeavesAHoleAlone) {
   EXPECT_EQ(find_cracks(*finish(plane_grid(8, 8, 1, 1))).vertices, 0);
   EXPECT_EQ(find_cracks(*finish(sphere(1))).vertices, 0);
+}
+
+/// Two sheets of 4 x 4 squares of side 1, the second `gap` beside the first.
+Draft two_sheets(double gap) {
+  Draft draft = plane_grid(4, 4, 4, 4);
+  const Draft other = transformed(draft, 1, Vec3(4 + gap, 0, 0), false);
+  append(draft, other);
+  return draft;
+}
+
+TEST(FindCracks, RecommendsNoDistanceThatMakesAnInnerEdgeCollapse) {
+  Draft sheets = two_sheets(5e-3);
+  const CrackReport whole = find_cracks(*finish(sheets));
+  EXPECT_EQ(whole.vertices, 5);
+  EXPECT_EQ(whole.closed_edges, 8);
+  // An inner vertex is put beside its neighbour, nearer than the sheets are to each other.
+  const Vec3 middle = sheets.positions[12];
+  sheets.positions[13] = middle + Vec3(0, 2e-3, 0);
+  const MeshPtr mesh = finish(sheets);
+  const auto welded = weld(*mesh, 6e-3);
+  ASSERT_TRUE(welded) << welded.error().message;
+  EXPECT_GT(inspect_mesh(welded->mesh).repeated_corner_faces, 0);
+  EXPECT_EQ(find_cracks(*mesh).vertices, 0);
+}
+
+TEST(FindCracks, LooksPastFacesThatHaveCollapsedAlready) {
+  Draft sheets = two_sheets(5e-3);
+  sheets.positions[13] = sheets.positions[12];
+  const CrackReport cracks = find_cracks(*finish(sheets));
+  EXPECT_EQ(cracks.closed_edges, 8);
+  EXPECT_EQ(cracks.vertices, 6) << "the two at one place as well";
+}
+
+TEST(FindCracks, NamesADistanceOfOneDigit) {
+  for (const double scale : {1e-7, 2.999e-3, 0.77, 1e5, 9.99e9}) {
+    const Draft cut = transformed(two_sheets(5e-3), scale, Vec3::Zero(), false);
+    const std::string text = number_text(find_cracks(*finish(cut)).distance);
+    const std::string digits = text.substr(0, text.find('e'));
+    EXPECT_EQ(std::ranges::count_if(digits, [](char c) { return c >= '1' && c <= '9'; }), 1)
+        << text;
+  }
 }
 
 }  // namespace

@@ -213,6 +213,26 @@ TEST_P(WeldedMethod, GivesMergedVerticesTheDistanceOfTheWholeSurface) {
   }
 }
 
+TEST_P(WeldedMethod, NumbersTheNearestSourcesAsTheyWereGiven) {
+  Draft sheets = plane_grid(4, 4, 4, 4);
+  append(sheets, transformed(sheets, 1, Vec3(4, 0, 0), false));
+  auto welded = weld(*finish(sheets), 0);
+  ASSERT_TRUE(welded);
+  ASSERT_EQ(welded->mesh.standing_for(25), 4);
+  SourceSet sources = SourceSet::of_vertices({20});
+  sources.edges = {{3, 4}, {25, 26}, {48, 49}};  // the first two touch on the welded mesh alone
+  ASSERT_EQ(source_groups(sources).count, 4);
+  const auto nearest =
+      answer(std::make_shared<const TriangleMesh>(std::move(welded->mesh)), sources,
+             options_of(MethodKind::kWavefront, GetParam()), {.nearest = true})
+          .nearest_source;
+  ASSERT_EQ(nearest.size(), 50U);
+  EXPECT_EQ(nearest[20], 0);
+  for (const Index v : {3, 4, 25, 26}) EXPECT_EQ(nearest[static_cast<std::size_t>(v)], 1) << v;
+  EXPECT_EQ(nearest[48], 3);
+  EXPECT_EQ(nearest[49], 3);
+}
+
 INSTANTIATE_TEST_SUITE_P(Refine, WeldedMethod, testing::Values(0, 1));
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/geometry/mesh_report.h"
+#include "solver/heat/option_text.h"
+#include "solver/mesh/weld.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -16,7 +19,7 @@ const SourceSet kSource = SourceSet::of_vertices({0});
 TEST(DiagnoseTest, AnAnswerWithoutErrorHasNoCause) {
   const MeshPtr mesh = finish(sphere(1));
   const std::vector<double> same(mesh->positions().size(), 1);
-  const auto diagnosis = diagnose(mesh, {}, kSource, same, same);
+  const auto diagnosis = diagnose(mesh, {}, 1, kSource, same, same);
   ASSERT_TRUE(diagnosis);
   EXPECT_FALSE(diagnosis->cause || diagnosis->skipped || diagnosis->refined);
 }
@@ -28,10 +31,44 @@ TEST(DiagnoseTest, WhatNoChangeLowersHasNoCause) {
   const std::vector<double> distances(vertices, 1), better(vertices, 1e6);
   MethodOptions options;
   options.variant = Variant::kClassic;
-  const auto diagnosis = diagnose(mesh, options, kSource, distances, better);
+  const auto diagnosis = diagnose(mesh, options, 1, kSource, distances, better);
   ASSERT_TRUE(diagnosis) << diagnosis.error().message;
   EXPECT_FALSE(diagnosis->cause);
   EXPECT_TRUE(diagnosis->refined);
+}
+
+/// Three sheets that meet in one line.
+MeshPtr book() {
+  const Draft sheet = plane_grid(4, 4, 4, 4);
+  Draft draft = sheet;
+  Draft left = sheet, upright = sheet;
+  for (Vec3& p : left.positions) p.x() *= -1;
+  for (Vec3& p : upright.positions) p = Vec3(0, p.y(), p.x());
+  append(draft, left);
+  append(draft, upright);
+  auto welded = weld(*finish(draft), 0);
+  EXPECT_TRUE(welded);
+  return std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+}
+
+TEST(DiagnoseTest, SaysWhatIsWrongWithEachLaplacian) {
+  const MeshPtr mesh = book();
+  ASSERT_EQ(inspect_mesh(*mesh).non_delaunay_edges, 0);
+  const auto distances_of = [&mesh](const MethodOptions& options) {
+    const auto method = build_method(mesh, options);
+    EXPECT_TRUE(method) << method.error().message;
+    return (*method)->solve(kSource)->distances;
+  };
+  const std::vector<double> better = distances_of({});
+  for (const LaplacianKind kind : {LaplacianKind::kCotan, LaplacianKind::kIntrinsicDelaunay}) {
+    MethodOptions options;
+    options.laplacian = kind;
+    const auto diagnosis = diagnose(mesh, options, 1, kSource, distances_of(options), better);
+    ASSERT_TRUE(diagnosis) << diagnosis.error().message;
+    ASSERT_TRUE(diagnosis->cause) << to_text(kind);
+    EXPECT_EQ(diagnosis->cause->because,
+              "the Laplacian is " + to_text(kind) + " and 1 component is no oriented manifold");
+  }
 }
 
 TEST(DiagnoseTest, LargeMeshesAreNotSolvedAgain) {
@@ -40,7 +77,7 @@ TEST(DiagnoseTest, LargeMeshesAreNotSolvedAgain) {
   const std::size_t vertices = mesh->positions().size();
   const std::vector<double> distances(vertices, 1), better(vertices, 2);
   const auto never = [](std::string_view, double) { return false; };
-  const auto diagnosis = diagnose(mesh, {}, kSource, distances, better, never);
+  const auto diagnosis = diagnose(mesh, {}, 1, kSource, distances, better, never);
   ASSERT_TRUE(diagnosis) << "there was nothing to cancel";
   EXPECT_TRUE(diagnosis->skipped);
 }
@@ -50,7 +87,7 @@ TEST(DiagnoseTest, CanBeCancelled) {
   const std::size_t vertices = mesh->positions().size();
   const std::vector<double> distances(vertices, 1), better(vertices, 2);
   const auto never = [](std::string_view, double) { return false; };
-  const auto diagnosis = diagnose(mesh, {}, kSource, distances, better, never);
+  const auto diagnosis = diagnose(mesh, {}, 1, kSource, distances, better, never);
   ASSERT_FALSE(diagnosis);
   EXPECT_EQ(diagnosis.error().code, ErrorCode::kCancelled);
 }

@@ -26,10 +26,17 @@ std::size_t most_bytes() {
   return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
 }
 
-Error too_large(const std::string& name, std::size_t size) {
-  return {ErrorCode::kOutOfMemory, name + ": not enough memory for a model of more than " +
-                                       std::to_string(size) +
-                                       " bytes from a stream; write it to a file and name that"};
+Error too_large(const std::string& name, std::size_t most) {
+  return {ErrorCode::kOutOfMemory, name + ": a model from a stream may have at most " +
+                                       std::to_string(most) +
+                                       " bytes, half of the memory that is free; write it to a "
+                                       "file and name that"};
+}
+
+Error ended(const std::string& name, std::size_t size) {
+  return {ErrorCode::kOutOfMemory, name + ": the memory ended after " + std::to_string(size) +
+                                       " bytes of a model from a stream; write it to a file and "
+                                       "name that"};
 }
 
 }  // namespace
@@ -39,10 +46,10 @@ Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
   try {
     const std::size_t most = most_bytes();
     for (;;) {
-      if (out.buffer_.size() < out.size_ + kStep + MappedFile::kPadding) {
-        if (out.size_ + kStep > most) return too_large(name, out.size_);
-        const std::size_t grown = std::min(most, out.size_ + std::max(kStep, out.size_ / 2));
-        out.buffer_.resize(grown + MappedFile::kPadding);
+      if (out.buffer_.size() <= out.size_ + MappedFile::kPadding) {
+        if (out.size_ >= most) return too_large(name, most);
+        const std::size_t step = std::min(std::max(kStep, out.size_ / 2), most - out.size_);
+        out.buffer_.resize(out.size_ + step + MappedFile::kPadding);
       }
       const std::size_t room = out.buffer_.size() - MappedFile::kPadding - out.size_;
       const ssize_t got = ::read(descriptor, out.buffer_.data() + out.size_, room);
@@ -55,9 +62,9 @@ Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
       out.size_ += static_cast<std::size_t>(got);
     }
   } catch (const std::bad_alloc&) {
-    return too_large(name, out.size_);
+    return ended(name, out.size_);
   } catch (const std::length_error&) {
-    return too_large(name, out.size_);
+    return ended(name, out.size_);
   }
   if (out.size_ == 0) return Error{ErrorCode::kBadFile, name + ": there was nothing to read"};
   std::fill(out.buffer_.begin() + static_cast<std::ptrdiff_t>(out.size_), out.buffer_.end(), '\0');

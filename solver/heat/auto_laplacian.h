@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "solver/geometry/mesh_report.h"
+#include "solver/heat/heat_options.h"
+
+namespace geotherm {
+
+/// What LaplacianKind::kAuto becomes on a mesh.
+inline LaplacianKind auto_kind(const MeshReport& mesh) {
+  if (mesh.tufted_components > 0) return LaplacianKind::kTufted;
+  return mesh.non_delaunay_edges > 0 ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
+}
+
+}  // namespace geotherm
