@@ -48,7 +48,7 @@ FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, boo
 
 Result<void> check_factor_memory(const Analysis& analysis, std::string_view backend,
                                  const FactorPlan& plan, double limit_mb) {
-  const auto one = static_cast<double>(analysis.factor_bytes());
+  const auto one = static_cast<double>(analysis.factor_bytes(FactorStorage::kSingle));
   const double work =
       static_cast<double>(analysis.work_bytes()) * std::min(plan.at_once, plan.missing);
   if (one == 0) return {};

@@ -185,8 +185,8 @@ double HeatMethod::memory_mb() const {
 }
 double HeatMethod::forecast_mb() const {
   const FactorPlan plan = plan_factors(state_->options.boundary, {}, false, 1);
-  return static_cast<double>(state_->surface->analysis->factor_bytes()) * plan.factors /
-         (1024.0 * 1024.0);
+  return static_cast<double>(state_->surface->analysis->factor_bytes(FactorStorage::kSingle)) *
+         plan.factors / (1024.0 * 1024.0);
 }
 const std::vector<std::string>& HeatMethod::warnings() const { return state_->warnings; }
 

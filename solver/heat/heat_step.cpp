@@ -12,6 +12,9 @@
 namespace geotherm {
 namespace {
 
+/// The heat falls by hundreds of decades.
+constexpr FactorStorage kStorage = FactorStorage::kWideExponent;
+
 /// What brings the right sides of all components to one size, as their systems see them: they are
 /// lengths squared, and iterations end by one norm over all components.
 std::vector<double> even_out(const std::vector<ComponentSize>& sizes, HeatMode mode) {
@@ -48,8 +51,9 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Su
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     const double share = out->neumann_ ? 0.5 : 0.0;
     if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
-    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0,
-                                     out->t_, std::move(held), threads, out->consistent_share_);
+    auto built =
+        LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, out->t_,
+                            std::move(held), {threads, kStorage}, out->consistent_share_);
     if (!built) return Result<void>(built.error());
     target = std::move(*built);
     return Result<void>();
@@ -102,7 +106,7 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
     for (const auto& anchor : anchors.anchors) b(anchor.row, 0) = held_value(anchor);
   }
   return LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
-                             threads_, consistent_share_);
+                             {threads_, kStorage}, consistent_share_);
 }
 
 /// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set.

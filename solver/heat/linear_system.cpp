@@ -7,13 +7,13 @@ namespace geotherm {
 
 Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
     const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-    const PerComponent& stiffness_factor, std::vector<Index> held, int threads,
+    const PerComponent& stiffness_factor, std::vector<Index> held, const FactorOptions& options,
     const PerComponent& consistent_share) {
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
   auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held,
                                                       consistent_share);
-  auto factor = analysis.factorize(factored, threads);
+  auto factor = analysis.factorize(factored, options);
   if (!factor) return factor.error();
   std::shared_ptr<LinearSystem> out(new LinearSystem);
   out->factor_ = std::move(*factor);

@@ -15,7 +15,7 @@ class LinearSystem {
   /// Factorises a A + s L with `held` rows replaced by the identity's.
   static Result<std::shared_ptr<const LinearSystem>> build(
       const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-      const PerComponent& stiffness_factor, std::vector<Index> held, int threads,
+      const PerComponent& stiffness_factor, std::vector<Index> held, const FactorOptions& options,
       const PerComponent& consistent_share = 0.0);
 
   const FemOperator& matrix() const { return *matrix_; }

@@ -7,6 +7,8 @@
 namespace geotherm {
 namespace {
 
+constexpr FactorStorage kStorage = FactorStorage::kSingle;
+
 /// One held vertex a component: the last eliminated (the pivot that suffers least), the last of
 /// the file for the penalty mode, or the one asked for.
 Result<std::vector<Index>> choose_pins(const Surface& surface, const Constraint& constraint) {
@@ -67,7 +69,7 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
   if (!report(progress, "factorize", 0.0)) return cancelled_error();
   auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
-                                    std::move(pins), threads);
+                                    std::move(pins), {threads, kStorage});
   if (!system) return system.error();
   out->system_ = std::move(*system);
   out->surface_ = std::move(surface);
@@ -177,7 +179,7 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
         part_of(progress, static_cast<double>(c) / columns, static_cast<double>(c + 1) / columns);
     if (!report(part, "solve", 0.0)) return cancelled_error();
     const auto system = LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0,
-                                            std::move(held), threads_);
+                                            std::move(held), {threads_, kStorage});
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;

@@ -31,6 +31,21 @@ inline int column_group(Eigen::Index columns) {
 struct FactorStats {
   std::int64_t nonzeros = 0;  ///< stored entries of the factor (0: no factor)
   std::int64_t bytes = 0;     ///< memory held
+  /// Floating-point operations that the numeric factorisation took; 0 where nobody counts.
+  std::int64_t operations = 0;
+};
+
+/// How a direct backend may keep the numbers of a factor, which it computes in double always.
+/// Solves are bound by reading them. Backends that cannot keep them narrow keep them full.
+enum class FactorStorage {
+  kFull,          ///< double
+  kSingle,        ///< float: for answers within a few decades of each other
+  kWideExponent,  ///< the upper half of a double: 21 bits of mantissa, all of its exponent
+};
+
+struct FactorOptions {
+  int threads = 1;
+  FactorStorage storage = FactorStorage::kFull;
 };
 
 /// What one solve did.
@@ -48,9 +63,10 @@ class Factorization {
   /// which B may be nonzero, in any order: a backend may use it to skip work. An iterative backend
   /// calls `progress` before it starts and then every few milliseconds, as far as single iterations
   /// allow, and ends with kCancelled when told to; X is of no use then. A direct one need not.
+  /// `threads`: that it may use; the answer has the same bits with any number of them.
   /// Errors: kBudgetEnded (iterations, residual), kNumericalFailure, kCancelled.
   virtual Result<SolveReport> solve(Block& x, std::span<const Index> support = {},
-                                    const Progress& progress = {}) const = 0;
+                                    const Progress& progress = {}, int threads = 1) const = 0;
 
   /// The entries of M^-1 at the given rows and columns: k x k. Cost for direct backends: the
   /// elimination-tree paths of the rows; otherwise k solves.
@@ -70,16 +86,15 @@ class Analysis {
   virtual std::span<const Index> order() const = 0;
 
   /// Errors: kBadInput (another pattern), kNumericalFailure (the column whose pivot is not
-  /// positive), kOutOfMemory. `threads`: for the dense kernels inside. May be called from several
-  /// threads at once.
+  /// positive), kOutOfMemory. May be called from several threads at once.
   virtual Result<std::unique_ptr<Factorization>> factorize(
-      std::shared_ptr<const SymmetricOperator> matrix, int threads) const = 0;
+      std::shared_ptr<const SymmetricOperator> matrix, const FactorOptions& options) const = 0;
 
   virtual std::int64_t bytes() const { return 0; }
 
   /// FactorStats::bytes of every factor of this pattern, known before one is made; 0 where none is
   /// held.
-  virtual std::int64_t factor_bytes() const { return 0; }
+  virtual std::int64_t factor_bytes(FactorStorage /*storage*/) const { return 0; }
 
   /// What factorize() takes beside that while it works, the assembled matrix included.
   virtual std::int64_t work_bytes() const { return 0; }

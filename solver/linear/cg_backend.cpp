@@ -43,8 +43,8 @@ class ConjugateGradient final : public Factorization {
   explicit ConjugateGradient(std::shared_ptr<const SymmetricOperator> matrix)
       : matrix_(std::move(matrix)) {}
 
-  Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/,
-                            const Progress& progress) const override {
+  Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/, const Progress& progress,
+                            int /*threads*/) const override {
     SolveReport report;
     std::vector<double> column(static_cast<std::size_t>(size()));
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
@@ -134,8 +134,9 @@ class CgAnalysis final : public Analysis {
 
   std::span<const Index> order() const override { return order_; }
 
-  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
-                                                   int /*threads*/) const override {
+  Result<std::unique_ptr<Factorization>> factorize(
+      std::shared_ptr<const SymmetricOperator> matrix,
+      const FactorOptions& /*options*/) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();

@@ -129,17 +129,17 @@ class CholmodAnalysis final : public Analysis {
   }
 
   std::span<const Index> order() const override { return order_; }
-  std::int64_t factor_bytes() const override { return forecast_.factor; }
+  std::int64_t factor_bytes(FactorStorage /*storage*/) const override { return forecast_.factor; }
   std::int64_t work_bytes() const override { return forecast_.work; }
 
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
-                                                   int threads) const override {
+                                                   const FactorOptions& options) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();
     }
-    BlasThreads blas(threads);
-    if (structure_ && !blas.has_room(factor_bytes() + work_bytes())) {
+    BlasThreads blas(options.threads);
+    if (structure_ && !blas.has_room(forecast_.factor + forecast_.work)) {
       return out_of_memory("factorisation", matrix->size());
     }
     const LowerMatrix& lower = matrix->assembled();

@@ -33,11 +33,12 @@ class EigenAnalysis final : public Analysis {
   }
 
   std::span<const Index> order() const override { return order_; }
-  std::int64_t factor_bytes() const override { return factor_bytes_; }
+  std::int64_t factor_bytes(FactorStorage /*storage*/) const override { return factor_bytes_; }
   std::int64_t work_bytes() const override { return work_bytes_; }
 
-  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
-                                                   int /*threads*/) const override {
+  Result<std::unique_ptr<Factorization>> factorize(
+      std::shared_ptr<const SymmetricOperator> matrix,
+      const FactorOptions& /*options*/) const override {
     if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
         !same) {
       return same.error();

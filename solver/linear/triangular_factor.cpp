@@ -11,8 +11,8 @@ class DirectFactorization final : public Factorization {
   explicit DirectFactorization(std::unique_ptr<TriangularFactor> factor)
       : factor_(std::move(factor)) {}
 
-  Result<SolveReport> solve(Block& x, std::span<const Index> support,
-                            const Progress& /*progress*/) const override {
+  Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& /*progress*/,
+                            int /*threads*/) const override {
     const std::vector<Index> path = factor_->tree().path(support);
     for (Eigen::Index first = 0; first < x.cols();) {
       const int width = column_group(x.cols() - first);

@@ -18,10 +18,10 @@ class FaultyFactorization final : public Factorization {
  public:
   FaultyFactorization(const Plan& plan, std::unique_ptr<Factorization> inner)
       : plan_(plan), inner_(std::move(inner)) {}
-  Result<SolveReport> solve(Block& x, std::span<const Index> support,
-                            const Progress& progress) const override {
+  Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& progress,
+                            int threads) const override {
     if (plan_.fault == Fault::kSolve) return plan_.error;
-    return inner_->solve(x, support, progress);
+    return inner_->solve(x, support, progress, threads);
   }
   FactorStats stats() const override { return inner_->stats(); }
   Index size() const override { return inner_->size(); }
@@ -37,9 +37,9 @@ class FaultyAnalysis final : public Analysis {
       : plan_(plan), inner_(std::move(inner)) {}
   std::span<const Index> order() const override { return inner_->order(); }
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
-                                                   int threads) const override {
+                                                   const FactorOptions& options) const override {
     if (plan_.fault == Fault::kFactor) return plan_.error;
-    auto made = inner_->factorize(std::move(matrix), threads);
+    auto made = inner_->factorize(std::move(matrix), options);
     if (!made) return made;
     return std::unique_ptr<Factorization>(
         std::make_unique<FaultyFactorization>(plan_, *std::move(made)));

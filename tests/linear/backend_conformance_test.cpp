@@ -139,7 +139,7 @@ TEST_P(Conformance, StopsWhenToldToIfItIterates) {
 TEST_P(Conformance, AnotherPatternIsBadInput) {
   const Analysed other = analysed(*finish(sphere(1)), backend);
   const auto matrix = std::make_shared<FemOperator>(other.operators, 1, 1);
-  const auto factor = surface.analysis->factorize(matrix, 1);
+  const auto factor = surface.analysis->factorize(matrix, {});
   ASSERT_FALSE(factor);
   EXPECT_EQ(factor.error().code, ErrorCode::kBadInput);
   EXPECT_NE(factor.error().message.find(std::to_string(n)), std::string::npos);
@@ -172,7 +172,7 @@ TEST_P(Conformance, ConcurrentFactorisationsOfOneAnalysisAgree) {
     threads.reserve(answers.size());
     for (Block& answer : answers) {
       threads.emplace_back([this, &answer] {
-        const auto factor = surface.analysis->factorize(heat(), 1);
+        const auto factor = surface.analysis->factorize(heat(), {});
         if (!factor || !(*factor)->solve(answer)) answer.setZero();
       });
     }

@@ -18,7 +18,7 @@ constexpr double kResidual = 1e-11;
 /// Factorises and solves; the error of whichever fails.
 Result<Block> attempt(const Analysis& analysis, std::shared_ptr<const SymmetricOperator> matrix,
                       Block b) {
-  auto factor = analysis.factorize(std::move(matrix), 1);
+  auto factor = analysis.factorize(std::move(matrix), {});
   if (!factor) return factor.error();
   const auto report = (*factor)->solve(b);
   if (!report) return report.error();

@@ -31,7 +31,7 @@ inline Block random_block(Index rows, Index columns, unsigned seed) {
 /// A matrix, factored. Fails the test where that is not possible.
 inline std::unique_ptr<Factorization> factored(const Analysis& analysis,
                                                std::shared_ptr<const SymmetricOperator> matrix) {
-  auto factor = analysis.factorize(std::move(matrix), 1);
+  auto factor = analysis.factorize(std::move(matrix), {});
   if (!factor) {
     ADD_FAILURE() << factor.error().message;
     return nullptr;

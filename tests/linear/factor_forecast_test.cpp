@@ -33,10 +33,15 @@ class FactorForecast : public testing::TestWithParam<Case> {};
 TEST_P(FactorForecast, IsWhatTheFactorTakes) {
   const Backend& backend = backend_named(std::get<0>(GetParam()));
   const Analysed surface = analysed(*finish(std::get<1>(GetParam()).draft()), backend);
-  const auto factor =
-      factored(*surface.analysis, std::make_shared<FemOperator>(surface.operators, 1, 1));
-  const auto bytes = static_cast<double>(factor->stats().bytes);
-  EXPECT_NEAR(static_cast<double>(surface.analysis->factor_bytes()), bytes, kForecast * bytes);
+  for (const FactorStorage storage :
+       {FactorStorage::kFull, FactorStorage::kSingle, FactorStorage::kWideExponent}) {
+    const auto factor = surface.analysis->factorize(
+        std::make_shared<FemOperator>(surface.operators, 1, 1), {.threads = 1, .storage = storage});
+    ASSERT_TRUE(factor);
+    const auto bytes = static_cast<double>((*factor)->stats().bytes);
+    EXPECT_NEAR(static_cast<double>(surface.analysis->factor_bytes(storage)), bytes,
+                kForecast * bytes);
+  }
   EXPECT_EQ(surface.analysis->work_bytes() > 0, !backend.iterative());
 }
 
