@@ -37,6 +37,7 @@ class Registry {
  private:
   mutable std::mutex mutex_;
   std::vector<const Backend*> all_ = {
+      native_backend(),
 #ifdef GEOTHERM_HAS_CHOLMOD
       cholmod_backend(),
 #endif

@@ -5,6 +5,10 @@
 
 namespace geotherm {
 
+/// Multifrontal Cholesky of our own (Duff, Reid 1983) with narrow factors: no library beyond the
+/// standard one.
+const Backend* native_backend();
+
 /// Supernodal or simplicial Cholesky of SuiteSparse (Chen, Davis, Hager, Rajamanickam 2008).
 /// Only in builds with GEOTHERM_WITH_CHOLMOD.
 const Backend* cholmod_backend();

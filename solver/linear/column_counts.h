@@ -13,8 +13,8 @@ struct ColumnCounts {
   std::vector<Index> below;   ///< n: entries below the diagonal
 };
 
-/// Of a matrix with this pattern, eliminated in the order of its numbers. Each row is walked up the
-/// elimination tree (Liu 1990). Cost: one step an entry of the factor; memory O(n).
+/// Of a matrix with this pattern, eliminated in the order of its numbers. Cost: nearly O(entries of
+/// the pattern), whatever the factor's (Gilbert, Ng, Peyton 1994).
 ColumnCounts count_columns(const SymmetricPattern& pattern);
 
 }  // namespace geotherm

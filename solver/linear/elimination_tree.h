@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/core/types.h"
+#include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
 
@@ -18,5 +19,15 @@ struct EliminationTree {
   /// Cost: the length of the answer, times a logarithm (Gilbert, Peierls 1988, for trees).
   std::vector<Index> path(std::span<const Index> rows) const;
 };
+
+/// The elimination tree of a matrix with this pattern, eliminated in the order of its numbers: the
+/// parent of a column is the row of its first entry below the diagonal, kNoIndex where it has none.
+/// Cost: nearly O(entries of the pattern), whatever the factor's (Liu 1986, with path compression).
+std::vector<Index> elimination_parents(const SymmetricPattern& pattern);
+
+/// order[k]: the node that comes k-th when every subtree is contiguous and children come before
+/// their parent, brothers in the order of their numbers. Precondition: parents have larger numbers.
+/// Cost: O(n).
+std::vector<Index> postorder(std::span<const Index> parent);
 
 }  // namespace geotherm

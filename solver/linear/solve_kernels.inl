@@ -3,67 +3,14 @@
 // GEOTHERM_KERNEL_NAMESPACE and its compiler flags. Plain loops over fixed sizes, which the
 // compiler turns into vector code.
 #include "solver/linear/solve_kernels.h"
+#include "solver/linear/stored_number.h"
 
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;  ///< doubles a register holds
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
+#include "solver/linear/register_group.inl"
+
 constexpr Index kTile = 4;  ///< rows or columns of the factor held in registers at a time
-
-/// K doubles in registers of the instruction set's width.
-template <int K>
-class Group {
-  static constexpr int kWidth = K < kLanes ? K : kLanes;
-  static constexpr int kCount = K / kWidth;
-  typedef double Lane __attribute__((vector_size(8 * kWidth)));
-  typedef double Loose __attribute__((vector_size(8 * kWidth), aligned(8), may_alias));
-
- public:
-  static Group load(const double* from) {
-    Group out;
-    for (int i = 0; i < kCount; ++i) out.lane_[i] = reinterpret_cast<const Loose*>(from)[i];
-    return out;
-  }
-  static Group zero() {
-    Group out;
-    for (int i = 0; i < kCount; ++i) out.lane_[i] = Lane{};
-    return out;
-  }
-  void store(double* to) const {
-    for (int i = 0; i < kCount; ++i) reinterpret_cast<Loose*>(to)[i] = lane_[i];
-  }
-  void add(const Group& a, const Group& b) {
-    for (int i = 0; i < kCount; ++i) lane_[i] += a.lane_[i] * b.lane_[i];
-  }
-  double sum() const {
-    double out = 0;
-    for (int i = 0; i < kCount; ++i) {
-      for (int j = 0; j < kWidth; ++j) out += lane_[i][j];
-    }
-    return out;
-  }
-  void add(double factor, const Group& other) {
-    for (int i = 0; i < kCount; ++i) lane_[i] += factor * other.lane_[i];
-  }
-  void subtract(double factor, const Group& other) {
-    for (int i = 0; i < kCount; ++i) lane_[i] -= factor * other.lane_[i];
-  }
-  void subtract(const Group& other) {
-    for (int i = 0; i < kCount; ++i) lane_[i] -= other.lane_[i];
-  }
-  void scale(double factor) {
-    for (int i = 0; i < kCount; ++i) lane_[i] *= factor;
-  }
-
- private:
-  Lane lane_[kCount];
-};
 
 /// One right side: rows are the vector dimension, kRows at a time. The last rows of a column are
 /// read together with what follows them in memory and multiplied by zero or left unused; panels

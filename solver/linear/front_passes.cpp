@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "solver/linear/front_passes.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "solver/linear/front_tasks.h"
+
+namespace geotherm {
+namespace {
+
+using Doubles = std::unique_ptr<double[]>;
+Doubles uncleared(std::int64_t count) {
+  return Doubles(new double[static_cast<std::size_t>(count)]);  // NOLINT: make_unique clears
+}
+
+/// to[i] = or += from[i], `count` doubles; groups are short.
+inline void copy(const double* from, int count, double* to) {
+  for (int k = 0; k < count; ++k) to[k] = from[k];
+}
+inline void add(const double* from, int count, double* to) {
+  for (int k = 0; k < count; ++k) to[k] += from[k];
+}
+
+}  // namespace
+
+FrontPasses::FrontPasses(const FrontTree& tree, const FrontFactor& factor, int group,
+                         InstructionSet set)
+    : tree_(tree),
+      factor_(factor),
+      group_(group),
+      solves_(front_solves(factor.storage, group, set)) {}
+
+/// What happens at one front; y is its vector, a group at each of its places.
+class FrontPasses::Steps {
+ public:
+  Steps(const FrontPasses& passes, double* x, Eigen::Index stride)
+      : p_(passes), tree_(passes.tree_), group_(passes.group_), x_(x), stride_(stride) {}
+
+  std::int64_t vector_size(Index s) const { return std::int64_t{tree_.places(s)} * group_; }
+  std::int64_t own_size(Index s) const { return std::int64_t{padded(tree_.width(s))} * group_; }
+
+  /// Forward: the right side at its own rows, nothing below yet.
+  void start(Index s, double* y) const {
+    load(s, y);
+    std::fill(y + own_size(s), y + vector_size(s), 0.0);
+  }
+
+  /// Forward: adds what a child leaves to the rows below it.
+  void take(Index child, const double* left, double* y) const {
+    const Index* const place = tree_.places_in_parent(child);
+    const Index count = tree_.below(child);
+    if (group_ == 1) {
+      for (Index i = 0; i < count; ++i) y[place[i]] += left[i];
+      return;
+    }
+    for (Index i = 0; i < count; ++i) add(left + i * group_, group_, y + place[i] * group_);
+  }
+
+  void eliminate(Index s, double* y) const {
+    p_.solves_.forward(p_.factor_.front(tree_, s), y);
+    store(s, y);
+  }
+
+  /// Backward: `above` is the vector of its parent, if it has one.
+  void substitute(Index s, const double* above, double* y) const {
+    load(s, y);
+    double* const under = y + own_size(s);
+    const Index below = tree_.below(s);
+    const Index* const place = tree_.places_in_parent(s);
+    if (group_ == 1) {
+      for (Index i = 0; i < below; ++i) under[i] = above[place[i]];
+    } else {
+      for (Index i = 0; i < below; ++i) {
+        copy(above + place[i] * group_, group_, under + i * group_);
+      }
+    }
+    std::fill(under + std::int64_t{below} * group_, y + vector_size(s), 0.0);
+    p_.solves_.backward(p_.factor_.front(tree_, s), y);
+    store(s, y);
+  }
+
+ private:
+  double* rows(Index s) const { return x_ + tree_.nodes.first[s] * stride_; }
+  void load(Index s, double* y) const {
+    const Index width = tree_.width(s);
+    for (Index i = 0; i < width; ++i) copy(rows(s) + i * stride_, group_, y + i * group_);
+    std::fill(y + std::int64_t{width} * group_, y + own_size(s), 0.0);
+  }
+  void store(Index s, const double* y) const {
+    for (Index i = 0; i < tree_.width(s); ++i) copy(y + i * group_, group_, rows(s) + i * stride_);
+  }
+
+  const FrontPasses& p_;
+  const FrontTree& tree_;
+  int group_;
+  double* x_;
+  Eigen::Index stride_;
+};
+
+/// The forward pass over the fronts of a task: vectors wait on two stacks, as updates do in the
+/// factorisation.
+class FrontPasses::Upwards {
+ public:
+  Upwards(const FrontTree& tree, int group, const Steps& steps)
+      : tree_(tree),
+        steps_(steps),
+        stack_{uncleared(tree.vector_stack[0] * group), uncleared(tree.vector_stack[1] * group)} {}
+
+  /// `left`: what the last fronts of other tasks leave to theirs.
+  void run(const FrontTask& task, Index number, std::vector<Doubles>& left) {
+    for (int k = 0; k < 2; ++k) {
+      top_[k] = stack_[k].get();
+      held_[k].clear();
+    }
+    for (Index s = task.begin; s < task.end; ++s) {
+      const int own = tree_.stack[s];
+      double* const y = top_[own];
+      top_[own] += steps_.vector_size(s);
+      steps_.start(s, y);
+      take_children(s, y);
+      if (s == task.begin) {
+        for (auto child = task.children.rbegin(); child != task.children.rend(); ++child) {
+          steps_.take(tree_.tasks[*child].end - 1, left[*child].get(), y);
+        }
+      }
+      steps_.eliminate(s, y);
+      held_[own].push_back(s);
+    }
+    if (task.parent == kNoIndex) return;
+    const Index last = task.end - 1;
+    const std::int64_t size = steps_.vector_size(last) - steps_.own_size(last);
+    left[number] = uncleared(size);
+    std::copy_n(top_[tree_.stack[last]] - size, size, left[number].get());
+  }
+
+ private:
+  void take_children(Index s, double* y) {
+    const int other = 1 - tree_.stack[s];
+    std::vector<Index>& held = held_[other];
+    while (!held.empty() && tree_.tree.parent[held.back()] == s) {
+      const Index child = held.back();
+      held.pop_back();
+      top_[other] -= steps_.vector_size(child);
+      steps_.take(child, top_[other] + steps_.own_size(child), y);
+    }
+  }
+
+  const FrontTree& tree_;
+  const Steps& steps_;
+  Doubles stack_[2];
+  double* top_[2] = {nullptr, nullptr};
+  std::vector<Index> held_[2];  ///< fronts whose vectors wait, on each stack
+};
+
+/// The backward pass over the fronts of a task: the vectors of all fronts above one wait.
+class FrontPasses::Downwards {
+ public:
+  Downwards(const FrontTree& tree, int group, const Steps& steps)
+      : tree_(tree), steps_(steps), room_(uncleared(tree.vector_path * group)) {}
+
+  void run(const FrontTask& task, const double* above) {
+    held_.clear();
+    for (Index s = task.end; s-- > task.begin;) {
+      while (!held_.empty() && held_.back().front != tree_.tree.parent[s]) held_.pop_back();
+      double* const y = held_.empty() ? room_.get() : held_.back().end;
+      steps_.substitute(s, held_.empty() ? above : held_.back().vector, y);
+      held_.push_back({s, y, y + steps_.vector_size(s)});
+    }
+  }
+
+ private:
+  struct Held {
+    Index front;
+    double *vector, *end;
+  };
+  const FrontTree& tree_;
+  const Steps& steps_;
+  Doubles room_;
+  std::vector<Held> held_;
+};
+
+void FrontPasses::forward(double* x, Eigen::Index stride, int threads) const {
+  const Steps steps(*this, x, stride);
+  std::vector<Doubles> left(tree_.tasks.size());
+  run_tasks(
+      tree_, TaskQueue::Direction::kUp, threads, [&] { return Upwards(tree_, group_, steps); },
+      [&](const FrontTask& task, Index number, Upwards& pass) {
+        pass.run(task, number, left);
+        return true;
+      });
+}
+
+void FrontPasses::backward(double* x, Eigen::Index stride, int threads) const {
+  const Steps steps(*this, x, stride);
+  std::vector<Doubles> kept(tree_.tasks.size());  // vectors of single fronts that others hang on
+  run_tasks(
+      tree_, TaskQueue::Direction::kDown, threads, [&] { return Downwards(tree_, group_, steps); },
+      [&](const FrontTask& task, Index number, Downwards& pass) {
+        const double* above = task.parent == kNoIndex ? nullptr : kept[task.parent].get();
+        if (task.children.empty()) {
+          pass.run(task, above);
+        } else {
+          kept[number] = uncleared(steps.vector_size(task.begin));
+          steps.substitute(task.begin, above, kept[number].get());
+        }
+        return true;
+      });
+}
+
+void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+  struct Held {
+    Index front;
+    Doubles vector;
+  };
+  const Steps steps(*this, x, stride);
+  std::vector<Held> held;
+  for (const Index s : path) {
+    Doubles y = uncleared(steps.vector_size(s));
+    steps.start(s, y.get());
+    for (; !held.empty() && tree_.tree.parent[held.back().front] == s; held.pop_back()) {
+      const Index child = held.back().front;
+      steps.take(child, held.back().vector.get() + steps.own_size(child), y.get());
+    }
+    steps.eliminate(s, y.get());
+    held.push_back({s, std::move(y)});
+  }
+}
+
+void FrontPasses::backward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+  struct Held {
+    Index front;
+    Doubles vector;
+  };
+  const Steps steps(*this, x, stride);
+  std::vector<Held> held;
+  for (auto s = path.rbegin(); s != path.rend(); ++s) {
+    while (!held.empty() && held.back().front != tree_.tree.parent[*s]) held.pop_back();
+    Doubles y = uncleared(steps.vector_size(*s));
+    steps.substitute(*s, held.empty() ? nullptr : held.back().vector.get(), y.get());
+    held.push_back({*s, std::move(y)});
+  }
+}
+
+}  // namespace geotherm

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+// The passes of front_kernels.h over one front, compiled once for each instruction set: the
+// including file sets GEOTHERM_KERNEL_NAMESPACE and its compiler flags. Both read the front's
+// numbers as one stream, forward upwards and backward downwards.
+#include <cstring>
+
+#include "solver/linear/front_kernels.h"
+#include "solver/linear/stored_number.h"
+
+namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
+namespace {
+
+#include "solver/linear/register_group.inl"
+
+using Slab = Group<kSlab>;
+
+/// One right side: the rows of a tile are the vector dimension. The last rows are read together
+/// with what follows them: into lanes that are never looked at (forward), or times zero (backward).
+
+/// y += tile x for all tiles of these rows.
+template <int N, class T>
+inline const T* add_rows(const T* values, Index rows, const Slab (&x)[N], double* y) {
+  for (; rows >= kSlab; rows -= kSlab, y += kSlab, values += kSlab * N) {
+    Slab sum = Slab::load(y);
+    for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * kSlab), x[c]);
+    sum.store(y);
+  }
+  if (rows > 0) {
+    Slab sum = Slab::load(y);
+    for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * rows), x[c]);
+    sum.store(y);
+    values += rows * N;
+  }
+  return values;
+}
+
+/// sum += tile^T z, from the last tile to the first; `values` is where they end.
+template <int N, class T>
+inline const T* add_columns(const T* values, Index rows, const double* z, Slab (&sum)[N]) {
+  const Index whole = rows / kSlab;
+  const Index last = rows - whole * kSlab;
+  z += whole * kSlab;
+  if (last > 0) {
+    values -= last * N;
+    const Slab at = Slab::load(z);
+    for (int c = 0; c < N; ++c) sum[c].add(Slab::load(values + c * last), at);
+  }
+  for (Index t = 0; t < whole; ++t) {
+    values -= kSlab * N;
+    z -= kSlab;
+    const Slab at = Slab::load(z);
+    for (int c = 0; c < N; ++c) sum[c].add(Slab::load(values + c * kSlab), at);
+  }
+  return values;
+}
+
+template <int K, int N, class T>
+inline const T* forward_block(const T* values, Index own_rows, Index below, double* own,
+                              double* under) {
+  if constexpr (K == 1) {
+    Slab x[N];
+    for (int c = 0; c < N; ++c) x[c] = Slab::all(own[c]);
+    for (int c = 0; c < N; ++c) own[c] = 0;
+    values = add_rows<N>(values, own_rows, x, own);
+    return add_rows<N>(values, below, x, under);
+  } else {
+    // Several right sides: they are the vector dimension, and the tile's numbers single factors.
+    Group<K> x[N];
+    for (int c = 0; c < N; ++c) {
+      x[c] = Group<K>::load(own + c * K);
+      Group<K>::zero().store(own + c * K);
+    }
+    const auto add = [&](Index rows, double* y) {
+      while (rows > 0) {
+        const Index here = rows < kSlab ? rows : kSlab;
+        double factor[kSlab * N];
+        for (int c = 0; c < N; ++c) Slab::load(values + c * here).store(factor + c * kSlab);
+        for (Index r = 0; r < here; ++r, y += K) {
+          Group<K> sum = Group<K>::load(y);
+          for (int c = 0; c < N; ++c) sum.add(factor[c * kSlab + r], x[c]);
+          sum.store(y);
+        }
+        values += here * N;
+        rows -= here;
+      }
+    };
+    add(own_rows, own);
+    add(below, under);
+    return values;
+  }
+}
+
+template <int K, int N, class T>
+inline const T* backward_block(const T* values, Index own_rows, Index below, double* own,
+                               const double* under) {
+  if constexpr (K == 1) {
+    Slab sum[N];
+    for (int c = 0; c < N; ++c) sum[c] = Slab::zero();
+    values = add_columns<N>(values, below, under, sum);
+    values = add_columns<N>(values, own_rows, own, sum);
+    for (int c = 0; c < N; ++c) own[c] = sum[c].sum();
+    return values;
+  } else {
+    Group<K> sum[N];
+    for (int c = 0; c < N; ++c) sum[c] = Group<K>::zero();
+    const auto add = [&](Index rows, const double* z) {
+      for (Index first = (rows - 1) / kSlab * kSlab; first >= 0 && rows > 0; first -= kSlab) {
+        const Index here = rows - first < kSlab ? rows - first : kSlab;
+        values -= here * N;
+        double factor[kSlab * N];
+        for (int c = 0; c < N; ++c) Slab::load(values + c * here).store(factor + c * kSlab);
+        for (Index r = 0; r < here; ++r) {
+          const Group<K> at = Group<K>::load(z + (first + r) * K);
+          for (int c = 0; c < N; ++c) sum[c].add(factor[c * kSlab + r], at);
+        }
+      }
+    };
+    add(below, under);
+    add(own_rows, own);
+    for (int c = 0; c < N; ++c) sum[c].store(own + c * K);
+    return values;
+  }
+}
+
+/// Calls body<N>() for a number of columns from 1 to 8.
+template <class Body>
+inline void with_columns(Index columns, const Body& body) {
+  switch (columns) {
+    case 1: return body.template operator()<1>();
+    case 2: return body.template operator()<2>();
+    case 3: return body.template operator()<3>();
+    case 4: return body.template operator()<4>();
+    case 5: return body.template operator()<5>();
+    case 6: return body.template operator()<6>();
+    case 7: return body.template operator()<7>();
+    default: return body.template operator()<8>();
+  }
+}
+
+template <int K, class T>
+void forward(const StoredFront& front, double* x) {
+  const auto* values = static_cast<const T*>(front.values);
+  double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
+  Index column = 0;
+  for (; column + kSlab <= front.width; column += kSlab) {
+    values = forward_block<K, kSlab>(values, front.width - column, front.below,
+                                     x + static_cast<std::ptrdiff_t>(column) * K, under);
+  }
+  if (column == front.width) return;
+  with_columns(front.width - column, [&]<int N>() {
+    forward_block<K, N>(values, front.width - column, front.below,
+                        x + static_cast<std::ptrdiff_t>(column) * K, under);
+  });
+}
+
+template <int K, class T>
+void backward(const StoredFront& front, double* x) {
+  const double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
+  const std::int64_t last = front.width % kSlab;
+  Index column = static_cast<Index>(front.width - last);
+  // Blocks of eight columns hold 8 (rows from their first column on) numbers each.
+  const std::int64_t whole = column / kSlab;
+  const std::int64_t rows = front.width + std::int64_t{front.below};
+  const auto* values = static_cast<const T*>(front.values) +
+                       kSlab * (whole * rows - kSlab * (whole * (whole - 1) / 2)) +
+                       last * (last + front.below);
+  if (last > 0) {
+    with_columns(static_cast<Index>(last), [&]<int N>() {
+      values = backward_block<K, N>(values, static_cast<Index>(last), front.below,
+                                    x + static_cast<std::ptrdiff_t>(column) * K, under);
+    });
+  }
+  while (column > 0) {
+    column -= kSlab;
+    values = backward_block<K, kSlab>(values, front.width - column, front.below,
+                                      x + static_cast<std::ptrdiff_t>(column) * K, under);
+  }
+}
+
+template <int K, class T>
+constexpr FrontSolves solves() {
+  return {forward<K, T>, backward<K, T>};
+}
+
+}  // namespace
+
+extern const FrontSolves kFrontSolves[3][5];
+const FrontSolves kFrontSolves[3][5] = {
+    {solves<1, double>(), solves<2, double>(), solves<4, double>(), solves<8, double>(),
+     solves<16, double>()},
+    {solves<1, float>(), solves<2, float>(), solves<4, float>(), solves<8, float>(),
+     solves<16, float>()},
+    {solves<1, UpperHalf>(), solves<2, UpperHalf>(), solves<4, UpperHalf>(),
+     solves<8, UpperHalf>(), solves<16, UpperHalf>()},
+};
+
+}  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "solver/linear/backends.h"
+#include "solver/linear/fill_order.h"
+#include "solver/linear/front_passes.h"
+
+namespace geotherm {
+namespace {
+
+class NativeFactorization final : public Factorization {
+ public:
+  NativeFactorization(std::shared_ptr<const FrontTree> tree, FrontFactor factor)
+      : tree_(std::move(tree)), factor_(std::move(factor)) {}
+
+  Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& /*progress*/,
+                            int threads) const override {
+    const std::vector<Index> path = tree_->tree.path(support);
+    for (Eigen::Index first = 0; first < x.cols();) {
+      const int width = column_group(x.cols() - first);
+      const FrontPasses passes(*tree_, factor_, width);
+      double* const columns = x.data() + first;
+      if (path.empty() || static_cast<double>(path.size()) > kLongPath * tree_->count()) {
+        passes.forward(columns, x.cols(), threads);
+      } else {
+        passes.forward(columns, x.cols(), path);
+      }
+      passes.backward(columns, x.cols(), threads);
+      first += width;
+    }
+    return SolveReport{};
+  }
+
+  Result<Eigen::MatrixXd> inverse_entries(std::span<const Index> rows) const override {
+    const std::vector<Index> path = tree_->tree.path(rows);
+    const auto count = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd entries(count, count);
+    for (Eigen::Index first = 0; first < count;) {
+      const int width = column_group(count - first);
+      const FrontPasses passes(*tree_, factor_, width);
+      Block x = Block::Zero(size(), width);
+      for (int c = 0; c < width; ++c) x(rows[static_cast<std::size_t>(first + c)], c) = 1;
+      passes.forward(x.data(), width, path);
+      passes.backward(x.data(), width, path);
+      for (Eigen::Index r = 0; r < count; ++r) {
+        entries.block(r, first, 1, width) = x.row(rows[static_cast<std::size_t>(r)]);
+      }
+      first += width;
+    }
+    return entries;
+  }
+
+  FactorStats stats() const override {
+    const std::int64_t numbers = tree_->value_start.back();
+    return {numbers, numbers * bytes_of(factor_.storage),
+            static_cast<std::int64_t>(tree_->operations)};
+  }
+  Index size() const override { return tree_->size(); }
+
+ private:
+  /// A path of this share of all fronts and more gains nothing over the whole pass, which has less
+  /// to look up and runs on all threads.
+  static constexpr double kLongPath = 0.2;
+
+  std::shared_ptr<const FrontTree> tree_;
+  FrontFactor factor_;
+};
+
+Error out_of_memory(const std::string& what, Index size) {
+  return {ErrorCode::kOutOfMemory, "native " + what + " for a matrix of size " +
+                                       std::to_string(size) +
+                                       "; try --backend cg, which needs no factor"};
+}
+
+class NativeAnalysis final : public Analysis {
+ public:
+  NativeAnalysis(std::vector<Index> order, std::uint64_t pattern,
+                 std::shared_ptr<const FrontTree> tree, int threads)
+      : order_(std::move(order)), pattern_(pattern), tree_(std::move(tree)), threads_(threads) {}
+
+  std::span<const Index> order() const override { return order_; }
+  std::int64_t bytes() const override { return tree_->bytes(); }
+  std::int64_t factor_bytes(FactorStorage storage) const override {
+    return tree_->value_start.back() * bytes_of(storage);
+  }
+  std::int64_t work_bytes() const override {
+    constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Index);
+    return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, threads_);
+  }
+
+  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
+                                                   const FactorOptions& options) const override
+      try {
+    if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
+        !same) {
+      return same.error();
+    }
+    FrontFactor factor;
+    const FactorFailure failure =
+        factorize_fronts(*tree_, matrix->assembled(), options.storage, options.threads, factor);
+    if (failure.failed()) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "native: the matrix is not positive definite (pivot of column " +
+                       std::to_string(failure.column) + " of " + std::to_string(matrix->size()) +
+                       "); try --laplacian intrinsic-delaunay or another backend"};
+    }
+    return std::unique_ptr<Factorization>(
+        std::make_unique<NativeFactorization>(tree_, std::move(factor)));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the factorisation", matrix->size());
+  }
+
+ private:
+  std::vector<Index> order_;
+  std::uint64_t pattern_;
+  std::shared_ptr<const FrontTree> tree_;
+  int threads_;
+};
+
+class NativeBackend final : public Backend {
+ public:
+  std::string_view name() const override { return "native"; }
+  std::string_view description() const override {
+    return "multifrontal Cholesky made for meshes: nested dissection, narrow factors, all threads";
+  }
+
+  Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                  std::span<const Vec3> positions,
+                                                  int threads) const override try {
+    std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
+    SymmetricPattern eliminated = permuted(pattern, order);
+    // Subtrees of the elimination tree must be contiguous.
+    const std::vector<Index> post = postorder(elimination_parents(eliminated));
+    std::vector<Index> final_order(order.size());
+    for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];
+    eliminated = permuted(pattern, final_order);
+    auto tree = std::make_shared<const FrontTree>(
+        build_front_tree(eliminated, count_columns(eliminated), threads));
+    if (tree->largest_panel > std::numeric_limits<Index>::max()) {
+      return out_of_memory(
+          "would need a front of " + std::to_string(tree->largest_panel) + " numbers",
+          pattern.size());
+    }
+    return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
+        std::move(final_order), pattern_hash(eliminated), std::move(tree), threads));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the analysis", pattern.size());
+  }
+};
+
+}  // namespace
+
+const Backend* native_backend() {
+  static const NativeBackend kBackend;
+  return &kBackend;
+}
+
+}  // namespace geotherm
