@@ -59,12 +59,14 @@ struct StoredFront {
 };
 
 /// The two passes over one front for a group of 1, 2, 4, 8 or 16 right sides. `x`: the values at
-/// its places, a group each; what stands in the padding is of no use, but must be 0 in backward.
+/// its places, a group each; what stands in the padding is of no use.
 struct FrontSolves {
-  /// Own places: x := D-blocks of L^-1 x; to the places below what they lose is added.
-  void (*forward)(const StoredFront& front, double* x);
-  /// Own places: x := L^-T x, given the final values below.
-  void (*backward)(const StoredFront& front, double* x);
+  /// Own places: x := D-blocks of L^-1 x; to the places below what they lose is added, or set where
+  /// the front is `fresh`: nothing is there yet.
+  void (*forward)(const StoredFront& front, double* x, bool fresh);
+  /// Own places: x := L^-T x; the final values below are above[place[i]]. Precondition: the padding
+  /// of the own places is 0.
+  void (*backward)(const StoredFront& front, double* x, const double* above, const Index* place);
 };
 
 const FrontSolves& front_solves(FactorStorage storage, int group,

@@ -42,10 +42,12 @@ class FrontPasses::Steps {
   std::int64_t vector_size(Index s) const { return std::int64_t{tree_.places(s)} * group_; }
   std::int64_t own_size(Index s) const { return std::int64_t{padded(tree_.width(s))} * group_; }
 
-  /// Forward: the right side at its own rows, nothing below yet.
-  void start(Index s, double* y) const {
-    load(s, y);
-    std::fill(y + own_size(s), y + vector_size(s), 0.0);
+  /// Forward: the right side at its own rows; below nothing, which a fresh front need not see.
+  void start(Index s, double* y, bool fresh) const {
+    const double* const x = rows(s);
+    const Index width = tree_.width(s);
+    for (Index i = 0; i < width; ++i) copy(x + i * stride_, group_, y + i * group_);
+    if (!fresh) std::fill(y + own_size(s), y + vector_size(s), 0.0);
   }
 
   /// Forward: adds what a child leaves to the rows below it.
@@ -59,36 +61,23 @@ class FrontPasses::Steps {
     for (Index i = 0; i < count; ++i) add(left + i * group_, group_, y + place[i] * group_);
   }
 
-  void eliminate(Index s, double* y) const {
-    p_.solves_.forward(p_.factor_.front(tree_, s), y);
+  void eliminate(Index s, double* y, bool fresh) const {
+    p_.solves_.forward(p_.factor_.front(tree_, s), y, fresh);
     store(s, y);
   }
 
   /// Backward: `above` is the vector of its parent, if it has one.
   void substitute(Index s, const double* above, double* y) const {
-    load(s, y);
-    double* const under = y + own_size(s);
-    const Index below = tree_.below(s);
-    const Index* const place = tree_.places_in_parent(s);
-    if (group_ == 1) {
-      for (Index i = 0; i < below; ++i) under[i] = above[place[i]];
-    } else {
-      for (Index i = 0; i < below; ++i) {
-        copy(above + place[i] * group_, group_, under + i * group_);
-      }
-    }
-    std::fill(under + std::int64_t{below} * group_, y + vector_size(s), 0.0);
-    p_.solves_.backward(p_.factor_.front(tree_, s), y);
+    const double* const x = rows(s);
+    const Index width = tree_.width(s);
+    for (Index i = 0; i < width; ++i) copy(x + i * stride_, group_, y + i * group_);
+    std::fill(y + std::int64_t{width} * group_, y + own_size(s), 0.0);
+    p_.solves_.backward(p_.factor_.front(tree_, s), y, above, tree_.places_in_parent(s));
     store(s, y);
   }
 
  private:
   double* rows(Index s) const { return x_ + tree_.nodes.first[s] * stride_; }
-  void load(Index s, double* y) const {
-    const Index width = tree_.width(s);
-    for (Index i = 0; i < width; ++i) copy(rows(s) + i * stride_, group_, y + i * group_);
-    std::fill(y + std::int64_t{width} * group_, y + own_size(s), 0.0);
-  }
   void store(Index s, const double* y) const {
     for (Index i = 0; i < tree_.width(s); ++i) copy(y + i * group_, group_, rows(s) + i * stride_);
   }
@@ -119,14 +108,15 @@ class FrontPasses::Upwards {
       const int own = tree_.stack[s];
       double* const y = top_[own];
       top_[own] += steps_.vector_size(s);
-      steps_.start(s, y);
+      const bool fresh = tree_.is_leaf[s] != 0;
+      steps_.start(s, y, fresh);
       take_children(s, y);
       if (s == task.begin) {
         for (auto child = task.children.rbegin(); child != task.children.rend(); ++child) {
           steps_.take(tree_.tasks[*child].end - 1, left[*child].get(), y);
         }
       }
-      steps_.eliminate(s, y);
+      steps_.eliminate(s, y, fresh);
       held_[own].push_back(s);
     }
     if (task.parent == kNoIndex) return;
@@ -219,12 +209,12 @@ void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index>
   std::vector<Held> held;
   for (const Index s : path) {
     Doubles y = uncleared(steps.vector_size(s));
-    steps.start(s, y.get());
+    steps.start(s, y.get(), false);
     for (; !held.empty() && tree_.tree.parent[held.back().front] == s; held.pop_back()) {
       const Index child = held.back().front;
       steps.take(child, held.back().vector.get() + steps.own_size(child), y.get());
     }
-    steps.eliminate(s, y.get());
+    steps.eliminate(s, y.get(), false);
     held.push_back({s, std::move(y)});
   }
 }

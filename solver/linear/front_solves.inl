@@ -17,19 +17,40 @@ using Slab = Group<kSlab>;
 /// One right side: the rows of a tile are the vector dimension. The last rows are read together
 /// with what follows them: into lanes that are never looked at (forward), or times zero (backward).
 
-/// y += tile x for all tiles of these rows.
+/// Bytes ahead of the numbers in use that are asked for: panels are short, and the processor
+/// guesses their ends badly (a quarter
+/// of the time at a million faces).
+constexpr std::ptrdiff_t kAhead = 2048;
+constexpr std::size_t kLine = 64;
+
 template <int N, class T>
-inline const T* add_rows(const T* values, Index rows, const Slab (&x)[N], double* y) {
-  for (; rows >= kSlab; rows -= kSlab, y += kSlab, values += kSlab * N) {
-    Slab sum = Slab::load(y);
-    for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * kSlab), x[c]);
-    sum.store(y);
+inline void ask_for_tile(const T* values, std::ptrdiff_t ahead) {
+  const auto address = reinterpret_cast<std::uintptr_t>(values) + static_cast<std::size_t>(ahead);
+  for (std::size_t k = 0; k < kSlab * N * sizeof(T); k += kLine) {
+    __builtin_prefetch(reinterpret_cast<const void*>(address + k));
   }
-  if (rows > 0) {
-    Slab sum = Slab::load(y);
-    for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * rows), x[c]);
+}
+
+/// sum += tile x.
+template <int N, class T>
+inline void add_tile(const T* values, Index rows, const Slab (&x)[N], Slab& sum) {
+  for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * rows), x[c]);
+}
+
+/// y += tile x for all tiles of these rows, or = where nothing is in y yet.
+template <int N, class T>
+inline const T* add_rows(const T* values, Index rows, const Slab (&x)[N], double* y, bool fresh) {
+  for (; rows > 0; rows -= kSlab, y += kSlab) {
+    const Index here = rows < kSlab ? rows : kSlab;
+    ask_for_tile<N>(values, kAhead);
+    Slab sum = fresh ? Slab::zero() : Slab::load(y);
+    if (here == kSlab) {
+      add_tile<N>(values, kSlab, x, sum);
+    } else {
+      add_tile<N>(values, here, x, sum);
+    }
     sum.store(y);
-    values += rows * N;
+    values += here * N;
   }
   return values;
 }
@@ -47,6 +68,7 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
   }
   for (Index t = 0; t < whole; ++t) {
     values -= kSlab * N;
+    ask_for_tile<N>(values, -kAhead);
     z -= kSlab;
     const Slab at = Slab::load(z);
     for (int c = 0; c < N; ++c) sum[c].add(Slab::load(values + c * kSlab), at);
@@ -56,27 +78,25 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
 
 template <int K, int N, class T>
 inline const T* forward_block(const T* values, Index own_rows, Index below, double* own,
-                              double* under) {
+                              double* under, bool fresh) {
   if constexpr (K == 1) {
     Slab x[N];
     for (int c = 0; c < N; ++c) x[c] = Slab::all(own[c]);
-    for (int c = 0; c < N; ++c) own[c] = 0;
-    values = add_rows<N>(values, own_rows, x, own);
-    return add_rows<N>(values, below, x, under);
+    // The first tile is D: it gives what comes to stand in place of x.
+    values = add_rows<N>(values, N, x, own, true);
+    values = add_rows<N>(values, own_rows - N, x, own + kSlab, false);
+    return add_rows<N>(values, below, x, under, fresh);
   } else {
     // Several right sides: they are the vector dimension, and the tile's numbers single factors.
     Group<K> x[N];
-    for (int c = 0; c < N; ++c) {
-      x[c] = Group<K>::load(own + c * K);
-      Group<K>::zero().store(own + c * K);
-    }
-    const auto add = [&](Index rows, double* y) {
+    for (int c = 0; c < N; ++c) x[c] = Group<K>::load(own + c * K);
+    const auto add = [&](Index rows, double* y, bool empty) {
       while (rows > 0) {
         const Index here = rows < kSlab ? rows : kSlab;
         double factor[kSlab * N];
         for (int c = 0; c < N; ++c) Slab::load(values + c * here).store(factor + c * kSlab);
         for (Index r = 0; r < here; ++r, y += K) {
-          Group<K> sum = Group<K>::load(y);
+          Group<K> sum = empty ? Group<K>::zero() : Group<K>::load(y);
           for (int c = 0; c < N; ++c) sum.add(factor[c * kSlab + r], x[c]);
           sum.store(y);
         }
@@ -84,10 +104,19 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
         rows -= here;
       }
     };
-    add(own_rows, own);
-    add(below, under);
+    add(N, own, true);
+    add(own_rows - N, own + kSlab * K, false);
+    add(below, under, fresh);
     return values;
   }
+}
+
+/// lane c = the sum of the lanes of sum[c].
+template <int N>
+inline Slab sums_of_lanes(const Slab (&sum)[N]) {
+  Slab all[kSlab];
+  for (int c = 0; c < kSlab; ++c) all[c] = c < N ? sum[c < N ? c : 0] : Slab::zero();
+  return Slab::sums(all);
 }
 
 template <int K, int N, class T>
@@ -98,7 +127,14 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
     for (int c = 0; c < N; ++c) sum[c] = Slab::zero();
     values = add_columns<N>(values, below, under, sum);
     values = add_columns<N>(values, own_rows, own, sum);
-    for (int c = 0; c < N; ++c) own[c] = sum[c].sum();
+    const Slab solved = sums_of_lanes<N>(sum);
+    if constexpr (N == kSlab) {
+      solved.store(own);
+    } else {
+      double numbers[kSlab];
+      solved.store(numbers);
+      for (int c = 0; c < N; ++c) own[c] = numbers[c];
+    }
     return values;
   } else {
     Group<K> sum[N];
@@ -126,36 +162,67 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
 template <class Body>
 inline void with_columns(Index columns, const Body& body) {
   switch (columns) {
-    case 1: return body.template operator()<1>();
-    case 2: return body.template operator()<2>();
-    case 3: return body.template operator()<3>();
-    case 4: return body.template operator()<4>();
-    case 5: return body.template operator()<5>();
-    case 6: return body.template operator()<6>();
-    case 7: return body.template operator()<7>();
-    default: return body.template operator()<8>();
+    case 1:
+      return body.template operator()<1>();
+    case 2:
+      return body.template operator()<2>();
+    case 3:
+      return body.template operator()<3>();
+    case 4:
+      return body.template operator()<4>();
+    case 5:
+      return body.template operator()<5>();
+    case 6:
+      return body.template operator()<6>();
+    case 7:
+      return body.template operator()<7>();
+    default:
+      return body.template operator()<8>();
   }
 }
 
 template <int K, class T>
-void forward(const StoredFront& front, double* x) {
+void forward(const StoredFront& front, double* x, bool fresh) {
   const auto* values = static_cast<const T*>(front.values);
   double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
   Index column = 0;
   for (; column + kSlab <= front.width; column += kSlab) {
     values = forward_block<K, kSlab>(values, front.width - column, front.below,
-                                     x + static_cast<std::ptrdiff_t>(column) * K, under);
+                                     x + static_cast<std::ptrdiff_t>(column) * K, under, fresh);
+    fresh = false;
   }
   if (column == front.width) return;
   with_columns(front.width - column, [&]<int N>() {
     forward_block<K, N>(values, front.width - column, front.below,
-                        x + static_cast<std::ptrdiff_t>(column) * K, under);
+                        x + static_cast<std::ptrdiff_t>(column) * K, under, fresh);
   });
 }
 
+/// to[i] = from[place[i]] for the rows below, 0 in the padding; whole slabs are stored, since wide
+/// loads wait for narrow stores.
+template <int K>
+inline void gather(const double* from, const Index* place, Index count, double* to) {
+  if constexpr (K == 1) {
+    for (; count >= kSlab; count -= kSlab, place += kSlab, to += kSlab) {
+      Slab::gather(from, place).store(to);
+    }
+    if (count == 0) return;
+    Index last[kSlab];
+    for (Index i = 0; i < kSlab; ++i) last[i] = place[i < count ? i : 0];
+    Slab slab = Slab::gather(from, last);
+    slab.keep_first(count);
+    slab.store(to);
+  } else {
+    for (Index i = 0; i < count; ++i) {
+      Group<K>::load(from + static_cast<std::ptrdiff_t>(place[i]) * K).store(to + i * K);
+    }
+  }
+}
+
 template <int K, class T>
-void backward(const StoredFront& front, double* x) {
-  const double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
+void backward(const StoredFront& front, double* x, const double* above, const Index* place) {
+  double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
+  gather<K>(above, place, front.below, under);
   const std::int64_t last = front.width % kSlab;
   Index column = static_cast<Index>(front.width - last);
   // Blocks of eight columns hold 8 (rows from their first column on) numbers each.
@@ -190,8 +257,8 @@ const FrontSolves kFrontSolves[3][5] = {
      solves<16, double>()},
     {solves<1, float>(), solves<2, float>(), solves<4, float>(), solves<8, float>(),
      solves<16, float>()},
-    {solves<1, UpperHalf>(), solves<2, UpperHalf>(), solves<4, UpperHalf>(),
-     solves<8, UpperHalf>(), solves<16, UpperHalf>()},
+    {solves<1, UpperHalf>(), solves<2, UpperHalf>(), solves<4, UpperHalf>(), solves<8, UpperHalf>(),
+     solves<16, UpperHalf>()},
 };
 
 }  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE

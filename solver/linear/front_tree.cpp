@@ -85,6 +85,7 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
   out.nodes = find_supernodes(counts);
   out.tree.parent = out.nodes.parent;
   out.tree.node_of_row.resize(static_cast<std::size_t>(pattern.size()));
+  out.is_leaf.assign(static_cast<std::size_t>(out.count()), 1);
   out.below_start.assign(1, 0);
   out.value_start.assign(1, 0);
   for (Index s = 0; s < out.count(); ++s) {
@@ -92,6 +93,7 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
     for (Index row = out.nodes.first[s]; row < out.nodes.first[s + 1]; ++row) {
       out.tree.node_of_row[row] = s;
     }
+    if (out.tree.parent[s] != kNoIndex) out.is_leaf[out.tree.parent[s]] = 0;
     std::int64_t values = 0;
     for (std::int64_t column = 0; column < width; column += kSlab) {
       values += std::min<std::int64_t>(kSlab, width - column) * (width - column + below);

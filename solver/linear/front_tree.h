@@ -34,6 +34,7 @@ struct FrontTask {
 struct FrontTree {
   Supernodes nodes;
   EliminationTree tree;                   ///< of the fronts
+  std::vector<char> is_leaf;              ///< S: the front has no children
   std::vector<std::int64_t> below_start;  ///< S + 1, into place_in_parent
   std::vector<Index> place_in_parent;     ///< of each row below, its place in the parent front
   std::vector<std::int64_t> value_start;  ///< S + 1: numbers that solves read

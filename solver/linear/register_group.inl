@@ -26,6 +26,43 @@ inline void widen(const UpperHalf* from, Register& to) {
   to = reinterpret_cast<Register>(__builtin_convertvector(half, Whole) << 32);
 }
 
+inline void gather_lanes(const double* from, const Index* place, Register& to) {
+#if defined(__AVX512F__)
+  to = Register{from[place[0]], from[place[1]], from[place[2]], from[place[3]],
+                from[place[4]], from[place[5]], from[place[6]], from[place[7]]};
+#elif defined(__AVX2__)
+  to = Register{from[place[0]], from[place[1]], from[place[2]], from[place[3]]};
+#else
+  to = Register{from[place[0]], from[place[1]]};
+#endif
+}
+
+/// Lane k of the result: the sum of the lanes of r[k].
+inline Register sums_of(const Register* r) {
+#if defined(__AVX512F__)
+  Register pairs[4], fours[2];
+  for (int k = 0; k < 4; ++k) {
+    pairs[k] = __builtin_shufflevector(r[2 * k], r[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14) +
+               __builtin_shufflevector(r[2 * k], r[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int k = 0; k < 2; ++k) {
+    fours[k] = __builtin_shufflevector(pairs[2 * k], pairs[2 * k + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+               __builtin_shufflevector(pairs[2 * k], pairs[2 * k + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  return __builtin_shufflevector(fours[0], fours[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+         __builtin_shufflevector(fours[0], fours[1], 4, 5, 6, 7, 12, 13, 14, 15);
+#elif defined(__AVX2__)
+  const Register low = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6) +
+                       __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
+  const Register high = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6) +
+                        __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
+  return __builtin_shufflevector(low, high, 0, 1, 4, 5) +
+         __builtin_shufflevector(low, high, 2, 3, 6, 7);
+#else
+  return __builtin_shufflevector(r[0], r[1], 0, 2) + __builtin_shufflevector(r[0], r[1], 1, 3);
+#endif
+}
+
 /// K doubles in registers of the instruction set's width.
 template <int K>
 class Group {
@@ -47,6 +84,27 @@ class Group {
     Group out;
     for (int i = 0; i < kCount; ++i) widen(from + i * kWidth, out.lane_[i]);
     return out;
+  }
+  /// from[place[k]] in lane k.
+  static Group gather(const double* from, const Index* place) {
+    Group out;
+    for (int i = 0; i < kCount; ++i) gather_lanes(from, place + i * kWidth, out.lane_[i]);
+    return out;
+  }
+  /// Lane k of the result: the sum of the lanes of group k. For as many groups as there are lanes.
+  static Group sums(const Group (&groups)[K]) {
+    Group out;
+    Lane one[K];
+    for (int k = 0; k < K; ++k) {
+      one[k] = groups[k].lane_[0];
+      for (int i = 1; i < kCount; ++i) one[k] += groups[k].lane_[i];
+    }
+    for (int i = 0; i < kCount; ++i) out.lane_[i] = sums_of(one + i * kWidth);
+    return out;
+  }
+  /// Lanes from `count` on become 0.
+  void keep_first(Index count) {
+    for (int k = 0; k < K; ++k) lane_[k / kWidth][k % kWidth] = k < count ? (*this)[k] : 0.0;
   }
   static Group zero() {
     Group out;

@@ -13,8 +13,8 @@ struct Relaxation {
   Index columns;
   double zeros;
 };
-constexpr Relaxation kRelaxation[] = {{4, 0.4}, {16, 0.12}, {48, 0.03}};
-constexpr double kZerosOfWide = 0.01;
+constexpr Relaxation kRelaxation[] = {{8, 0.5}, {24, 0.25}, {64, 0.06}};
+constexpr double kZerosOfWide = 0.02;
 
 double zeros_allowed(Index columns) {
   for (const Relaxation& step : kRelaxation) {
