@@ -35,12 +35,14 @@ class Factorizer {
   FactorFailure run() {
     std::mutex mutex;
     FactorFailure failure;
+    out_.cancellation = 0;
     run_tasks(
         tree_, TaskQueue::Direction::kUp, threads_, [this] { return Worker(tree_); },
         [&](const FrontTask& task, Index number, Worker& worker) {
           const FactorFailure ended = run_task(task, number, worker);
-          if (!ended.failed()) return true;
           const std::lock_guard lock(mutex);
+          out_.cancellation = std::max(out_.cancellation, worker.cancellation);
+          if (!ended.failed()) return true;
           if (failure.column == kNoIndex) failure = ended;
           return false;
         });
@@ -57,6 +59,7 @@ class Factorizer {
     double* top[2] = {nullptr, nullptr};
     std::vector<Index> held[2];  ///< fronts whose updates wait, on each stack
     std::vector<double> inverses;
+    double cancellation = 0;
     std::vector<std::int64_t> panel_row, triangle_row;
   };
 
@@ -147,11 +150,23 @@ class Factorizer {
     }
   }
 
+  /// The largest share of a diagonal entry that elimination took away, as entry over pivot.
+  double cancellation(const FrontPanel& front, Index s) const {
+    double most = 0;
+    for (Index c = 0; c < front.width; ++c) {
+      const double root = front.values[c / kSlab * front.slab_size() + c * kSlab + c % kSlab];
+      const double entry = matrix_.value[tree_.entry_start[tree_.nodes.first[s] + c]];
+      most = std::max(most, entry / (root * root));
+    }
+    return most;
+  }
+
   FactorFailure eliminate(const FrontPanel& front, Index s, double* update, Worker& worker) const {
     worker.inverses.resize(static_cast<std::size_t>(slabs(front.width)) * kSlab * kSlab);
     double* const inverses = worker.inverses.data();
     const Index failed = kernels_.factor_own(front, inverses);
-    if (failed != kNoIndex) return {tree_.nodes.first[s] + failed, false};
+    if (failed != kNoIndex) return {.column = tree_.nodes.first[s] + failed};
+    worker.cancellation = std::max(worker.cancellation, cancellation(front, s));
     const double height = front.width + front.below;
     const int threads = front.width * height * height > kLargeFront ? threads_ : 1;
     const Index below = slabs(front.below);
@@ -169,7 +184,7 @@ class Factorizer {
       }
     });
     void* const to = out_.values.data() + tree_.value_start[s] * bytes_of(out_.storage);
-    if (!kernels_.store(front, inverses, out_.storage, to)) return {kNoIndex, true};
+    if (!kernels_.store(front, inverses, out_.storage, to)) return {.narrow = true};
     return {};
   }
 

@@ -14,6 +14,9 @@ namespace geotherm {
 struct FrontFactor {
   FactorStorage storage = FactorStorage::kFull;
   LargeBuffer values;
+  /// Largest diagonal entry over its pivot: rounding a number of the factor may change the answer
+  /// by so many times as much.
+  double cancellation = 1;
 
   StoredFront front(const FrontTree& tree, Index s) const {
     return {tree.width(s), tree.below(s), values.data() + tree.value_start[s] * bytes_of(storage)};

@@ -13,6 +13,9 @@
 namespace geotherm {
 namespace {
 
+/// Parts of fewer vertices are ordered by one thread, in less time than it takes to begin another.
+constexpr Index kWorthAThread = 2000;
+
 void order_small(const GraphPart& part, std::span<Index> out) {
   std::array<std::uint64_t, kSmallGraph> adjacency{};
   std::array<Index, kSmallGraph> local{};
@@ -26,38 +29,47 @@ void order_small(const GraphPart& part, std::span<Index> out) {
   for (std::size_t i = 0; i < n; ++i) out[i] = part.vertex[local[i]];
 }
 
-/// The two halves as parts of their own; separator vertices go straight to the end of `out`.
-std::array<GraphPart, 2> cut(const GraphPart& part, const Separator& separator,
-                             std::span<Index> out) {
-  std::array<GraphPart, 2> halves;
-  std::vector<Index> local(static_cast<std::size_t>(part.size()));
-  for (int h = 0; h < 2; ++h) {
-    const auto n = static_cast<std::size_t>(separator.count[h]);
-    halves[h].vertex.reserve(n);
-    halves[h].position.reserve(n);
-    halves[h].start.reserve(n + 1);
-    halves[h].neighbor.reserve(7 * n);
+/// One half as a part of its own. `local`: numbers of its vertices in it.
+GraphPart half_of(const GraphPart& part, const Separator& separator, Half h,
+                  const std::vector<Index>& local) {
+  GraphPart half;
+  const auto n = static_cast<std::size_t>(separator.count[h]);
+  half.vertex.reserve(n);
+  half.position.reserve(n);
+  half.start.reserve(n + 1);
+  half.neighbor.reserve(part.neighbor.size() / static_cast<std::size_t>(part.size()) * n + n);
+  for (Index i = 0; i < part.size(); ++i) {
+    if (separator.half[i] != h) continue;
+    half.vertex.push_back(part.vertex[i]);
+    half.position.push_back(part.position[i]);
+    for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
+      const Index j = part.neighbor[k];
+      if (separator.half[j] == h) half.neighbor.push_back(local[j]);
+    }
+    half.start.push_back(static_cast<Index>(half.neighbor.size()));
   }
+  return half;
+}
+
+/// The two halves; separator vertices go straight to the end of `out`.
+std::array<GraphPart, 2> cut(const GraphPart& part, const Separator& separator,
+                             std::span<Index> out, int threads) {
+  std::vector<Index> local(static_cast<std::size_t>(part.size()));
+  std::array<Index, 2> count{};
   std::size_t end = out.size() - static_cast<std::size_t>(separator.count[kSeparator]);
   for (Index i = 0; i < part.size(); ++i) {
     const int h = separator.half[i];
     if (h == kSeparator) {
       out[end++] = part.vertex[i];
-      continue;
+    } else {
+      local[i] = count[h]++;
     }
-    local[i] = halves[h].size();
-    halves[h].vertex.push_back(part.vertex[i]);
-    halves[h].position.push_back(part.position[i]);
   }
-  for (Index i = 0; i < part.size(); ++i) {
-    const int h = separator.half[i];
-    if (h == kSeparator) continue;
-    for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
-      const Index j = part.neighbor[k];
-      if (separator.half[j] == h) halves[h].neighbor.push_back(local[j]);
-    }
-    halves[h].start.push_back(static_cast<Index>(halves[h].neighbor.size()));
-  }
+  std::array<GraphPart, 2> halves;
+  run_both(
+      part.size() >= kWorthAThread ? threads : 1,
+      [&] { halves[0] = half_of(part, separator, kLeft, local); },
+      [&] { halves[1] = half_of(part, separator, kRight, local); });
   return halves;
 }
 
@@ -66,18 +78,19 @@ void order_part(GraphPart part, std::span<Index> out, int threads) {
     order_small(part, out);
     return;
   }
-  const Separator separator = find_separator(part);
+  const Separator separator = find_separator(part, threads);
   if (separator.count[kLeft] == 0 || separator.count[kRight] == 0) {
     // Nothing to gain from cutting (a clique, say): any order is as good.
     std::copy(part.vertex.begin(), part.vertex.end(), out.begin());
     return;
   }
-  std::array<GraphPart, 2> halves = cut(part, separator, out);
+  std::array<GraphPart, 2> halves = cut(part, separator, out, threads);
   part = {};
   const auto left = static_cast<std::size_t>(separator.count[kLeft]);
   const auto right = static_cast<std::size_t>(separator.count[kRight]);
   run_both(
-      threads, [&] { order_part(std::move(halves[0]), out.subspan(0, left), threads / 2); },
+      left + right >= kWorthAThread ? threads : 1,
+      [&] { order_part(std::move(halves[0]), out.subspan(0, left), threads / 2); },
       [&] { order_part(std::move(halves[1]), out.subspan(left, right), threads - threads / 2); });
 }
 

@@ -6,12 +6,19 @@
 #include <limits>
 #include <numeric>
 
+#include "solver/core/parallel.h"
+
 namespace geotherm {
 namespace {
 
 /// Each half keeps at least this share of the vertices when the plane is chosen.
 constexpr double kSmallestShare = 0.25;
 constexpr int kMostBins = 512;
+
+constexpr std::int64_t kVerticesAPiece = 20'000;
+
+/// One number for each axis; the fourth keeps them together in a register.
+using PerAxis = std::array<std::int16_t, 4>;
 
 struct Plane {
   int axis = -1;
@@ -20,90 +27,99 @@ struct Plane {
   double cost = std::numeric_limits<double>::max();
 };
 
-/// Bins of all vertices along one axis; false when the part is flat in that direction.
-bool bin_along(const GraphPart& part, int axis, int bins, std::vector<std::uint16_t>& bin) {
-  float low = std::numeric_limits<float>::max();
-  float high = std::numeric_limits<float>::lowest();
+/// Where a vertex and its neighbours lie along each axis.
+struct Reach {
+  PerAxis own, lowest, highest;
+};
+
+struct Box {
+  std::array<float, 3> low, high;
+  float extent(int axis) const { return high[axis] - low[axis]; }
+};
+
+Box box_of(const GraphPart& part) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  Box box{{kMost, kMost, kMost}, {-kMost, -kMost, -kMost}};
   for (const auto& p : part.position) {
-    low = std::min(low, p[axis]);
-    high = std::max(high, p[axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], p[axis]);
+      box.high[axis] = std::max(box.high[axis], p[axis]);
+    }
   }
-  if (!(high > low)) return false;
-  const float scale = (static_cast<float>(bins) - 0.01F) / (high - low);
-  bin.resize(part.position.size());
-  for (std::size_t i = 0; i < part.position.size(); ++i) {
-    bin[i] = static_cast<std::uint16_t>((part.position[i][axis] - low) * scale);
+  return box;
+}
+
+/// Bins of all vertices along all axes, and those of their neighbours: one pass over the edges.
+std::vector<Reach> find_reaches(const GraphPart& part, const Box& box, int bins, int threads) {
+  std::array<float, 3> scale{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (box.extent(axis) > 0) scale[axis] = (static_cast<float>(bins) - 0.01F) / box.extent(axis);
   }
-  return true;
+  std::vector<PerAxis> bin(part.position.size());
+  parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      for (int axis = 0; axis < 3; ++axis) {
+        bin[i][axis] =
+            static_cast<std::int16_t>((part.position[i][axis] - box.low[axis]) * scale[axis]);
+      }
+    }
+  });
+  std::vector<Reach> reach(bin.size());
+  parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      PerAxis low = bin[i], high = bin[i];
+      for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
+        const PerAxis other = bin[part.neighbor[k]];
+        for (int axis = 0; axis < 4; ++axis) {
+          low[axis] = low[axis] < other[axis] ? low[axis] : other[axis];
+          high[axis] = high[axis] > other[axis] ? high[axis] : other[axis];
+        }
+      }
+      reach[i] = {bin[i], low, high};
+    }
+  });
+  return reach;
 }
 
 /// Sweeps a plane through all bins of an axis, counting both separators it could leave: the left
 /// vertices with a neighbour on the right, and the other way round.
-void sweep(const GraphPart& part, int axis, int bins, const std::vector<std::uint16_t>& bin,
-           Plane& best) {
+Plane sweep(const std::vector<Reach>& reaches, int axis, int bins) {
   std::array<Index, kMostBins + 1> count{}, left_border{}, right_border{};
-  for (Index i = 0; i < part.size(); ++i) {
-    const int own = bin[i];
-    int lowest = own;
-    int highest = own;
-    for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
-      const int other = bin[part.neighbor[k]];
-      lowest = std::min(lowest, other);
-      highest = std::max(highest, other);
-    }
+  for (const Reach& reach : reaches) {
+    const int own = reach.own[axis];
     ++count[own];
-    ++left_border[own], --left_border[highest];
-    ++right_border[lowest], --right_border[own];
+    ++left_border[own], --left_border[reach.highest[axis]];
+    ++right_border[reach.lowest[axis]], --right_border[own];
   }
+  Plane best;
   Index on_left = 0, left = 0, right = 0;
   for (int b = 0; b < bins - 1; ++b) {
     on_left += count[b];
     left += left_border[b];
     right += right_border[b];
-    const double share = static_cast<double>(on_left) / part.size();
+    const double share = static_cast<double>(on_left) / static_cast<double>(reaches.size());
     if (share < kSmallestShare || share > 1 - kSmallestShare) continue;
     const double imbalance = 1 + 16 * (share - 0.5) * (share - 0.5);
     if ((left + 1) * imbalance < best.cost) best = {axis, b, kLeft, (left + 1) * imbalance};
     if ((right + 1) * imbalance < best.cost) best = {axis, b, kRight, (right + 1) * imbalance};
   }
+  return best;
 }
 
-/// Left and right of the best plane, or of the median along the longest axis when no plane keeps
-/// the balance (many vertices in one bin).
-std::vector<std::int8_t> split(const GraphPart& part, Half& from) {
-  std::array<float, 3> extent{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] =
-        std::minmax_element(part.position.begin(), part.position.end(),
-                            [axis](const auto& a, const auto& b) { return a[axis] < b[axis]; });
-    extent[axis] = (*high)[axis] - (*low)[axis];
-  }
-  const float longest = *std::max_element(extent.begin(), extent.end());
-  const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMostBins);
-  Plane best;
-  std::vector<std::uint16_t> bin;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (extent[axis] < 0.3F * longest) continue;
-    if (bin_along(part, axis, bins, bin)) sweep(part, axis, bins, bin, best);
-  }
-  std::vector<std::int8_t> half(static_cast<std::size_t>(part.size()));
-  from = best.from;
-  if (best.axis >= 0) {
-    bin_along(part, best.axis, bins, bin);
-    for (Index i = 0; i < part.size(); ++i) half[i] = bin[i] > best.bin ? kRight : kLeft;
-    return half;
-  }
-  const auto axis = std::max_element(extent.begin(), extent.end()) - extent.begin();
-  std::vector<Index> by_place(static_cast<std::size_t>(part.size()));
-  std::iota(by_place.begin(), by_place.end(), 0);
-  std::nth_element(by_place.begin(), by_place.begin() + part.size() / 2, by_place.end(),
-                   [&](Index a, Index b) {
-                     const float pa = part.position[a][axis];
-                     const float pb = part.position[b][axis];
-                     return pa != pb ? pa < pb : a < b;
-                   });
-  for (Index i = 0; i < part.size(); ++i) half[by_place[i]] = i < part.size() / 2 ? kLeft : kRight;
-  return half;
+/// The best plane of all axes along which the part is not thin.
+Plane best_plane(const std::vector<Reach>& reaches, const Box& box, int bins, int threads) {
+  const float longest = std::max({box.extent(0), box.extent(1), box.extent(2)});
+  std::array<Plane, 3> planes;
+  parallel_for(std::ssize(reaches) > kVerticesAPiece ? threads : 1, 3, 1,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (auto axis = static_cast<int>(begin); axis < end; ++axis) {
+                   if (box.extent(axis) > 0 && box.extent(axis) >= 0.3F * longest) {
+                     planes[axis] = sweep(reaches, axis, bins);
+                   }
+                 }
+               });
+  return *std::min_element(planes.begin(), planes.end(),
+                           [](const Plane& a, const Plane& b) { return a.cost < b.cost; });
 }
 
 bool touches(const GraphPart& part, const std::vector<std::int8_t>& half, Index i, int other) {
@@ -113,15 +129,48 @@ bool touches(const GraphPart& part, const std::vector<std::int8_t>& half, Index 
   return false;
 }
 
+/// Left, right and separator of the best plane, or of the median along the longest axis when no
+/// plane keeps the balance (many vertices in one bin).
+std::vector<std::int8_t> split(const GraphPart& part, int threads) {
+  const Box box = box_of(part);
+  const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMostBins);
+  const std::vector<Reach> reaches = find_reaches(part, box, bins, threads);
+  const Plane best = best_plane(reaches, box, bins, threads);
+  std::vector<std::int8_t> half(static_cast<std::size_t>(part.size()));
+  if (best.axis >= 0) {
+    for (Index i = 0; i < part.size(); ++i) {
+      const Reach& reach = reaches[i];
+      const bool right = reach.own[best.axis] > best.bin;
+      const bool border = best.from == kLeft ? !right && reach.highest[best.axis] > best.bin
+                                             : right && reach.lowest[best.axis] <= best.bin;
+      half[i] = border ? kSeparator : right ? kRight : kLeft;
+    }
+    return half;
+  }
+  int axis = 0;
+  for (const int other : {1, 2}) {
+    if (box.extent(other) > box.extent(axis)) axis = other;
+  }
+  std::vector<Index> by_place(static_cast<std::size_t>(part.size()));
+  std::iota(by_place.begin(), by_place.end(), 0);
+  std::nth_element(by_place.begin(), by_place.begin() + part.size() / 2, by_place.end(),
+                   [&](Index a, Index b) {
+                     const float pa = part.position[a][axis];
+                     const float pb = part.position[b][axis];
+                     return pa != pb ? pa < pb : a < b;
+                   });
+  for (Index i = 0; i < part.size(); ++i) half[by_place[i]] = i < part.size() / 2 ? kLeft : kRight;
+  for (Index i = 0; i < part.size(); ++i) {
+    if (half[i] == kLeft && touches(part, half, i, kRight)) half[i] = kSeparator;
+  }
+  return half;
+}
+
 }  // namespace
 
-Separator find_separator(const GraphPart& part) {
+Separator find_separator(const GraphPart& part, int threads) {
   Separator out;
-  Half from = kLeft;
-  out.half = split(part, from);
-  for (Index i = 0; i < part.size(); ++i) {
-    if (out.half[i] == from && touches(part, out.half, i, 1 - from)) out.half[i] = kSeparator;
-  }
+  out.half = split(part, threads);
   for (const std::int8_t h : out.half) ++out.count[h];
   refine_separator(part, out);
   // A separator vertex that touches one half only is not needed.

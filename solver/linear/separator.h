@@ -30,7 +30,8 @@ struct Separator {
 
 /// Cuts a part by the plane of smallest separator among the three axes, keeping a quarter of the
 /// vertices on each side at least, and refines the cut. One half may come out empty (a clique).
-Separator find_separator(const GraphPart& part);
+/// The result does not depend on `threads`.
+Separator find_separator(const GraphPart& part, int threads = 1);
 
 /// One pass of vertex moves into either half, best first, kept up to the smallest separator seen
 /// (Fiduccia, Mattheyses 1982, for vertex separators: Ashcraft, Liu 1997).
