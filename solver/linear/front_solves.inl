@@ -31,6 +31,14 @@ inline void ask_for_tile(const T* values, std::ptrdiff_t ahead) {
   }
 }
 
+/// A tile in doubles, in memory: from there a processor multiplies with one number at no cost, from
+/// within registers it has to be moved about, which compilers prefer unless kept from it.
+template <int N, class T>
+inline void widen_tile(const T* values, Index rows, double* out) {
+  for (int c = 0; c < N; ++c) Slab::load(values + c * rows).store(out + c * kSlab);
+  __asm__ __volatile__("" : : "r"(out) : "memory");
+}
+
 /// sum += tile x.
 template <int N, class T>
 inline void add_tile(const T* values, Index rows, const Slab (&x)[N], Slab& sum) {
@@ -94,7 +102,7 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
       while (rows > 0) {
         const Index here = rows < kSlab ? rows : kSlab;
         double factor[kSlab * N];
-        for (int c = 0; c < N; ++c) Slab::load(values + c * here).store(factor + c * kSlab);
+        widen_tile<N>(values, here, factor);
         for (Index r = 0; r < here; ++r, y += K) {
           Group<K> sum = empty ? Group<K>::zero() : Group<K>::load(y);
           for (int c = 0; c < N; ++c) sum.add(factor[c * kSlab + r], x[c]);
@@ -144,7 +152,7 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
         const Index here = rows - first < kSlab ? rows - first : kSlab;
         values -= here * N;
         double factor[kSlab * N];
-        for (int c = 0; c < N; ++c) Slab::load(values + c * here).store(factor + c * kSlab);
+        widen_tile<N>(values, here, factor);
         for (Index r = 0; r < here; ++r) {
           const Group<K> at = Group<K>::load(z + (first + r) * K);
           for (int c = 0; c < N; ++c) sum[c].add(factor[c * kSlab + r], at);
