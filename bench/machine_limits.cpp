@@ -187,4 +187,25 @@ MachineLimits measure_limits(int threads, double largest_bytes, const Say& say) 
   return limits;
 }
 
+MachineLimits remeasure_limits(const MachineLimits& before, const Say& say) {
+  if (!before.measured()) return before;
+  MachineLimits best = measure_limits(before.threads, before.reading.back().bytes, say);
+  // fmax leaves out what is not a number.
+  for (double MachineLimits::*rate :
+       {&MachineLimits::one_gflops, &MachineLimits::all_gflops, &MachineLimits::one_dgemm_gflops,
+        &MachineLimits::all_dgemm_gflops}) {
+    best.*rate = std::fmax(best.*rate, before.*rate);
+  }
+  if (best.reading.size() != before.reading.size()) {
+    best.reading = before.reading;  // the memory for it was gone
+    return best;
+  }
+  for (std::size_t i = 0; i < best.reading.size(); ++i) {
+    MachineLimits::Reading& reading = best.reading[i];
+    reading.one_gbs = std::max(reading.one_gbs, before.reading[i].one_gbs);
+    reading.all_gbs = std::max(reading.all_gbs, before.reading[i].all_gbs);
+  }
+  return best;
+}
+
 }  // namespace geotherm::bench

@@ -40,4 +40,8 @@ struct MachineLimits {
 /// least, as far as a third of the free memory holds it. Cost: about ten seconds with the default.
 MachineLimits measure_limits(int threads, double largest_bytes, const Say& say);
 
+/// Measures again, and keeps the better of both figures: after work that takes long, since a busy
+/// minute before it would set its limits too low. Cost: as much once more.
+MachineLimits remeasure_limits(const MachineLimits& before, const Say& say);
+
 }  // namespace geotherm::bench

@@ -79,6 +79,11 @@ BenchRun measure_all(const Arguments& arguments, std::FILE* out) {
   });
   run.growth = measure_growth(run.groups);
   print(growth_text(run.growth), out);
+  if (!run.groups.empty()) {
+    run.limits = remeasure_limits(run.limits, say);
+    say("");
+    print(limits_text(run.limits), out);
+  }
 
   if (std::regex_search("load", plan.only)) {
     say("reading OBJ");

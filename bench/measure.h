@@ -20,6 +20,7 @@ struct Rates {
   double factor_gflops = kNotMeasured;  ///< 10^9 operations a second, both matrices side by side
   double solve_gbs = kNotMeasured;      ///< 10^9 bytes of a factor read a second, dense right side
   double factor_bytes = kNotMeasured;   ///< that one pass of that solve reads
+  std::string failure = {};             ///< why there are none; empty: none failed
 };
 
 /// What one contender did on one mesh. Times are medians.

@@ -71,6 +71,7 @@ Json solve_row(const BenchRun& run, const SolveGroup& group, const Figures& ours
   }
   row["status"] = !ours.failure.empty() ? "failed" : ours.not_run.empty() ? "ok" : "not run";
   row["message"] = message(ours);
+  if (!ours.rates.failure.empty()) row["rates_message"] = ours.rates.failure;
   return row;
 }
 

@@ -30,8 +30,9 @@ std::string machine_text(const Machine& machine, int threads) {
 
 std::string limits_text(const MachineLimits& limits) {
   if (!limits.measured()) return {};
-  std::string out = format("\nAt best, with 1 thread and %d: multiply-adds %.1f / %.1f GFLOP/s",
-                           limits.threads, limits.one_gflops, limits.all_gflops);
+  std::string out =
+      format("\nThe machine at best, with 1 thread and %d: multiply-adds %.1f / %.1f GFLOP/s",
+             limits.threads, limits.one_gflops, limits.all_gflops);
   if (std::isfinite(limits.one_dgemm_gflops)) {
     out += format(", DGEMM %.1f / %.1f", limits.one_dgemm_gflops, limits.all_dgemm_gflops);
   }
@@ -80,6 +81,8 @@ std::string solve_text(const SolveGroup& group, const MachineLimits& limits, int
            ratio(r.query) + milliseconds(f.batch_ms_per_source, 8) + ratio(r.batch) +
            number(f.factor_mb, 9, 1) + share(r.memory) + number(f.peak_mb, 8, 0) + share(r.peak) +
            rate(f.rates.factor_gflops, s.factor, 9) + rate(f.rates.solve_gbs, s.solve, 7) + "\n";
+    if (!f.rates.failure.empty())
+      out += format("%-19s", "") + "no rates: " + f.rates.failure + "\n";
   }
   if (std::isfinite(group.disagreement)) {
     out += format("%-19sdiscretised alike, the baseline and we differ by %.1e of the largest\n", "",

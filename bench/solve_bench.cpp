@@ -168,7 +168,7 @@ class SolveBench {
     if (!known || figures.setup_ms > kLongestRatesMs) return {};
     const auto measured = measure_rates(std::move(mesh), figures.name, thread_count(plan_.threads),
                                         plan_.quick ? kRatesQuickMs : kRatesFullMs);
-    return measured ? *measured : Rates{};
+    return measured ? *measured : Rates{.failure = measured.error().message};
   }
 
   const SolvePlan& plan_;

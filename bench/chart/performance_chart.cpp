@@ -22,7 +22,7 @@ text { font: 13px system-ui, -apple-system, "Segoe UI", "Helvetica Neue", Arial,
 .head { font-size: 20px; font-weight: 600 } .title { font-size: 15px; font-weight: 600 }
 .grid { stroke: #e4e9ee } .axis { stroke: #8e9aa8 }
 .curve { fill: none; stroke: currentColor; stroke-width: 2; stroke-linejoin: round }
-.dot { fill: currentColor } .hollow { fill: none; stroke: currentColor; stroke-width: 1.4 }
+.dot { fill: currentColor } .hollow { fill: none; stroke: currentColor; stroke-width: 1.4; opacity: 0.7 }
 .end { fill: currentColor; font-weight: 600; stroke: #ffffff; stroke-width: 4;
   paint-order: stroke; stroke-linejoin: round }
 .base { color: #6b7684 } .base .curve { stroke-dasharray: 6 4 } .any { color: #1c2733 }
@@ -37,7 +37,7 @@ text { font: 13px system-ui, -apple-system, "Segoe UI", "Helvetica Neue", Arial,
 }
 )";
 
-constexpr double kPage[2] = {1140, 900};
+constexpr double kPage[2] = {1140, 870};
 constexpr double kLeft = 84, kAcross = 560, kTop = 168, kDown = 370;
 constexpr double kBox[2] = {350, 268};
 
@@ -181,8 +181,8 @@ class Chart {
     if (!(theirs > 0) || !std::isfinite(theirs)) return name;
     if (quantity.share) return name + format(" %.0f %%", 100 * ours / theirs);
     const double ratio = theirs / ours;
-    const int decimals = ratio < 0.095 ? 3 : ratio < 0.95 ? 2 : ratio < 9.95 ? 1 : 0;
-    return name + format(" %.*f\u00d7", decimals, ratio);
+    if (ratio < 0.95) return name + format(" %.2g\u00d7", ratio);
+    return name + format(" %.*f\u00d7", ratio < 9.95 ? 1 : 0, ratio);
   }
 
   const BenchRun& run_;

@@ -32,6 +32,18 @@ TEST(MachineLimits, AreAboveZeroWithOneAndWithSeveralThreads) {
   EXPECT_NEAR(last / 2.4e7, 1, 0.1);  // whole pages of 2 MB
 }
 
+TEST(MachineLimits, AreTheBetterOfTwoMeasurements) {
+  MachineLimits best{.threads = 1, .reading = {{4e6, 1e9, 1e9}, {8.0 * (1 << 21), 0, 0}}};
+  best.one_gflops = 1e9;  // nothing is that fast
+  best.all_gflops = 0;
+  const MachineLimits again = bench::remeasure_limits(best, [](std::string_view) {});
+  EXPECT_EQ(again.one_gflops, 1e9);
+  EXPECT_GT(again.all_gflops, 0);
+  ASSERT_EQ(again.reading.size(), 2u);
+  EXPECT_EQ(again.reading[0].one_gbs, 1e9);
+  EXPECT_GT(again.reading[1].one_gbs, 0);
+}
+
 TEST(MachineLimits, BetweenSizesLieBetweenTheirRates) {
   const MachineLimits limits{.reading = {{1e6, 100, 200}, {1e8, 20, 30}, {1e9, 10, 11}}};
   EXPECT_EQ(limits.reading_gbs(1e5, 1), 100);
