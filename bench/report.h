@@ -56,7 +56,8 @@ std::string explore_text(const ExploreBench& bench);
 /// The whole as JSON. What was not measured is null; a part without rows is absent.
 std::string to_json(const BenchRun& run);
 
-/// Set-up, query, batch, memory, rates and growth as tables of Markdown, for the documentation.
+/// For the documentation, in Markdown: set-up, query, batch and memory as tables of meshes by
+/// contenders, what was left out and why, the limits, rates and growth.
 std::string to_markdown(const BenchRun& run);
 
 }  // namespace geotherm::bench

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 
 #include "bench/number_text.h"
@@ -27,26 +28,69 @@ std::string with_share(const std::string& figure, double share) {
   return std::isfinite(share) ? figure + format(" (%.0f %%)", 100 * share) : figure;
 }
 
-std::string times_table(const BenchRun& run) {
-  std::string out =
-      "| mesh, faces | backend | set-up | query | batch of 16, a source | factors | peak |\n"
-      "| --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const SolveGroup& group : run.groups) {
-    if (!group.failure.empty())
-      out += "|" + cell(group.mesh) + cell(group.failure) + " | | | | |\n";
+/// One table: a row for each mesh, a column for each contender.
+struct Quantity {
+  const char* title;
+  double Figures::*figure;
+  double Ratios::*ratio;
+  bool memory;  ///< in MB, with our share of the baseline's; else a time, with its over ours
+};
+
+constexpr Quantity kQuantities[] = {
+    {"Set-up", &Figures::setup_ms, &Ratios::setup, false},
+    {"Query", &Figures::query_ms, &Ratios::query, false},
+    {"Batch of 16, one source's share", &Figures::batch_ms_per_source, &Ratios::batch, false},
+    {"Factors (tables of other methods)", &Figures::factor_mb, &Ratios::memory, true},
+    {"Peak memory", &Figures::peak_mb, &Ratios::peak, true},
+};
+
+std::vector<std::string> contenders_of(const std::vector<SolveGroup>& groups) {
+  std::vector<std::string> names;
+  for (const SolveGroup& group : groups) {
     for (const Figures& f : group.figures) {
-      out += "|" + cell(mesh_text(group)) + cell("`" + f.name + "`");
-      if (!f.failure.empty() || !f.not_run.empty()) {
-        out += cell(f.failure.empty() ? f.not_run : "failed: " + f.failure) + " | | | |\n";
-        continue;
-      }
-      const bool ours = &f != group.baseline();
-      const Ratios r = ours ? ratios_of(f, group.baseline()) : Ratios{};
-      out += cell(with_ratio(time_text(f.setup_ms), r.setup)) +
-             cell(with_ratio(time_text(f.query_ms), r.query)) +
-             cell(with_ratio(time_text(f.batch_ms_per_source), r.batch)) +
-             cell(with_share(memory_text(f.factor_mb), r.memory)) +
-             cell(with_share(memory_text(f.peak_mb), r.peak)) + "\n";
+      if (std::ranges::find(names, f.name) == names.end()) names.push_back(f.name);
+    }
+  }
+  return names;
+}
+
+std::string figure_cell(const SolveGroup& group, const std::string& name, const Quantity& of) {
+  const auto f = std::ranges::find(group.figures, name, &Figures::name);
+  if (f == group.figures.end()) return cell("");
+  if (!f->failure.empty()) return cell("failed");
+  if (!f->not_run.empty()) return cell("not run");
+  const bool ours = &*f != group.baseline();
+  const double ratio = ours ? ratios_of(*f, group.baseline()).*of.ratio : kNotMeasured;
+  const double figure = (*f).*of.figure;
+  if (of.memory && figure == 0) return cell("none");
+  return cell(of.memory ? with_share(memory_text(figure), ratio)
+                        : with_ratio(time_text(figure), ratio));
+}
+
+std::string figures_table(const BenchRun& run, const Quantity& quantity) {
+  const std::vector<std::string> names = contenders_of(run.groups);
+  std::string head = "|" + cell(quantity.title), rule = "| --- |", rows;
+  for (const std::string& name : names) {
+    head += cell("`" + name + "`");
+    rule += " --- |";
+  }
+  for (const SolveGroup& group : run.groups) {
+    if (!group.failure.empty()) continue;
+    rows += "|" + cell(mesh_text(group));
+    for (const std::string& name : names) rows += figure_cell(group, name, quantity);
+    rows += "\n";
+  }
+  return rows.empty() ? rows : head + "\n" + rule + "\n" + rows;
+}
+
+/// Why there are no figures, one line each.
+std::string reasons(const BenchRun& run) {
+  std::string out;
+  for (const SolveGroup& group : run.groups) {
+    if (!group.failure.empty()) out += "- " + group.mesh + ": " + group.failure + "\n";
+    for (const Figures& f : group.figures) {
+      const std::string reason = f.failure.empty() ? f.not_run : "failed: " + f.failure;
+      if (!reason.empty()) out += "- " + mesh_text(group) + ", `" + f.name + "`: " + reason + "\n";
     }
   }
   return out;
@@ -109,10 +153,12 @@ std::string to_markdown(const BenchRun& run) {
   std::string out = run.machine.cpu + format(", %d threads, the baseline 1", run.threads) +
                     (run.quick ? " (a quick run)" : "") + "; " + run.machine.compiler + "; BLAS " +
                     run.machine.blas + ".\n";
-  for (const std::string& table :
-       {run.groups.empty() ? std::string() : times_table(run), limits_table(run.limits),
-        rates_table(run), growth_table(run.growth)}) {
-    if (!table.empty()) out += "\n" + table;
+  std::vector<std::string> parts;
+  for (const Quantity& quantity : kQuantities) parts.push_back(figures_table(run, quantity));
+  parts.insert(parts.end(), {reasons(run), limits_table(run.limits), rates_table(run),
+                             growth_table(run.growth)});
+  for (const std::string& part : parts) {
+    if (!part.empty()) out += "\n" + part;
   }
   for (const LoadRow& row : run.loads) {
     if (row.failure.empty()) out += load_text(row);

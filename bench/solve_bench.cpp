@@ -23,7 +23,7 @@ constexpr Effort kQuick = {{1'500, 3, 6'000}, {600, 9, 4'000}, {600, 3, 6'000}};
 constexpr Effort kFull = {{8'000, 5, 60'000}, {4'000, 21, 20'000}, {4'000, 5, 30'000}};
 
 /// What a backend may take on one mesh, and what its rates may.
-constexpr double kMostQuickMs = 15'000, kMostFullMs = 300'000;
+constexpr double kMostQuickMs = 25'000, kMostFullMs = 300'000;
 constexpr double kRatesQuickMs = 300, kRatesFullMs = 1'500;
 
 /// Rates take a set-up more: not where it is longer than this.

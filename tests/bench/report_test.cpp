@@ -86,6 +86,13 @@ TEST(BenchMarkdown, HasAsManyCellsInEachRowOfATable) {
   EXPECT_GT(rows, 30);
 }
 
+TEST(BenchMarkdown, SaysWhyAFigureIsMissing) {
+  const std::string text = bench::to_markdown(sample_run());
+  EXPECT_NE(text.find("| not run |"), std::string::npos);
+  EXPECT_NE(text.find("- torus, 1.1M, `slow`: not run: would take about 1000 s"), std::string::npos)
+      << text;
+}
+
 TEST(BenchText, NamesWhatWasNotRun) {
   const bench::BenchRun run = sample_run();
   const std::string text = bench::solve_text(run.groups.back(), run.limits, 2);
