@@ -21,6 +21,7 @@ class BackendContender final : public Contender {
   }
 
   std::string name() const override { return name_; }
+  bool heat_method() const override { return options_.method == MethodKind::kHeat; }
 
   Result<void> set_up(std::shared_ptr<const TriangleMesh> mesh) override {
     method_.reset();

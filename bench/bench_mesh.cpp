@@ -23,19 +23,18 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// A torus with bumps on a regular grid whose vertices are moved about and whose squares are cut
-/// along either diagonal: every vertex has about six neighbours, as after a scan or remeshing.
-Result<TriangleMesh> make_torus(Index faces) {
+/// `regular` keeps the vertices on the grid and all diagonals alike: six neighbours each.
+Result<TriangleMesh> make_torus(Index faces, bool regular) {
   constexpr double kTwoPi = 2 * std::numbers::pi;
-  constexpr double kJitter = 0.4;  // of a cell
+  const double jitter = regular ? 0 : 0.4;  // of a cell
   const auto across = static_cast<Index>(std::lround(std::sqrt(faces / 5.0)));
   const auto along = static_cast<Index>(std::lround(faces / 2.0 / across));
   Random random(1);
   std::vector<Vec3> positions;
   for (Index i = 0; i < along; ++i) {
     for (Index j = 0; j < across; ++j) {
-      const double u = kTwoPi * (i + kJitter * (random.next() - 0.5)) / along;
-      const double v = kTwoPi * (j + kJitter * (random.next() - 0.5)) / across;
+      const double u = kTwoPi * (i + jitter * (random.next() - 0.5)) / along;
+      const double v = kTwoPi * (j + jitter * (random.next() - 0.5)) / across;
       const double bump = std::sin(7 * u + 2 * v) + 0.7 * std::sin(13 * u - 5 * v);
       const double tube = 0.4 * (1 + 0.06 * bump);
       const double ring = 1 + tube * std::cos(v);
@@ -48,7 +47,7 @@ Result<TriangleMesh> make_torus(Index faces) {
       const Index i1 = (i + 1) % along, j1 = (j + 1) % across;
       const Index a = i * across + j, b = i1 * across + j;
       const Index c = i1 * across + j1, d = i * across + j1;
-      if (random.next() < 0.5) {
+      if (random.next() < 0.5 && !regular) {
         triangles.push_back({a, c, b});
         triangles.push_back({a, d, c});
       } else {
@@ -92,7 +91,8 @@ Result<TriangleMesh> make_sphere(Index faces) {
 }  // namespace
 
 Result<TriangleMesh> make_mesh(std::string_view name, Index faces) {
-  if (name == "torus") return make_torus(faces);
+  if (name == "grid") return make_torus(faces, true);
+  if (name == "torus") return make_torus(faces, false);
   if (name == "sphere") return make_sphere(faces);
   return generate_model(name, faces);
 }

@@ -18,6 +18,9 @@ class Contender {
 
   virtual std::string name() const = 0;
 
+  /// Not another method that answers the same question.
+  virtual bool heat_method() const { return true; }
+
   /// Everything between a mesh in memory and the first query ready. Replaces an earlier set-up.
   virtual Result<void> set_up(std::shared_ptr<const TriangleMesh> mesh) = 0;
 

@@ -2,14 +2,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <regex>
 #include <string>
 
 #include "bench/bench_mesh.h"
+#include "bench/chart/performance_chart.h"
 #include "bench/load_bench.h"
 #include "bench/machine.h"
+#include "bench/machine_limits.h"
 #include "bench/report.h"
 #include "bench/solve_bench.h"
 #include "solver/core/parallel.h"
@@ -30,7 +33,7 @@ constexpr Index kLoadFaces = 1'000'000;
 
 struct Arguments {
   bool quick = false;
-  std::string json, only;
+  std::string json, markdown, svg, only;
   int threads = 0;
 };
 
@@ -47,12 +50,13 @@ void say(std::string_view what) {
   std::fflush(stderr);
 }
 
-int run(const Arguments& arguments) {
-  const bool json_only = arguments.json == "-";
-  std::FILE* const out = json_only ? stderr : stdout;
-  const int threads = thread_count(arguments.threads);
-  const Machine machine = read_machine();
-  print(machine_text(machine, threads), out);
+/// Measures what is asked for and prints it as it comes.
+BenchRun measure_all(const Arguments& arguments, std::FILE* out) {
+  BenchRun run;
+  run.machine = read_machine();
+  run.threads = thread_count(arguments.threads);
+  run.quick = arguments.quick;
+  print(machine_text(run.machine, run.threads), out);
   if (make_baseline_contender() == nullptr) {
     print("Built without CHOLMOD, which the baseline needs: there are no ratios.\n", out);
   }
@@ -61,47 +65,69 @@ int run(const Arguments& arguments) {
                        .threads = arguments.threads,
                        .backends = solver_names(),
                        .only = std::regex(arguments.only)};
-  print(solve_heading(), out);
-  const auto groups = measure_solves(plan, say, [&](const SolveGroup& group) {
+  const bool solves = std::ranges::any_of(
+      all_cases(), [&](const Case& c) { return !backends_for(c, plan).empty(); });
+  if (solves || std::regex_search("limits", plan.only)) {
+    run.limits = measure_limits(run.threads, 0, say);
     say("");
-    print(solve_text(group), out);
+    print(limits_text(run.limits), out);
+  }
+  if (solves) print(solve_heading(), out);
+  run.groups = measure_solves(plan, say, [&](const SolveGroup& group) {
+    say("");
+    print(solve_text(group, run.limits, run.threads), out);
   });
-  const auto growth = measure_growth(groups);
-  print(growth_text(growth), out);
+  run.growth = measure_growth(run.groups);
+  print(growth_text(run.growth), out);
+  if (!run.groups.empty()) {
+    run.limits = remeasure_limits(run.limits, say);
+    say("");
+    print(limits_text(run.limits), out);
+  }
 
-  std::vector<LoadRow> loads;
   if (std::regex_search("load", plan.only)) {
     say("reading OBJ");
     if (const auto mesh = make_mesh("torus", kLoadFaces)) {
-      loads.push_back(measure_load("torus", *mesh, arguments.quick ? 5 : 15));
+      run.loads.push_back(measure_load("torus", *mesh, arguments.quick ? 5 : 15));
     }
     say("");
-    for (const LoadRow& row : loads) print(load_text(row), out);
+    for (const LoadRow& row : run.loads) print(load_text(row), out);
   }
-
-  RenderBench render;
   if (std::regex_search("render", plan.only)) {
-    render = measure_render(say);
+    run.render = measure_render(say);
     say("");
-    print(render_text(render), out);
+    print(render_text(run.render), out);
   }
-
-  ExploreBench explore;
   if (std::regex_search("explore", plan.only)) {
-    explore = measure_explore(say);
+    run.explore = measure_explore(say);
     say("");
-    print(explore_text(explore), out);
+    print(explore_text(run.explore), out);
   }
+  return run;
+}
 
-  if (groups.empty() && loads.empty() && render.device.empty() && render.failure.empty() &&
-      explore.rows.empty() && explore.failure.empty())
-    print("Nothing fits --only " + arguments.only + "\n", stderr);
-  if (arguments.json.empty()) return 0;
-  const auto written =
-      write_file(arguments.json, to_json(machine, threads, groups, growth, loads, render, explore));
-  if (written) return 0;
-  print("geotherm_bench: error: " + written.error().message + "\n", stderr);
-  return 1;
+bool nothing_measured(const BenchRun& run) {
+  return run.groups.empty() && run.loads.empty() && !run.limits.measured() &&
+         run.render.device.empty() && run.render.failure.empty() && run.explore.rows.empty() &&
+         run.explore.failure.empty();
+}
+
+int run(const Arguments& arguments) {
+  const bool silent = arguments.json == "-" || arguments.markdown == "-" || arguments.svg == "-";
+  const BenchRun run = measure_all(arguments, silent ? stderr : stdout);
+  if (nothing_measured(run)) print("Nothing fits --only " + arguments.only + "\n", stderr);
+
+  const auto wrote = [](const std::string& path, const auto& make) {
+    if (path.empty()) return true;
+    const auto written = write_file(path, make());
+    if (!written) print("geotherm_bench: error: " + written.error().message + "\n", stderr);
+    return bool(written);
+  };
+  // All are tried: what took an hour to measure is not lost to one path.
+  const bool json = wrote(arguments.json, [&] { return to_json(run); });
+  const bool markdown = wrote(arguments.markdown, [&] { return to_markdown(run); });
+  const bool svg = wrote(arguments.svg, [&] { return performance_chart(run); });
+  return json && markdown && svg ? 0 : 1;
 }
 
 int run_command_line(int argc, char** argv) {
@@ -109,12 +135,15 @@ int run_command_line(int argc, char** argv) {
   CLI::App app("Set-up, query, batch and memory of each backend beside a plain use of CHOLMOD.");
   app.add_flag("--quick", arguments.quick, "Fewer meshes and runs: under ten minutes on 2 cores");
   app.add_option("--json", arguments.json, "Write the figures to this file ('-': standard output)");
+  app.add_option("--markdown", arguments.markdown,
+                 "Write them as tables of Markdown ('-' as above)");
+  app.add_option("--svg", arguments.svg, "Write a chart over the number of faces ('-' as above)");
   app.add_option("--threads", arguments.threads, "Threads of the backends (default: all cores)")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--only", arguments.only,
                  "Regular expression: measure only rows MESH-SIZEk/BACKEND in which it is found, "
-                 "such as 'gargoyle-200k/cholmod' or '1050k'; 'load' is the reading of files, "
-                 "'render' the drawing, 'explore' the viewer")
+                 "such as 'gargoyle-280k/cholmod' or '1100k'; 'limits' are the machine's, 'load' "
+                 "is the reading of files, 'render' the drawing, 'explore' the viewer")
       ->check([](const std::string& text) {
         try {
           const std::regex parsed(text);

@@ -15,15 +15,26 @@ namespace geotherm::bench {
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
+/// How the two layers below the heat method do: figures of the best attempt.
+struct Rates {
+  double factor_gflops = kNotMeasured;  ///< 10^9 operations a second, both matrices side by side
+  double solve_gbs = kNotMeasured;      ///< 10^9 bytes of a factor read a second, dense right side
+  double factor_bytes = kNotMeasured;   ///< that one pass of that solve reads
+  std::string failure = {};             ///< why there are none; empty: none failed
+};
+
 /// What one contender did on one mesh. Times are medians.
 struct Figures {
   std::string name;
+  bool heat_method = true;  ///< with one of its backends, or the baseline
   double setup_ms = kNotMeasured;
   double query_ms = kNotMeasured;
   double batch_ms_per_source = kNotMeasured;
   double factor_mb = kNotMeasured;
   double peak_mb = kNotMeasured;  ///< of set-up and first query, mesh not counted
-  std::string failure;            ///< empty: none
+  Rates rates = {};               ///< of backends that factorise
+  std::string failure = {};       ///< empty: none
+  std::string not_run = {};       ///< why it was left out; empty: it was not
 };
 
 /// How long a measurement may take: one contender repeats until it has used `milliseconds` and has
@@ -35,15 +46,31 @@ struct Budget {
 };
 
 struct Effort {
-  Budget setup, query, batch;
+  Budget setup, query;
+  Budget batch;  ///< left out where single queries say that one would take longer than the most
 };
 
 using Say = std::function<void(std::string_view)>;
 
+/// Queries of one contender in a row before the next has its turn: its factor is then in the cache
+/// as far as it fits, as it is for somebody who asks several times.
+inline constexpr int kQueriesPerTurn = 3;
+
+/// Called with the number of a contender and its first answer, to the first source.
+using OnAnswer = std::function<void(std::size_t, const std::vector<double>&)>;
+
+struct Race {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::span<const std::unique_ptr<Contender>> contenders;
+  std::span<const Index> sources;
+  Effort effort;
+  /// Only one contender is set up at a time, for meshes where all would not fit into memory.
+  bool one_at_a_time = false;
+};
+
 /// Measures all contenders on one mesh, taking turns, so that a change of the machine's pace meets
-/// them alike. They are left set up.
-std::vector<Figures> measure(std::shared_ptr<const TriangleMesh> mesh,
-                             std::span<const std::unique_ptr<Contender>> contenders,
-                             std::span<const Index> sources, const Effort& effort, const Say& say);
+/// them alike. With one at a time they take turns in their set-ups; each is asked after its last.
+/// All are dropped in the end. Figures are in the order of the contenders.
+std::vector<Figures> measure(const Race& race, const Say& say, const OnAnswer& on_answer = {});
 
 }  // namespace geotherm::bench

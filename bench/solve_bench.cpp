@@ -3,59 +3,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <utility>
 
 #include "bench/bench_mesh.h"
+#include "bench/estimates.h"
+#include "bench/rates.h"
+#include "solver/core/free_memory.h"
+#include "solver/core/parallel.h"
 #include "solver/heat/heat_method.h"
+#include "solver/linear/backend.h"
 
 namespace geotherm::bench {
 namespace {
 
 constexpr std::size_t kSources = 16;
 
-struct Case {
-  const char* mesh;
-  Index faces;
-  bool quick;  ///< part of the quick run
-};
-
-constexpr Case kCases[] = {
-    {"torus", 30'000, true},      {"terrain", 33'000, true},     {"sphere", 80'000, false},
-    {"torus", 100'000, true},     {"gargoyle", 100'000, true},   {"torus", 200'000, true},
-    {"gargoyle", 200'000, true},  {"terrain", 200'000, false},   {"torus", 500'000, false},
-    {"gargoyle", 500'000, false}, {"torus", 1'050'000, true},    {"gargoyle", 1'050'000, true},
-    {"sphere", 1'300'000, false}, {"terrain", 1'050'000, false},
-};
-
 constexpr Effort kQuick = {{1'500, 3, 6'000}, {600, 9, 4'000}, {600, 3, 6'000}};
 constexpr Effort kFull = {{8'000, 5, 60'000}, {4'000, 21, 20'000}, {4'000, 5, 30'000}};
 
-/// Backends whose time grows too fast for large meshes to tell anything new.
-Index largest_mesh(const std::string& backend, bool quick) {
-  if (backend == "eigen-ldlt") return quick ? 250'000 : 600'000;
-  if (backend == "cg") return quick ? 120'000 : 250'000;
-  return std::numeric_limits<Index>::max();
-}
+/// What a backend may take on one mesh, and what its rates may.
+constexpr double kMostQuickMs = 25'000, kMostFullMs = 300'000;
+constexpr double kRatesQuickMs = 300, kRatesFullMs = 1'500;
 
-std::string case_name(const Case& c) {
-  return std::string(c.mesh) + "-" + std::to_string(c.faces / 1000) + "k";
-}
+/// Rates take a set-up more: not where it is longer than this.
+constexpr double kLongestRatesMs = 60'000;
 
-/// The plan's backends for this case.
-std::vector<std::string> backends_for(const Case& c, const SolvePlan& plan) {
-  std::vector<std::string> out;
-  if (plan.quick && !c.quick) return out;
-  for (const std::string& backend : plan.backends) {
-    if (c.faces > largest_mesh(backend, plan.quick)) continue;
-    if (std::regex_search(case_name(c) + "/" + backend, plan.only)) out.push_back(backend);
-  }
-  return out;
-}
+/// Shares of the free memory: of one contender, and of all that are set up at once.
+constexpr double kMemoryOfOne = 0.8, kMemoryOfAll = 0.6;
+
+/// Meshes from this size on are estimated before they are measured; where nothing smaller was
+/// measured (--only), on the sizes below.
+constexpr Index kEstimatedFrom = 150'000;
+constexpr Index kProbeFaces[] = {30'000, 100'000};
 
 /// The baseline's distances against ours with the same discretisation.
-double disagreement(Contender& baseline, std::shared_ptr<const TriangleMesh> mesh, Index source,
-                    int threads) {
+double disagreement(const std::vector<double>& theirs, std::shared_ptr<const TriangleMesh> mesh,
+                    Index source, int threads) {
   HeatOptions options;
   options.threads = threads;
   options.strict = true;
@@ -65,72 +49,131 @@ double disagreement(Contender& baseline, std::shared_ptr<const TriangleMesh> mes
   const auto method = HeatMethod::build(std::move(mesh), options);
   if (!method) return kNotMeasured;
   const auto ours = method->solve(SourceSet::of_vertices({source}));
-  const auto theirs = baseline.query(source);
-  if (!ours || !theirs) return kNotMeasured;
+  if (!ours) return kNotMeasured;
   double largest = 0, difference = 0;
-  for (std::size_t v = 0; v < theirs->size(); ++v) {
+  for (std::size_t v = 0; v < theirs.size(); ++v) {
     largest = std::max(largest, ours->distances[v]);
-    difference = std::max(difference, std::abs(ours->distances[v] - (*theirs)[v]));
+    difference = std::max(difference, std::abs(ours->distances[v] - theirs[v]));
   }
   return difference / largest;
 }
 
-SolveGroup measure_case(const Case& c, const std::vector<std::string>& backends,
-                        const SolvePlan& plan, const Say& say) {
-  SolveGroup group;
-  group.mesh = c.mesh;
-  say("making the mesh");
-  auto made = make_mesh(c.mesh, c.faces);
-  if (!made) {
-    group.failure = made.error().message;
-    return group;
-  }
-  const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
-  group.vertices = mesh->vertex_count();
-  group.faces = mesh->face_count();
-
-  std::vector<std::unique_ptr<Contender>> contenders;
-  contenders.reserve(backends.size() + 1);
-  for (const std::string& backend : backends) {
-    contenders.push_back(make_contender(backend, plan.threads));
-  }
-  if (auto baseline = make_baseline_contender()) contenders.push_back(std::move(baseline));
-
-  const std::vector<Index> sources = pick_sources(group.vertices, kSources);
-  group.figures =
-      measure(mesh, contenders, sources, plan.quick ? kQuick : kFull,
-              [&](std::string_view what) { say(case_name(c) + ": " + std::string(what)); });
-  if (group.baseline() != nullptr && group.baseline()->failure.empty()) {
-    say(case_name(c) + ": comparing distances");
-    group.disagreement = disagreement(*contenders.back(), mesh, sources[0], plan.threads);
-  }
-  return group;
+/// 2^20 bytes.
+double free_megabytes() {
+  const auto bytes = free_memory();
+  return bytes ? static_cast<double>(*bytes) / (1024 * 1024)
+               : std::numeric_limits<double>::infinity();
 }
 
-/// The slope of y over x, with an offset of its own for each key.
-class CommonSlope {
+class SolveBench {
  public:
-  void add(const std::string& key, double x, double y) {
-    if (std::isfinite(x) && std::isfinite(y)) points_[key].emplace_back(x, y);
-  }
-  double slope() const {
-    double xx = 0, xy = 0;
-    for (const auto& [key, points] : points_) {
-      double mean_x = 0, mean_y = 0;
-      for (const auto& [x, y] : points) {
-        mean_x += x / static_cast<double>(points.size());
-        mean_y += y / static_cast<double>(points.size());
-      }
-      for (const auto& [x, y] : points) {
-        xx += (x - mean_x) * (x - mean_x);
-        xy += (x - mean_x) * (y - mean_y);
-      }
+  SolveBench(const SolvePlan& plan, const Say& say) : plan_(plan), say_(say) {}
+
+  SolveGroup measure_case(const Case& c, const std::vector<std::string>& backends) {
+    SolveGroup group;
+    group.mesh = c.mesh;
+    group.regular = c.regular;
+    const Say say = [&](std::string_view what) { say_(case_name(c) + ": " + std::string(what)); };
+    std::vector<std::string> names = backends;
+    if (make_baseline_contender() != nullptr) names.push_back(kBaseline);
+    if (c.faces >= kEstimatedFrom) probe(names);
+
+    say("making the mesh");
+    auto made = make_mesh(c.mesh, c.faces);
+    if (!made) {
+      group.failure = made.error().message;
+      return group;
     }
-    return xx > 0 ? xy / xx : kNotMeasured;
+    const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
+    group.vertices = mesh->vertex_count();
+    group.faces = mesh->face_count();
+    const std::vector<Index> sources = pick_sources(group.vertices, kSources);
+
+    std::vector<std::unique_ptr<Contender>> contenders;
+    std::vector<std::size_t> places;  // of the contenders, among the figures
+    const bool one_at_a_time = choose(names, group, contenders, places);
+    std::vector<double> baseline_distances;
+    const Race race{mesh, contenders, sources, plan_.quick ? kQuick : kFull, one_at_a_time};
+    auto figures =
+        measure(race, say, [&](std::size_t contender, const std::vector<double>& answer) {
+          if (contenders[contender]->name() == kBaseline) baseline_distances = answer;
+        });
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      Figures& target = group.figures[places[k]];
+      target = std::move(figures[k]);
+      if (!target.failure.empty()) continue;
+      estimates_.learn(group.faces, target);
+      say("rates of " + target.name);
+      target.rates = rates(mesh, target);
+    }
+    if (!baseline_distances.empty()) {
+      say("comparing distances");
+      group.disagreement = disagreement(baseline_distances, mesh, sources[0], plan_.threads);
+    }
+    return group;
   }
 
  private:
-  std::map<std::string, std::vector<std::pair<double, double>>> points_;
+  /// Makes the contenders that may run, and rows that say why for the others. True when those that
+  /// run must not all be set up at once.
+  bool choose(const std::vector<std::string>& names, SolveGroup& group,
+              std::vector<std::unique_ptr<Contender>>& contenders,
+              std::vector<std::size_t>& places) const {
+    const double free = free_megabytes();
+    const Limits limits{plan_.quick ? kMostQuickMs : kMostFullMs, kMemoryOfOne * free};
+    double together = 0;
+    for (const std::string& name : names) {
+      auto contender =
+          name == kBaseline ? make_baseline_contender() : make_contender(name, plan_.threads);
+      Figures& figures = group.figures.emplace_back();
+      figures.name = name;
+      figures.heat_method = contender->heat_method();
+      if (const auto estimate = estimates_.of(name, group.faces)) {
+        figures.not_run = reason_not_to_run(*estimate, limits, name == kBaseline);
+        if (!figures.not_run.empty()) continue;
+        together += estimate->peak_mb;
+      }
+      places.push_back(group.figures.size() - 1);
+      contenders.push_back(std::move(contender));
+    }
+    return together > kMemoryOfAll * free;
+  }
+
+  /// One set-up and query on small meshes for those of which nothing is known.
+  void probe(const std::vector<std::string>& names) {
+    constexpr Effort kOnce = {{0, 1, 1e9}, {0, 1, 1e9}, {0, 0, 0}};  // and no batch
+    std::vector<std::unique_ptr<Contender>> unknown;
+    for (const std::string& name : names) {
+      if (estimates_.of(name, kEstimatedFrom)) continue;
+      unknown.push_back(name == kBaseline ? make_baseline_contender()
+                                          : make_contender(name, plan_.threads));
+    }
+    if (unknown.empty()) return;
+    for (const Index faces : kProbeFaces) {
+      say_("estimating on small meshes");
+      auto made = make_mesh("torus", faces);
+      if (!made) return;
+      const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
+      const std::vector<Index> sources = pick_sources(mesh->vertex_count(), 1);
+      const Say nothing = [](std::string_view) {};
+      for (const Figures& figures : measure({mesh, unknown, sources, kOnce}, nothing)) {
+        if (figures.failure.empty()) estimates_.learn(mesh->face_count(), figures);
+      }
+    }
+  }
+
+  Rates rates(std::shared_ptr<const TriangleMesh> mesh, const Figures& figures) const {
+    const auto backends = backend_names();
+    const bool known = std::ranges::find(backends, figures.name) != backends.end();
+    if (!known || figures.setup_ms > kLongestRatesMs) return {};
+    const auto measured = measure_rates(std::move(mesh), figures.name, thread_count(plan_.threads),
+                                        plan_.quick ? kRatesQuickMs : kRatesFullMs);
+    return measured ? *measured : Rates{.failure = measured.error().message};
+  }
+
+  const SolvePlan& plan_;
+  const Say& say_;
+  Estimates estimates_;
 };
 
 }  // namespace
@@ -142,34 +185,15 @@ const Figures* SolveGroup::baseline() const {
 
 std::vector<SolveGroup> measure_solves(const SolvePlan& plan, const Say& say,
                                        const OnGroup& on_group) {
+  SolveBench bench(plan, say);
   std::vector<SolveGroup> groups;
-  for (const Case& c : kCases) {
+  for (const Case& c : all_cases()) {
     const std::vector<std::string> backends = backends_for(c, plan);
     if (backends.empty()) continue;
-    groups.push_back(measure_case(c, backends, plan, say));
+    groups.push_back(bench.measure_case(c, backends));
     on_group(groups.back());
   }
   return groups;
-}
-
-std::vector<Growth> measure_growth(const std::vector<SolveGroup>& groups) {
-  std::vector<std::string> names;
-  std::map<std::string, CommonSlope> setup, query;
-  for (const SolveGroup& group : groups) {
-    for (const Figures& figures : group.figures) {
-      if (!figures.failure.empty()) continue;
-      if (!setup.contains(figures.name)) names.push_back(figures.name);
-      const double size = std::log(group.faces);
-      setup[figures.name].add(group.mesh, size, std::log(figures.setup_ms));
-      query[figures.name].add(group.mesh, size, std::log(figures.query_ms));
-    }
-  }
-  std::vector<Growth> out;
-  for (const std::string& name : names) {
-    const Growth growth{name, setup[name].slope(), query[name].slope()};
-    if (std::isfinite(growth.setup_exponent)) out.push_back(growth);
-  }
-  return out;
 }
 
 }  // namespace geotherm::bench

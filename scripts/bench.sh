@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Builds and runs the benchmark: set-up, query, batch and memory of each backend beside a plain
-# use of CHOLMOD, and the reading of OBJ files beside tinyobjloader.
+# use of CHOLMOD, what the machine can do at best, and the reading of OBJ files beside tinyobjloader.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 case ${1:-} in
   -h | --help)
-    echo "usage: scripts/bench.sh [--quick] [--json FILE]    --quick: under ten minutes on 2 cores"
+    echo "usage: scripts/bench.sh [--quick] [--only REGEX] [--threads N]"
+    echo "                        [--json FILE] [--markdown FILE] [--svg FILE]"
+    echo "  --quick: under ten minutes on 2 cores; all of it takes about an hour and 16 GB"
     exit 0
     ;;
 esac

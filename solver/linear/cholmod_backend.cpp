@@ -10,6 +10,7 @@
 #include "solver/linear/blas_threads.h"
 #include "solver/linear/cholmod_api.h"
 #include "solver/linear/column_factor.h"
+#include "solver/linear/counted_factor.h"
 #include "solver/linear/fill_order.h"
 #include "solver/linear/supernodal_factor.h"
 
@@ -163,10 +164,10 @@ class CholmodAnalysis final : public Analysis {
         return not_definite(static_cast<std::size_t>(bad - inverse.begin()), inverse.size(),
                             status);
       }
-      return make_direct_factorization(make_column_factor(columns));
+      return make_direct_factorization(counted(make_column_factor(columns)));
     }
     const auto* values = static_cast<const double*>(numeric->factor->x);
-    return make_direct_factorization(make_supernodal_factor(structure_, values, numeric));
+    return make_direct_factorization(counted(make_supernodal_factor(structure_, values, numeric)));
   }
 
  private:
@@ -174,6 +175,11 @@ class CholmodAnalysis final : public Analysis {
     std::int64_t factor = 0, work = 0;  ///< bytes
   };
   static constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Int);
+
+  /// CHOLMOD counts while it analyses: the sum of the squared columns, stored zeros left out.
+  std::unique_ptr<TriangularFactor> counted(std::unique_ptr<TriangularFactor> factor) const {
+    return std::make_unique<CountedFactor>(std::move(factor), std::llround(symbolic_->common.fl));
+  }
 
   /// The assembled matrix, and CHOLMOD's transpose of it for factors by columns.
   static std::int64_t matrix_bytes(const SymmetricPattern& pattern) {

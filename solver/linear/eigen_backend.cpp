@@ -10,6 +10,7 @@
 #include "solver/core/number_text.h"
 #include "solver/linear/backends.h"
 #include "solver/linear/column_factor.h"
+#include "solver/linear/counted_factor.h"
 #include "solver/linear/fill_order.h"
 
 namespace geotherm {
@@ -28,6 +29,7 @@ class EigenAnalysis final : public Analysis {
     const auto below = std::accumulate(counts.below.begin(), counts.below.end(), std::int64_t{0});
     const std::int64_t lower = pattern.size() + std::ssize(pattern.neighbor) / 2;
     entries_ = std::max(lower, below);
+    for (const std::int64_t entries : counts.below) operations_ += (entries + 1) * (entries + 1);
     factor_bytes_ = column_factor_bytes(counts);
     work_bytes_ = kEntryBytes * (2 * lower + 2 * below);  // ours and Eigen's copy, of both
   }
@@ -78,7 +80,8 @@ class EigenAnalysis final : public Analysis {
     data.value.assign(factor.valuePtr(), factor.valuePtr() + data.start.back());
     data.inverse_pivot.resize(static_cast<std::size_t>(lower.size()));
     for (Index j = 0; j < lower.size(); ++j) data.inverse_pivot[j] = 1 / pivots[j];
-    return make_direct_factorization(make_column_factor(data));
+    return make_direct_factorization(
+        std::make_unique<CountedFactor>(make_column_factor(data), operations_));
   }
 
  private:
@@ -86,7 +89,7 @@ class EigenAnalysis final : public Analysis {
 
   std::vector<Index> order_;
   std::uint64_t pattern_;
-  std::int64_t entries_ = 0, factor_bytes_ = 0, work_bytes_ = 0;
+  std::int64_t entries_ = 0, operations_ = 0, factor_bytes_ = 0, work_bytes_ = 0;
 };
 
 class EigenBackend final : public Backend {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/measure.h"
+
+namespace geotherm::bench {
+
+/// What a contender is expected to need on a mesh.
+struct Estimate {
+  double setup_ms = 0, query_ms = 0;
+  double peak_mb = 0;  ///< of set-up and first query
+};
+
+/// Learns from smaller meshes what larger ones will take.
+class Estimates {
+ public:
+  /// Figures that are not there are left out.
+  void learn(Index faces, const Figures& figures);
+
+  /// By powers of the number of faces, from the two largest sizes that differ by half at least, or
+  /// from one size and usual powers. Empty for a contender of which nothing is known.
+  std::optional<Estimate> of(const std::string& name, Index faces) const;
+
+ private:
+  struct Known {
+    double faces;
+    Estimate figures;
+  };
+  std::map<std::string, std::vector<Known>> known_;
+};
+
+/// What a row may cost before it is left out.
+struct Limits {
+  double most_ms;         ///< one set-up and as many queries as are taken at least
+  double most_memory_mb;  ///< of one contender
+};
+
+/// Why a contender with this estimate is not measured, with the numbers; empty: it is.
+/// `may_be_slow`: it is measured however long it takes.
+std::string reason_not_to_run(const Estimate& estimate, const Limits& limits, bool may_be_slow);
+
+}  // namespace geotherm::bench

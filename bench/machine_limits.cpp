@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "bench/machine_limits.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+
+#include "bench/limit_kernels.h"
+#include "solver/core/free_memory.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/linear/blas_threads.h"
+
+// Weak: absent in a build without BLAS.
+extern "C" {
+__attribute__((weak)) void dgemm_(const char*, const char*, const int*, const int*, const int*,
+                                  const double*, const double*, const int*, const double*,
+                                  const int*, const double*, double*, const int*);
+}
+
+namespace geotherm::bench {
+namespace {
+
+constexpr double kSmallest = 4e6;  // bytes: in nobody's first-level cache, in most second levels
+constexpr double kLargest = 1.5e9;
+constexpr double kStep = 4;  // from one size to the next
+
+/// Attempts go on for this long, a few at least.
+constexpr double kAttemptsMs = 300;
+constexpr int kLeastAttempts = 4;
+
+/// The greatest of what attempts give.
+template <class Attempt>
+double best_of(Attempt&& attempt) {
+  const Stopwatch watch;
+  double best = 0;
+  for (int k = 0; k < kLeastAttempts || watch.milliseconds() < kAttemptsMs; ++k) {
+    best = std::max(best, attempt());
+  }
+  return best;
+}
+
+/// Pages of the largest size that the system gives: small ones cost time of their own to look up.
+class Array {
+ public:
+  explicit Array(double bytes) : count_(static_cast<std::size_t>(bytes) / kPage * (kPage / 8)) {
+    data_.reset(static_cast<double*>(std::aligned_alloc(kPage, count_ * sizeof(double))));
+    if (!data_) {
+      count_ = 0;
+      return;
+    }
+#ifdef MADV_HUGEPAGE
+    madvise(data_.get(), count_ * sizeof(double), MADV_HUGEPAGE);
+#endif
+  }
+  std::size_t count() const { return count_; }
+  double* data() { return data_.get(); }
+
+ private:
+  static constexpr std::size_t kPage = 1 << 21;
+  struct Free {
+    void operator()(double* p) const { std::free(p); }
+  };
+  std::size_t count_;
+  std::unique_ptr<double, Free> data_;
+};
+
+double last_cache_bytes() {
+#ifdef _SC_LEVEL3_CACHE_SIZE
+  return std::max(0.0, static_cast<double>(sysconf(_SC_LEVEL3_CACHE_SIZE)));
+#else
+  return 0;
+#endif
+}
+
+double largest_array(double cache_bytes) {
+  const double wanted = std::max(kLargest, 4 * cache_bytes);
+  const auto free = free_memory();
+  return free ? std::min(wanted, static_cast<double>(*free) / 3) : wanted;
+}
+
+/// 10^9 bytes a second of the first `count` values, several times over where they are few.
+double read_rate(const double* values, std::size_t count, int threads) {
+  constexpr double kBytesPerAttempt = 4e8;
+  constexpr std::int64_t kBlock = 64;  // doubles that a kernel takes at once
+  const double bytes = static_cast<double>(count) * sizeof(double);
+  const int passes = std::max(1, static_cast<int>(kBytesPerAttempt / bytes));
+  const InstructionSet set = best_instruction_set();
+  return best_of([&] {
+    const Stopwatch watch;
+    parallel_for(threads, static_cast<std::int64_t>(count) / kBlock, 1,
+                 [&](std::int64_t begin, std::int64_t end) {
+                   volatile double sum = 0;
+                   for (int p = 0; p < passes; ++p) {
+                     sum = sum + read_all(values + begin * kBlock,
+                                          static_cast<std::size_t>((end - begin) * kBlock), set);
+                   }
+                 });
+    return bytes * passes / watch.milliseconds() * 1e-6;
+  });
+}
+
+double multiply_add_rate(int threads) {
+  constexpr std::int64_t kRounds = 2'000'000;  // some milliseconds: threads start in much less
+  const InstructionSet set = best_instruction_set();
+  return best_of([&] {
+    std::vector<double> operations(static_cast<std::size_t>(threads), 0.0);
+    const Stopwatch watch;
+    parallel_for(threads, threads, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t k = begin; k < end; ++k) {
+        double sink = 0;
+        const double done = multiply_add(kRounds, set, sink);
+        operations[static_cast<std::size_t>(k)] = sink != 0 ? done : 0;
+      }
+    });
+    const double elapsed = watch.milliseconds();
+    return std::accumulate(operations.begin(), operations.end(), 0.0) / elapsed * 1e-6;
+  });
+}
+
+double dgemm_rate(int threads) {
+  if (dgemm_ == nullptr) return kNotMeasured;
+  constexpr int kSize = 1500;
+  const std::vector<double> a(std::size_t{kSize} * kSize, 0.5), b = a;
+  std::vector<double> c(a.size());
+  const double one = 1, zero = 0;
+  const BlasThreads blas(threads);
+  return best_of([&] {
+    const Stopwatch watch;
+    dgemm_("N", "N", &kSize, &kSize, &kSize, &one, a.data(), &kSize, b.data(), &kSize, &zero,
+           c.data(), &kSize);
+    return 2.0 * kSize * kSize * kSize / watch.milliseconds() * 1e-6;
+  });
+}
+
+}  // namespace
+
+double MachineLimits::memory_gbs(int with_threads) const {
+  if (reading.empty()) return kNotMeasured;
+  return with_threads > 1 ? reading.back().all_gbs : reading.back().one_gbs;
+}
+
+double MachineLimits::reading_gbs(double bytes, int with_threads) const {
+  if (reading.empty() || !(bytes > 0)) return kNotMeasured;
+  const auto rate = [&](const Reading& r) { return with_threads > 1 ? r.all_gbs : r.one_gbs; };
+  if (bytes <= reading.front().bytes) return rate(reading.front());
+  for (std::size_t i = 1; i < reading.size(); ++i) {
+    const Reading &below = reading[i - 1], &above = reading[i];
+    if (bytes > above.bytes) continue;
+    const double part = std::log(bytes / below.bytes) / std::log(above.bytes / below.bytes);
+    return rate(below) * std::pow(rate(above) / rate(below), part);
+  }
+  return rate(reading.back());
+}
+
+MachineLimits measure_limits(int threads, double largest_bytes, const Say& say) {
+  MachineLimits limits;
+  limits.threads = threads;
+  limits.cache_bytes = last_cache_bytes();
+  say("limits of the machine: arithmetic");
+  limits.one_gflops = multiply_add_rate(1);
+  limits.all_gflops = threads > 1 ? multiply_add_rate(threads) : limits.one_gflops;
+  limits.one_dgemm_gflops = dgemm_rate(1);
+  limits.all_dgemm_gflops = threads > 1 ? dgemm_rate(threads) : limits.one_dgemm_gflops;
+
+  say("limits of the machine: memory");
+  Array array(largest_bytes > 0 ? largest_bytes : largest_array(limits.cache_bytes));
+  if (array.count() == 0) return limits;
+  parallel_for(threads, static_cast<std::int64_t>(array.count()), 1 << 16,
+               [&](std::int64_t begin, std::int64_t end) {
+                 std::fill(array.data() + begin, array.data() + end, 1.0);
+               });
+  const double most = static_cast<double>(array.count()) * sizeof(double);
+  for (double bytes = std::min(kSmallest, most);; bytes = std::min(bytes * kStep, most)) {
+    if (bytes * 1.5 > most) bytes = most;
+    const auto count = static_cast<std::size_t>(bytes) / 512 * 64;
+    const double one = read_rate(array.data(), count, 1);
+    const double all = threads > 1 ? read_rate(array.data(), count, threads) : one;
+    limits.reading.push_back({bytes, one, all});
+    if (bytes >= most) break;
+  }
+  return limits;
+}
+
+MachineLimits remeasure_limits(const MachineLimits& before, const Say& say) {
+  if (!before.measured()) return before;
+  MachineLimits best = measure_limits(before.threads, before.reading.back().bytes, say);
+  // fmax leaves out what is not a number.
+  for (double MachineLimits::*rate :
+       {&MachineLimits::one_gflops, &MachineLimits::all_gflops, &MachineLimits::one_dgemm_gflops,
+        &MachineLimits::all_dgemm_gflops}) {
+    best.*rate = std::fmax(best.*rate, before.*rate);
+  }
+  if (best.reading.size() != before.reading.size()) {
+    best.reading = before.reading;  // the memory for it was gone
+    return best;
+  }
+  for (std::size_t i = 0; i < best.reading.size(); ++i) {
+    MachineLimits::Reading& reading = best.reading[i];
+    reading.one_gbs = std::max(reading.one_gbs, before.reading[i].one_gbs);
+    reading.all_gbs = std::max(reading.all_gbs, before.reading[i].all_gbs);
+  }
+  return best;
+}
+
+}  // namespace geotherm::bench
