@@ -53,7 +53,9 @@ __attribute__((target("avx512f"))) double read_avx512(const double* values, std:
     for (int k = 0; k < 8; ++k) sum[k] = _mm512_add_pd(sum[k], _mm512_load_pd(values + i + 8 * k));
   }
   for (int k = 1; k < 8; ++k) sum[0] = _mm512_add_pd(sum[0], sum[k]);
-  return _mm512_reduce_add_pd(sum[0]);
+  double total = 0;
+  for (int k = 0; k < 8; ++k) total += sum[0][k];
+  return total;
 }
 
 __attribute__((target("avx2,fma"))) double multiply_add_avx2(std::int64_t rounds, double& sink) {
@@ -74,7 +76,9 @@ __attribute__((target("avx512f"))) double multiply_add_avx512(std::int64_t round
   for (std::int64_t r = 0; r < rounds; ++r) {
     for (__m512d& x : chain) x = _mm512_fmadd_pd(x, factor, summand);
   }
-  for (const __m512d& x : chain) sink += _mm512_reduce_add_pd(x);
+  for (const __m512d& x : chain) {
+    for (int k = 0; k < 8; ++k) sink += x[k];
+  }
   return 2.0 * 8 * kChains * static_cast<double>(rounds);
 }
 
