@@ -15,6 +15,7 @@ namespace geotherm {
 /// level and b starts at i * stride.
 struct FieldPass {
   const OperatorMesh* mesh;
+  Index first_face, end_face;  ///< those to be walked
   const double* u;
   const double* log_u;        ///< null: X keeps length 1
   const std::uint8_t* level;  ///< null, or exponents of u: faces with one are done carefully
@@ -62,8 +63,8 @@ inline double field_length(double base, double x, double height, double gx, doub
 void logarithms(const double* u, double* out, std::size_t count,
                 InstructionSet set = best_instruction_set());
 
-/// Adds to b the integrated divergence of X = -grad u / |grad u| over all faces, for a group of 1,
-/// 2, 4, 8 or 16 source sets.
+/// Adds to b the integrated divergence of X = -grad u / |grad u| over the pass's faces, for a group
+/// of 1, 2, 4, 8 or 16 source sets.
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 

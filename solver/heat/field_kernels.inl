@@ -144,8 +144,8 @@ template <int K>
 void run(const FieldPass& pass) {
   constexpr int kFaces = Lanes<K>::kFaces;
   Lanes<K> s;
-  Index f = 0;
-  for (; f + kFaces <= pass.mesh->face_count(); f += kFaces) {
+  Index f = pass.first_face;
+  for (; f + kFaces <= pass.end_face; f += kFaces) {
     load<K>(pass, f, s);
     if (compute<K>(pass, s)) {
       for (int j = 0; j < Lanes<K>::kCount; ++j) {
@@ -158,7 +158,7 @@ void run(const FieldPass& pass) {
     }
     scatter<K>(pass, f, s);
   }
-  for (; f < pass.mesh->face_count(); ++f) {
+  for (; f < pass.end_face; ++f) {
     for (int k = 0; k < K; ++k) add_one(pass, f, k);
   }
 }

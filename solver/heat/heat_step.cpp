@@ -130,11 +130,11 @@ Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
 
 Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                                               std::span<const SourceAnchors> anchors, HeatMode mode,
-                                              bool residuals, BlockPool& pool,
+                                              bool residuals, const Workspace& work,
                                               const Progress& progress) const {
   const OperatorMesh& mesh = *surface_->operators;
   const auto columns = static_cast<Eigen::Index>(anchors.size());
-  Block b = pool.take_zero(mesh.size(), columns);
+  Block b = work.take_zero(mesh.size(), columns);
   std::vector<Index> support;
   std::vector<std::vector<char>> reached;
   for (std::size_t c = 0; c < anchors.size(); ++c) {
@@ -166,7 +166,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   Block right;  // kept only where it is looked at again
   if (residuals) right = b;
   auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
-                                 iterative_ ? kIterativeFloor : kDirectFloor, progress);
+                                 iterative_ ? kIterativeFloor : kDirectFloor, work, progress);
   if (!field) return field.error();
   Answer answer{std::move(*field), {}, 0.0, {}};
   const Stopwatch watch;
@@ -187,18 +187,18 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
 }
 
 Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
-                                           bool residuals, BlockPool& pool,
+                                           bool residuals, const Workspace& work,
                                            const Progress& progress) const {
   if (boundary_ != BoundaryRule::kAverage) {
-    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, pool,
+    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, work,
                       progress);
   }
-  auto neumann = solve_rule(false, anchors, mode, residuals, pool, part_of(progress, 0.0, 0.5));
+  auto neumann = solve_rule(false, anchors, mode, residuals, work, part_of(progress, 0.0, 0.5));
   if (!neumann) return neumann;
-  auto dirichlet = solve_rule(true, anchors, mode, residuals, pool, part_of(progress, 0.5, 1.0));
+  auto dirichlet = solve_rule(true, anchors, mode, residuals, work, part_of(progress, 0.5, 1.0));
   if (!dirichlet) return dirichlet;
   neumann->field = average(std::move(neumann->field), dirichlet->field);
-  pool.give(std::move(dirichlet->field.u));
+  work.pool.give(std::move(dirichlet->field.u));
   neumann->warnings = dirichlet->warnings;
   neumann->residual_ms += dirichlet->residual_ms;
   for (std::size_t c = 0; c < neumann->residual.size(); ++c) {

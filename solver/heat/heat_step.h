@@ -42,7 +42,7 @@ class HeatStep {
   /// `progress` is asked before each factorisation and solve, and by an iterative backend within.
   /// Errors: the backend's, kCancelled.
   Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode, bool residuals,
-                         BlockPool& pool, const Progress& progress = {}) const;
+                         const Workspace& work, const Progress& progress = {}) const;
 
   FactorStats stats() const;
 
@@ -51,7 +51,7 @@ class HeatStep {
   std::vector<Index> border_without(const SourceAnchors* anchors) const;
   bool on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
-                            bool residuals, BlockPool& pool, const Progress& progress) const;
+                            bool residuals, const Workspace& work, const Progress& progress) const;
   /// The system of this rule for one source set, and its right side with held values in place.
   Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
                                                          const SourceAnchors& anchors,

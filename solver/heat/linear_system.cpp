@@ -23,11 +23,11 @@ Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
 }
 
 Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support,
-                                        const Progress& progress) const {
+                                        const Progress& progress, int threads) const {
   const std::span<const Index> held = matrix_->held();
   bool zero = true;
   for (const Index i : held) zero = zero && (x.row(i).array() == 0).all();
-  if (zero) return factor_->solve(x, support, progress);
+  if (zero) return factor_->solve(x, support, progress, threads);
 
   const auto n = static_cast<std::size_t>(matrix_->size());
   std::vector<double> known(n), moved(n);
@@ -39,7 +39,7 @@ Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support
       if (!matrix_->is_held(static_cast<Index>(i))) x(static_cast<Eigen::Index>(i), c) -= moved[i];
     }
   }
-  return factor_->solve(x, {}, progress);
+  return factor_->solve(x, {}, progress, threads);
 }
 
 }  // namespace geotherm

@@ -22,10 +22,10 @@ class LinearSystem {
   const Factorization& factor() const { return *factor_; }
 
   /// Solves with the held rows at the values that x brings: their influence is moved to the right
-  /// side. `support` and `progress` as in Factorization::solve; `support` is ignored when a held
-  /// value is not 0.
+  /// side. `support`, `progress` and `threads` as in Factorization::solve; `support` is ignored
+  /// when a held value is not 0.
   Result<SolveReport> solve(Block& x, std::span<const Index> support = {},
-                            const Progress& progress = {}) const;
+                            const Progress& progress = {}, int threads = 1) const;
 
  private:
   LinearSystem() = default;

@@ -92,18 +92,20 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   return out;
 }
 
-Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Progress& progress) const {
+Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work,
+                                                  const Progress& progress) const {
   if (!report(progress, "solve", 0.0)) return cancelled_error();
   for (const Index pin : system_->matrix().held()) b.row(pin).setZero();
-  const auto solved = system_->factor().solve(b, {}, progress);
+  const auto solved = system_->factor().solve(b, {}, progress, work.threads);
   if (!solved) return solved.error();
-  return PoissonAnswer{std::move(b), solved->iterations};
+  return PoissonAnswer{std::move(b), {}, solved->iterations};
 }
 
 Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
-                                           const Progress& progress) const {
+                                           const Workspace& work, const Progress& progress) const {
   const std::vector<ComponentSize>& sizes = surface_->components;
-  if (!iterative_ || sizes.size() == 1) return solve_as_given(std::move(b), anchors, progress);
+  if (!iterative_ || sizes.size() == 1)
+    return solve_as_given(std::move(b), anchors, work, progress);
   // Iterations end by one norm over all components: each comes in its own unit of length, else
   // those with short edges would hardly count.
   const std::vector<Index>& component = surface_->operators->components.of;
@@ -112,7 +114,7 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
   for (SourceAnchors& set : scaled) {
     for (auto& anchor : set.anchors) anchor.offset /= sizes[component[anchor.row]].mean_edge;
   }
-  auto answer = solve_as_given(std::move(b), scaled, progress);
+  auto answer = solve_as_given(std::move(b), scaled, work, progress);
   if (!answer) return answer;
   Block& phi = answer->phi;
   for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) *= sizes[component[i]].mean_edge;
@@ -120,6 +122,7 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
 }
 
 Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const SourceAnchors> anchors,
+                                                    const Workspace& work,
                                                     const Progress& progress) const {
   const Components& components = surface_->operators->components;
   const std::span<const double> mass = surface_->operators->mass;
@@ -127,16 +130,17 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
     case ConstraintMode::kPinSources: {
       std::size_t most = 0;
       for (const SourceAnchors& a : anchors) most = std::max(most, a.anchors.size());
-      return iterative_ || most > kMostSchurRows ? solve_held(b, anchors, progress)
-                                                 : solve_schur(std::move(b), anchors, progress);
+      return iterative_ || most > kMostSchurRows
+                 ? solve_held(b, anchors, work, progress)
+                 : solve_schur(std::move(b), anchors, work, progress);
     }
     case ConstraintMode::kPinVertex:
-      return solve_pinned(std::move(b), progress);
+      return solve_pinned(std::move(b), work, progress);
     case ConstraintMode::kPenalty: {
       std::vector<Index> rows(system_->matrix().held().begin(), system_->matrix().held().end());
       Block ends(static_cast<Eigen::Index>(rows.size()), b.cols());
       for (std::size_t i = 0; i < rows.size(); ++i) ends.row(i) = b.row(rows[i]);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (!answer) return answer.error();
       for (std::size_t i = 0; i < rows.size(); ++i) {
         answer->phi.row(rows[i]) = ends.row(i) / constraint_.penalty;
@@ -147,13 +151,13 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
       // [L a; a' 0] [phi; lambda] = [b; 0]: lambda = 1'b / 1'a takes the inconsistency along the
       // masses, and phi is the pinned solution shifted to the mass-weighted mean 0.
       remove(components, mass, {}, b);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (answer) remove(components, {}, mass, answer->phi);
       return answer;
     }
     case ConstraintMode::kPseudoInverse: {
       remove(components, {}, {}, b);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (answer) remove(components, {}, {}, answer->phi);
       return answer;
     }
@@ -163,9 +167,10 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
 
 Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
                                                 std::span<const SourceAnchors> anchors,
+                                                const Workspace& work,
                                                 const Progress& progress) const {
   const Components& components = surface_->operators->components;
-  PoissonAnswer answer{b, 0};
+  PoissonAnswer answer{b};
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     const SourceAnchors& a = anchors[static_cast<std::size_t>(c)];
     std::vector<Index> held = a.rows();
@@ -185,7 +190,7 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
     for (const auto& anchor : a.anchors) x(anchor.row, 0) = anchor.offset;
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto solved = (*system)->solve(x, {}, part);
+    const auto solved = (*system)->solve(x, {}, part, work.threads);
     if (!solved) return solved.error();
     answer.phi.col(c) = x;
     answer.iterations = std::max(answer.iterations, solved->iterations);
@@ -197,9 +202,10 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
 /// phi = g on the anchors and 1' lambda = 0 (so that the right side stays consistent) make a small
 /// dense system for lambda and c.
 Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const SourceAnchors> anchors,
+                                                 const Workspace& work,
                                                  const Progress& progress) const {
   const Components& components = surface_->operators->components;
-  auto answer = solve_pinned(std::move(b), progress);
+  auto answer = solve_pinned(std::move(b), work, progress);
   if (!answer) return answer.error();
   Block& phi = answer->phi;
   std::vector<Index> support;
@@ -236,7 +242,7 @@ Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const Source
       }
       const Eigen::VectorXd lambda = bordered.partialPivLu().solve(right);
       shift(component, c) = lambda(k);
-      if (correction.size() == 0) correction = Block::Zero(phi.rows(), phi.cols());
+      if (correction.size() == 0) correction = work.take_zero(phi.rows(), phi.cols());
       for (Eigen::Index i = 0; i < k; ++i) {
         if (is_pin(rows[i])) continue;
         correction(rows[i], c) = lambda(i);
@@ -246,11 +252,14 @@ Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const Source
   }
   if (!support.empty()) {
     if (!report(progress, "solve", 1.0)) return cancelled_error();
-    const auto solved = system_->factor().solve(correction, support);
+    const auto solved = system_->factor().solve(correction, support, {}, work.threads);
     if (!solved) return solved.error();
-    phi += correction;
+    work.for_rows(phi.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t e = begin; e < end; ++e) phi.data()[e] += correction.data()[e];
+    });
+    work.pool.give(std::move(correction));
   }
-  for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) += shift.row(components.of[i]);
+  answer->shift = std::move(shift);
   return answer;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "solver/heat/block_pool.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/source_anchors.h"
 
@@ -15,7 +16,10 @@ inline constexpr std::size_t kMostSchurRows = 128;
 
 /// What solving for phi did.
 struct PoissonAnswer {
-  Block phi;  ///< n x K, not normalised except under kPinSources (phi = offset on every anchor)
+  /// n x K, not normalised except under kPinSources: there phi, or phi + shift, is each anchor's
+  /// offset.
+  Block phi;
+  Block shift{};  ///< components x K, still to be added to phi; empty: nothing
   int iterations = 0;
 };
 
@@ -38,7 +42,7 @@ class PoissonSolver {
   /// b: n x K, one anchor list a column. `progress` is asked before each factorisation and solve,
   /// and by an iterative backend within. Errors: the backend's, kCancelled.
   Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors,
-                              const Progress& progress = {}) const;
+                              const Workspace& work, const Progress& progress = {}) const;
 
   /// True when a query with these sources makes a factor of its own.
   bool needs_own_system(const SourceAnchors& anchors) const {
@@ -51,13 +55,14 @@ class PoissonSolver {
 
  private:
   Result<PoissonAnswer> solve_as_given(Block b, std::span<const SourceAnchors> anchors,
-                                       const Progress& progress) const;
+                                       const Workspace& work, const Progress& progress) const;
   PoissonSolver() = default;
-  Result<PoissonAnswer> solve_pinned(Block b, const Progress& progress) const;
+  Result<PoissonAnswer> solve_pinned(Block b, const Workspace& work,
+                                     const Progress& progress) const;
   Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors,
-                                   const Progress& progress) const;
+                                   const Workspace& work, const Progress& progress) const;
   Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors,
-                                    const Progress& progress) const;
+                                    const Workspace& work, const Progress& progress) const;
 
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> system_;

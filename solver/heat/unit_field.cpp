@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "solver/heat/field_kernels.h"
 
@@ -19,6 +20,11 @@ constexpr double kSafeHigh = 1e280;
 /// exact distances: below the first it helps, above the second it harms.
 constexpr double kShort = 0.15;
 constexpr double kLong = 0.35;
+
+/// Rows whose logarithms are taken before they are looked at.
+constexpr std::int64_t kRowsOfPiece = 1024;
+/// Ranges of faces that are worth a thread, with one column.
+constexpr std::int64_t kRanges = 2;
 
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
@@ -46,8 +52,8 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
 }  // namespace
 
 UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
-                     BlockPool& pool)
-    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), pool_(pool) {
+                     const Workspace& work)
+    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), work_(work) {
   if (!(root_t_ > 0)) return;
   if (!t.same()) {
     root_t_of_face_.reserve(mesh.faces.size());
@@ -55,29 +61,45 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerC
       root_t_of_face_.push_back(std::sqrt(t.of(mesh.components.of[face[0]])));
     }
   }
-  log_u_ = pool.take(heat.u.rows(), heat.u.cols());
-  logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
-  if (!heat.level.empty()) {
-    const double step = std::log(heat.step);
-    for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-      log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
+  take_logarithms();
+}
+
+void UnitField::take_logarithms() {
+  const Eigen::Index columns = log_u_.cols();
+  const double step = std::log(heat_.step);
+  Block high = Block::Constant(mesh_.components.count, columns, -kUnreached);
+  Block low = -high;
+  std::mutex mutex;
+  work_.for_rows(log_u_.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
+    Block most = Block::Constant(high.rows(), columns, -kUnreached);
+    Block least = -most;
+    // In pieces that stay in the nearest cache between their two passes.
+    for (std::int64_t next = begin; begin < end; begin = next) {
+      next = std::min(end, begin + kRowsOfPiece);
+      const std::int64_t from = begin * columns, to = next * columns;
+      logarithms(heat_.u.data() + from, log_u_.data() + from, static_cast<std::size_t>(to - from));
+      for (std::int64_t e = from; e < to && !heat_.level.empty(); ++e) {
+        log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
+      }
+      const auto widen = [&](std::int64_t i, Index component) {
+        for (Eigen::Index c = 0; c < columns; ++c) {  // comparisons that are false where u <= 0
+          const double log_u = log_u_(i, c);
+          most(component, c) = log_u > most(component, c) ? log_u : most(component, c);
+          least(component, c) = log_u < least(component, c) ? log_u : least(component, c);
+        }
+      };
+      for (std::int64_t i = begin; i < next; ++i) widen(i, mesh_.components.of[i]);
     }
-  }
-  measure_trust();
+    const std::lock_guard lock(mutex);
+    high = high.cwiseMax(most);
+    low = low.cwiseMin(least);
+  });
+  measure_trust(high, low);
 }
 
 /// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
-void UnitField::measure_trust() {
-  const Eigen::Index columns = log_u_.cols();
-  Block high = Block::Constant(mesh_.components.count, columns, -kUnreached);
-  Block low = -high;
-  for (Eigen::Index i = 0; i < log_u_.rows(); ++i) {
-    const Index component = mesh_.components.of[i];
-    for (Eigen::Index c = 0; c < columns; ++c) {  // comparisons that are false where u <= 0
-      if (log_u_(i, c) > high(component, c)) high(component, c) = log_u_(i, c);
-      if (log_u_(i, c) < low(component, c)) low(component, c) = log_u_(i, c);
-    }
-  }
+void UnitField::measure_trust(const Block& high, const Block& low) {
   std::vector<double> trust(static_cast<std::size_t>(high.size()), 1.0);
   bool whole = true;
   for (std::size_t e = 0; e < trust.size(); ++e) {
@@ -126,9 +148,10 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   return {x[0] * size, x[1] * size};
 }
 
-void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
+void UnitField::add_group(Index first_face, Index end_face, Eigen::Index first, int group,
+                          Block& b) const {
   if (!trust_.empty()) {  // rare: face by face
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
+    for (Index f = first_face; f < end_face; ++f) {
       for (Eigen::Index c = first; c < first + group; ++c) {
         add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
       }
@@ -142,6 +165,8 @@ void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   const Context context{this, first};
   FieldPass pass{};
   pass.mesh = &mesh_;
+  pass.first_face = first_face;
+  pass.end_face = end_face;
   pass.u = heat_.u.data() + first;
   if (!heat_.level.empty()) pass.level = heat_.level.data() + first;
   pass.b = b.data() + first;
@@ -159,14 +184,29 @@ void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   add_unit_divergence(pass, group);
 }
 
-Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
-  const Eigen::Index columns = heat_.u.cols();
-  Block b = pool_.take_zero(heat_.u.rows(), columns);
-  for (Eigen::Index first = 0; first < columns;) {
-    const int group = column_group(columns - first);
-    add_group(first, group, b);
+void UnitField::add_faces(Index first_face, Index end_face, Block& b) const {
+  for (Eigen::Index first = 0; first < b.cols();) {
+    const int group = column_group(b.cols() - first);
+    add_group(first_face, end_face, first, group, b);
     first += group;
   }
+}
+
+Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
+  const Eigen::Index columns = heat_.u.cols();
+  Block b = work_.pool.take(heat_.u.rows(), columns);
+  // Ranges write to rows of their own, then those faces follow that join them: each row has its sum
+  // in one order, with any number of threads.
+  parallel_for(work_.threads, std::ssize(mesh_.ranges),
+               std::max<std::int64_t>(1, kRanges / columns),
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t r = begin; r < end; ++r) {
+                   const FaceRange& range = mesh_.ranges[static_cast<std::size_t>(r)];
+                   b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
+                   add_faces(range.first_face, range.end_face, b);
+                 }
+               });
+  add_faces(mesh_.crossing, mesh_.face_count(), b);
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {
     for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {
