@@ -2,6 +2,7 @@
 #include "solver/heat/unit_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -49,6 +50,70 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
   for (int k = 0; k < 3; ++k) b(face[k], column) += d[k];
 }
 
+/// The largest and the smallest logarithm of each component and column. Comparisons are false for
+/// what is no number, the logarithm of 0 and below.
+class Spread {
+ public:
+  Spread(const Components& components, Eigen::Index columns)
+      : components_(components),
+        high_(Block::Constant(components.count, columns, -kUnreached)),
+        low_(-high_) {
+    most_.fill(-kUnreached);
+    least_.fill(kUnreached);
+  }
+
+  /// `log_u`: of rows begin to end.
+  void take(const double* log_u, std::int64_t begin, std::int64_t end) {
+    const Eigen::Index columns = high_.cols();
+    const std::int64_t count = (end - begin) * columns;
+    std::int64_t e = 0;
+    if (components_.count == 1 && kLanes % columns == 0) {
+      for (; e + kLanes <= count; e += kLanes) {
+        for (int j = 0; j < kLanes; ++j) {
+          const double value = log_u[e + j];
+          most_[j] = value > most_[j] ? value : most_[j];
+          least_[j] = value < least_[j] ? value : least_[j];
+        }
+      }
+    }
+    for (; e < count; ++e) {
+      widen(components_.of[static_cast<std::size_t>(begin + e / columns)], e % columns, log_u[e]);
+    }
+  }
+  void take(Spread& other) {
+    high_ = high_.cwiseMax(other.high());
+    low_ = low_.cwiseMin(other.low());
+  }
+
+  const Block& high() {
+    gather();
+    return high_;
+  }
+  const Block& low() {
+    gather();
+    return low_;
+  }
+
+ private:
+  static constexpr int kLanes = 16;
+  void widen(Index component, Eigen::Index c, double value) {
+    if (value > high_(component, c)) high_(component, c) = value;
+    if (value < low_(component, c)) low_(component, c) = value;
+  }
+  void gather() {
+    for (int j = 0; j < kLanes && kLanes % high_.cols() == 0; ++j) {
+      double& high = high_(0, j % high_.cols());
+      double& low = low_(0, j % high_.cols());
+      high = std::max(high, most_[j]);
+      low = std::min(low, least_[j]);
+    }
+  }
+
+  const Components& components_;
+  Block high_, low_;  ///< components x K
+  std::array<double, kLanes> most_, least_;
+};
+
 }  // namespace
 
 UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
@@ -68,12 +133,10 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerC
 void UnitField::take_logarithms() {
   const Eigen::Index columns = log_u_.cols();
   const double step = std::log(heat_.step);
-  Block high = Block::Constant(mesh_.components.count, columns, -kUnreached);
-  Block low = -high;
+  Spread all(mesh_.components, columns);
   std::mutex mutex;
   work_.for_rows(log_u_.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
-    Block most = Block::Constant(high.rows(), columns, -kUnreached);
-    Block least = -most;
+    Spread spread(mesh_.components, columns);
     // In pieces that stay in the nearest cache between their two passes.
     for (std::int64_t next = begin; begin < end; begin = next) {
       next = std::min(end, begin + kRowsOfPiece);
@@ -82,20 +145,12 @@ void UnitField::take_logarithms() {
       for (std::int64_t e = from; e < to && !heat_.level.empty(); ++e) {
         log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
       }
-      const auto widen = [&](std::int64_t i, Index component) {
-        for (Eigen::Index c = 0; c < columns; ++c) {  // comparisons that are false where u <= 0
-          const double log_u = log_u_(i, c);
-          most(component, c) = log_u > most(component, c) ? log_u : most(component, c);
-          least(component, c) = log_u < least(component, c) ? log_u : least(component, c);
-        }
-      };
-      for (std::int64_t i = begin; i < next; ++i) widen(i, mesh_.components.of[i]);
+      spread.take(log_u_.data() + from, begin, next);
     }
     const std::lock_guard lock(mutex);
-    high = high.cwiseMax(most);
-    low = low.cwiseMin(least);
+    all.take(spread);
   });
-  measure_trust(high, low);
+  measure_trust(all.high(), all.low());
 }
 
 /// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
@@ -124,7 +179,9 @@ double UnitField::length(Index f, Eigen::Index column) const {
       gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
   const double square = g[0] * g[0] + g[1] * g[1];
   if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
-  const double whole = field_length(p.base, p.x, p.height, g[0], g[1], root_t(f));
+  const double size = std::sqrt(square);
+  const double whole =
+      field_length(p.base, p.x, p.height, g[0] / size, g[1] / size, size, root_t(f));
   return 1 - trust(face[0], column) * (1 - whole);
 }
 
