@@ -16,15 +16,15 @@ constexpr int kMostLevels = 255;
 class FarField {
  public:
   FarField(const LinearSystem& system, const Components& components,
-           const std::vector<char>& reached, Eigen::Index column, HeatField& field, int threads,
-           const Progress& progress)
+           const std::vector<char>& reached, Eigen::Index column, HeatField& field,
+           const Workspace& work, const Progress& progress)
       : system_(system),
         components_(components),
         reached_(reached),
         column_(column),
         columns_(field.u.cols()),
         field_(field),
-        threads_(threads),
+        work_(work),
         progress_(progress) {}
 
   /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
@@ -48,8 +48,8 @@ class FarField {
       // How many levels there will be is not known: each has half of the rest.
       const double rest = std::pow(0.5, level);
       if (!report(progress_, "solve", 1 - rest)) return cancelled_error();
-      const auto solved = system_.factor().solve(
-          right, interface, part_of(progress_, 1 - rest, 1 - rest / 2), threads_);
+      const auto solved =
+          system_.invert(right, interface, work_, part_of(progress_, 1 - rest, 1 - rest / 2));
       if (!solved) return solved.error();
       field_.iterations += solved->iterations;
       bool heated = false;  // else cut off from the sources by held vertices
@@ -121,7 +121,7 @@ class FarField {
   const std::vector<char>& reached_;
   Eigen::Index column_, columns_;
   HeatField& field_;
-  int threads_;
+  const Workspace& work_;
   const Progress& progress_;
 };
 
@@ -196,11 +196,11 @@ Result<HeatField> diffuse(const LinearSystem& system, const Components& componen
   field.step = floor;
   field.u = std::move(b);
   if (!report(progress, "solve", 0.0)) return cancelled_error();
-  const auto solved = system.solve(field.u, support, part_of(progress, 0.0, 0.5), work.threads);
+  const auto solved = system.solve(field.u, support, work, part_of(progress, 0.0, 0.5));
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
   for (const Eigen::Index c : columns_with_small_values(field.u, floor, work)) {
-    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, work.threads,
+    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, work,
                  progress);
     if (const auto extended = far.extend(floor); !extended) return extended.error();
   }

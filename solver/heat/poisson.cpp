@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "solver/heat/poisson.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include "solver/heat/precision.h"
 
 namespace geotherm {
 namespace {
-
-constexpr FactorStorage kStorage = FactorStorage::kSingle;
 
 /// One held vertex a component: the last eliminated (the pivot that suffers least), the last of
 /// the file for the penalty mode, or the one asked for.
@@ -61,7 +60,7 @@ void remove(const Components& components, std::span<const double> direction,
 
 Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
     std::shared_ptr<const Surface> surface, const Constraint& constraint, bool iterative,
-    int threads, const Progress& progress) {
+    Precision precision, int threads, const Progress& progress) {
   std::shared_ptr<PoissonSolver> out(new PoissonSolver);
   std::vector<Index> pins;
   auto chosen = choose_pins(*surface, constraint);
@@ -69,9 +68,10 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
   if (!report(progress, "factorize", 0.0)) return cancelled_error();
   auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
-                                    std::move(pins), {threads, kStorage});
+                                    std::move(pins), {threads, poisson_storage(precision)});
   if (!system) return system.error();
-  out->system_ = std::move(*system);
+  out->system_ = (*system)->refined(precision == Precision::kRefined && !iterative);
+  out->precision_ = precision;
   out->surface_ = std::move(surface);
   out->constraint_ = constraint;
   out->iterative_ = iterative;
@@ -79,7 +79,9 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   return std::shared_ptr<const PoissonSolver>(std::move(out));
 }
 
-std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint) const {
+std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint,
+                                                         Precision precision) const {
+  if (!iterative_ && !same_factors(precision, precision_)) return nullptr;
   const auto wanted = choose_pins(*surface_, constraint);
   const auto held = system_->matrix().held();
   if (!wanted) return nullptr;
@@ -89,6 +91,8 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   if (!same) return nullptr;
   std::shared_ptr<PoissonSolver> out(new PoissonSolver(*this));
   out->constraint_ = constraint;
+  out->precision_ = precision;
+  out->system_ = system_->refined(precision == Precision::kRefined && !iterative_);
   return out;
 }
 
@@ -96,7 +100,7 @@ Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work
                                                   const Progress& progress) const {
   if (!report(progress, "solve", 0.0)) return cancelled_error();
   for (const Index pin : system_->matrix().held()) b.row(pin).setZero();
-  const auto solved = system_->factor().solve(b, {}, progress, work.threads);
+  const auto solved = system_->invert(b, {}, work, progress);
   if (!solved) return solved.error();
   return PoissonAnswer{std::move(b), {}, solved->iterations};
 }
@@ -183,83 +187,19 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
     const Progress part =
         part_of(progress, static_cast<double>(c) / columns, static_cast<double>(c + 1) / columns);
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto system = LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0,
-                                            std::move(held), {threads_, kStorage});
+    const auto system =
+        LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0, std::move(held),
+                            {threads_, poisson_storage(precision_)});
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
     for (const auto& anchor : a.anchors) x(anchor.row, 0) = anchor.offset;
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto solved = (*system)->solve(x, {}, part, work.threads);
+    const auto solved = (*system)->refined(system_->refines())->solve(x, {}, work, part);
     if (!solved) return solved.error();
     answer.phi.col(c) = x;
     answer.iterations = std::max(answer.iterations, solved->iterations);
   }
-  return answer;
-}
-
-/// phi = z + G_S lambda + c 1 on each component, z the pinned solution and G the pinned inverse:
-/// phi = g on the anchors and 1' lambda = 0 (so that the right side stays consistent) make a small
-/// dense system for lambda and c.
-Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const SourceAnchors> anchors,
-                                                 const Workspace& work,
-                                                 const Progress& progress) const {
-  const Components& components = surface_->operators->components;
-  auto answer = solve_pinned(std::move(b), work, progress);
-  if (!answer) return answer.error();
-  Block& phi = answer->phi;
-  std::vector<Index> support;
-  Block correction;
-  Block shift = Block::Zero(components.count, phi.cols());
-  const auto is_pin = [this](Index row) { return system_->matrix().is_held(row); };
-  for (Eigen::Index c = 0; c < phi.cols(); ++c) {
-    const SourceAnchors& set = anchors[static_cast<std::size_t>(c)];
-    for (const Index component : set.components) {
-      std::vector<SourceAnchors::Anchor> here;
-      std::vector<Index> rows;
-      for (const auto& anchor : set.anchors) {
-        if (components.of[anchor.row] != component) continue;
-        here.push_back(anchor);
-        rows.push_back(anchor.row);
-      }
-      const auto k = static_cast<Eigen::Index>(rows.size());
-      if (k == 1) {
-        shift(component, c) = here[0].offset - phi(rows[0], c);
-        continue;
-      }
-      const auto entries = system_->factor().inverse_entries(rows);
-      if (!entries) return entries.error();
-      Eigen::MatrixXd bordered = Eigen::MatrixXd::Ones(k + 1, k + 1);
-      bordered(k, k) = 0;
-      bordered.topLeftCorner(k, k) = *entries;
-      Eigen::VectorXd right(k + 1);
-      right(k) = 0;
-      for (Eigen::Index i = 0; i < k; ++i) {
-        right(i) = here[i].offset - phi(rows[i], c);
-        if (!is_pin(rows[i])) continue;
-        bordered.row(i).head(k).setZero();  // the pinned inverse is 0 there
-        bordered.col(i).head(k).setZero();
-      }
-      const Eigen::VectorXd lambda = bordered.partialPivLu().solve(right);
-      shift(component, c) = lambda(k);
-      if (correction.size() == 0) correction = work.take_zero(phi.rows(), phi.cols());
-      for (Eigen::Index i = 0; i < k; ++i) {
-        if (is_pin(rows[i])) continue;
-        correction(rows[i], c) = lambda(i);
-        support.push_back(rows[i]);
-      }
-    }
-  }
-  if (!support.empty()) {
-    if (!report(progress, "solve", 1.0)) return cancelled_error();
-    const auto solved = system_->factor().solve(correction, support, {}, work.threads);
-    if (!solved) return solved.error();
-    work.for_rows(phi.size(), 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t e = begin; e < end; ++e) phi.data()[e] += correction.data()[e];
-    });
-    work.pool.give(std::move(correction));
-  }
-  answer->shift = std::move(shift);
   return answer;
 }
 

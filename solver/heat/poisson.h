@@ -36,8 +36,9 @@ class PoissonSolver {
                                                             bool iterative, int threads,
                                                             const Progress& progress = {});
 
-  /// The same system under another mode; null when the mode needs another factor.
-  std::shared_ptr<const PoissonSolver> with(const Constraint& constraint) const;
+  /// The same system under another mode and precision; null when these need another factor.
+  std::shared_ptr<const PoissonSolver> with(const Constraint& constraint,
+                                            Precision precision) const;
 
   /// b: n x K, one anchor list a column. `progress` is asked before each factorisation and solve,
   /// and by an iterative backend within. Errors: the backend's, kCancelled.
@@ -67,6 +68,7 @@ class PoissonSolver {
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> system_;
   Constraint constraint_;
+  Precision precision_ = Precision::kCompact;
   bool iterative_ = false;
   int threads_ = 1;
 };

@@ -96,8 +96,8 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
     FactorPlan plan = plan_factors(p.options.boundary, {}, false, 1);
     plan.factors += own;
     plan.missing = plan.at_once = own;
-    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend, plan,
-                                          p.options.memory_limit_mb);
+    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend,
+                                          p.options.precision, plan, p.options.memory_limit_mb);
     if (fits) return threads;
     if (own == 1) return fits.error();
   }
