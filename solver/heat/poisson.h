@@ -33,7 +33,8 @@ class PoissonSolver {
   /// kCancelled.
   static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Surface> surface,
                                                             const Constraint& constraint,
-                                                            bool iterative, int threads,
+                                                            bool iterative, Precision precision,
+                                                            int threads,
                                                             const Progress& progress = {});
 
   /// The same system under another mode and precision; null when these need another factor.
