@@ -74,6 +74,9 @@ void add_study_method_options(CLI::App& command, MethodArguments& a) {
   add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
   add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay, tufted");
   add("--variant", a.variant, "NAME", "corrected (default), classic: as first published");
+  add("--precision", a.precision, "NAME",
+      "compact (default): factors at half the size where the backend can; refined: the same with a "
+      "step of iterative refinement a solve; full: factors in double");
   add("--memory-limit", a.memory_limit, "SIZE",
       "most that a backend's factors may take, in MB or with K, M or G: 800, 4G; what needs more "
       "fails before it starts; default: free, what the machine has left");
@@ -130,6 +133,7 @@ Result<MethodOptions> method_options(const MethodArguments& a) {
       take(parse_boundary_rule(a.boundary), "--boundary", options.boundary),
       take(parse_laplacian(a.laplacian), "--laplacian", options.laplacian),
       take(parse_variant(a.variant), "--variant", options.variant),
+      take(parse_precision(a.precision), "--precision", options.precision),
       take(parse_memory_limit(a.memory_limit), "--memory-limit", options.memory_limit_mb),
       take(parse_refine(a.refine), "--refine", options.refine),
       take(parse_threads(a.threads), "--threads", options.threads),
@@ -157,6 +161,7 @@ void note_unused_options(const MethodArguments& arguments, const MethodOptions& 
     look("--boundary", arguments.boundary, usual.boundary);
     look("--laplacian", arguments.laplacian, usual.laplacian);
     look("--variant", arguments.variant, usual.variant);
+    look("--precision", arguments.precision, usual.precision);
     if (unused.empty()) return;
     warnings.push_back("the method " + to_text(options.method) + " does not use " + joined(unused) +
                        "; these are options of --method heat");

@@ -26,6 +26,7 @@ struct MethodArguments {
   std::string boundary = "neumann";
   std::string laplacian = "auto";
   std::string variant = "corrected";
+  std::string precision = "compact";
   std::string refine = "0";
   std::string threads;  ///< empty: all cores
 };

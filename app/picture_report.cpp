@@ -46,6 +46,7 @@ void add_solve_texts(const SolveFigures& solve, std::vector<PngText>& texts) {
   add(texts, "boundary", to_text(options.boundary));
   add(texts, "laplacian", to_text(heat->laplacian()));
   add(texts, "variant", to_text(options.variant));
+  add(texts, "precision", to_text(options.precision));
 }
 
 Json settings_json(const PictureFigures& f) {

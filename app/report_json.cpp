@@ -87,6 +87,7 @@ Json options_json(const SolveFigures& figures) {
           {"threads", thread_count(options.threads)},
           {"refine", figures.options.refine},
           {"variant", to_text(options.variant)},
+          {"precision", to_text(options.precision)},
           {"flips", method.flips()}};
 }
 

@@ -100,7 +100,8 @@ void add_heat_rows(TextTable& table, const SolveFigures& figures, const HeatMeth
   table.add_row({"t", time_in_words(method, mesh, figures.options.refine > 0)});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
                                ", boundary " + to_text(options.boundary) + ", " +
-                               to_text(options.variant)});
+                               to_text(options.variant) + ", " + to_text(options.precision) +
+                               " precision"});
   table.add_row({"laplacian", laplacian_in_words(method)});
 }
 

@@ -202,6 +202,9 @@ void draw_solver_panel(Frame& frame) {
                       "corrected: this program's; classic: as first published.");
   draw_limits(frame);
   draw_mesh_settings(frame);
+  draw_setting_choice(frame, "precision", "precision",
+                      "compact: factors at half the size where the backend can; refined: the same, "
+                      "and each solve made accurate by another; full: factors in double.");
 }
 
 }  // namespace geotherm::ui

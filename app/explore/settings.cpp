@@ -143,6 +143,12 @@ const std::vector<Setting>& all() {
        [] {
          return Names{"corrected", "classic"};
        }},
+      {"precision", "how accurately systems are solved", true,
+       [](const State& s) { return to_text(s.options.precision); },
+       [](State& s, const Text& t) { return store(parse_precision(t), s.options.precision); },
+       [] {
+         return Names{"compact", "refined", "full"};
+       }},
       {"strict", "a backend that fails is not replaced", true,
        [](const State& s) { return switch_text(s.options.strict); },
        [](State& s, const Text& t) { return store(parse_switch(t), s.options.strict); }, switches},

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "solver/core/parallel.h"
+
 namespace geotherm {
 namespace {
 
@@ -90,6 +92,38 @@ void FemOperator::apply(std::span<const double> x, std::span<double> y) const {
   for (const Index i : held_) masked[i] = 0;
   apply_free(masked, y);
   for (const Index i : held_) y[i] = x[i];
+}
+
+void FemOperator::subtract_faces(Index first_face, Index end_face, const Block& x, Block& r) const {
+  for (Index f = first_face; f < end_face; ++f) {
+    const Face& face = mesh_->faces[f];
+    const auto w = weights(static_cast<std::size_t>(f));
+    for (int k = 0; k < 3; ++k) {
+      const Index a = face[k];
+      const Index b = face[next_corner(k)];
+      const double of_a = is_held(a) ? 0.0 : w[k];  // columns of held rows are the identity's
+      const double of_b = is_held(b) ? 0.0 : w[k];
+      for (Eigen::Index c = 0; c < x.cols(); ++c) {
+        const double flow = of_a * x(a, c) - of_b * x(b, c);
+        r(a, c) -= flow;
+        r(b, c) += flow;
+      }
+    }
+  }
+}
+
+void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads) const {
+  parallel_for(threads, std::ssize(mesh_->ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t at = begin; at < end; ++at) {
+      const FaceRange& range = mesh_->ranges[static_cast<std::size_t>(at)];
+      for (Index i = range.first_row; i < range.end_row; ++i) {
+        r.row(i) = b.row(i) - mass_factor_ * mesh_->mass[i] * x.row(i);
+      }
+      subtract_faces(range.first_face, range.end_face, x, r);
+    }
+  });
+  subtract_faces(mesh_->crossing, mesh_->face_count(), x, r);
+  for (const Index i : held_) r.row(i) = b.row(i) - x.row(i);
 }
 
 const LowerMatrix& FemOperator::assembled() const {

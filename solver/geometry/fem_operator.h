@@ -6,6 +6,7 @@
 
 #include "solver/geometry/operator_mesh.h"
 #include "solver/geometry/per_component.h"
+#include "solver/linear/backend.h"
 #include "solver/linear/symmetric_operator.h"
 
 namespace geotherm {
@@ -34,11 +35,16 @@ class FemOperator final : public SymmetricOperator {
   /// The operator without its held rows, y = (a A + s L) x: what moves known values to the right.
   void apply_free(std::span<const double> x, std::span<double> y) const;
 
+  /// r = b - M x, columns side by side. The same bits with any number of threads.
+  void residual(const Block& b, const Block& x, Block& r, int threads) const;
+
   const OperatorMesh& mesh() const { return *mesh_; }
   std::span<const Index> held() const { return held_; }
   bool is_held(Index i) const { return !is_held_.empty() && is_held_[i] != 0; }
 
  private:
+  /// Subtracts from r what these faces give of M x.
+  void subtract_faces(Index first_face, Index end_face, const Block& x, Block& r) const;
   /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   std::array<double, 3> weights(std::size_t face) const;

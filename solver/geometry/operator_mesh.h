@@ -10,12 +10,21 @@
 
 namespace geotherm {
 
+/// Faces whose corners all lie in one range of rows: what they add to their corners meets nothing
+/// that another range's faces add, so that ranges can be walked side by side.
+struct FaceRange {
+  Index first_row, end_row;
+  Index first_face, end_face;
+};
+
 /// The surface as the solvers walk it: vertices in elimination order, faces sorted to follow them,
 /// each face laid out in its own plane. Lengths are in units of IntrinsicMesh::unit.
 struct OperatorMesh {
   std::vector<Face> faces;                 ///< F x 3, elimination numbers
   std::vector<FaceLayout> layout;          ///< F
   std::vector<Index> intrinsic_face;       ///< F: number of the face in the IntrinsicMesh
+  std::vector<FaceRange> ranges;           ///< all rows, in order; the same for every thread count
+  Index crossing = 0;                      ///< faces from here on have corners in several ranges
   std::vector<double> mass;                ///< n: a third of the incident areas, > 0
   std::vector<double> stiffness_diagonal;  ///< n: diagonal of L
   Components components;                   ///< of the vertices

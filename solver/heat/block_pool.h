@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <mutex>
 #include <vector>
 
+#include "solver/core/parallel.h"
 #include "solver/linear/backend.h"
 
 namespace geotherm {
@@ -28,12 +31,6 @@ class BlockPool {
     return Block(rows, columns);
   }
 
-  Block take_zero(Eigen::Index rows, Eigen::Index columns) {
-    Block out = take(rows, columns);
-    out.setZero();
-    return out;
-  }
-
   void give(Block block) {
     if (block.size() == 0) return;
     const std::lock_guard lock(mutex_);
@@ -46,6 +43,30 @@ class BlockPool {
   static constexpr std::size_t kMost = 16;
   std::mutex mutex_;
   std::vector<Block> free_;
+};
+
+/// What one group of source sets works with, beside the groups of other threads.
+struct Workspace {
+  BlockPool& pool;
+  int threads = 1;  ///< that a step may use; no answer depends on it
+
+  Block take_zero(Eigen::Index rows, Eigen::Index columns) const {
+    Block out = pool.take(rows, columns);
+    for_rows(out.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+      std::fill(out.data() + begin, out.data() + end, 0.0);
+    });
+    return out;
+  }
+
+  /// body(begin, end) for a pass along memory over rows of so many values, about a nanosecond each.
+  template <class Body>
+  void for_rows(std::int64_t rows, std::int64_t width, Body&& body) const {
+    parallel_for(threads, rows, kValuesOfThread / width, body);
+  }
+
+ private:
+  /// A thread takes some 45 us to start.
+  static constexpr std::int64_t kValuesOfThread = 1 << 17;
 };
 
 }  // namespace geotherm

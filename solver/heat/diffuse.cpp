@@ -2,7 +2,9 @@
 #include "solver/heat/diffuse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 namespace geotherm {
@@ -15,13 +17,14 @@ class FarField {
  public:
   FarField(const LinearSystem& system, const Components& components,
            const std::vector<char>& reached, Eigen::Index column, HeatField& field,
-           const Progress& progress)
+           const Workspace& work, const Progress& progress)
       : system_(system),
         components_(components),
         reached_(reached),
         column_(column),
         columns_(field.u.cols()),
         field_(field),
+        work_(work),
         progress_(progress) {}
 
   /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
@@ -46,7 +49,7 @@ class FarField {
       const double rest = std::pow(0.5, level);
       if (!report(progress_, "solve", 1 - rest)) return cancelled_error();
       const auto solved =
-          system_.factor().solve(right, interface, part_of(progress_, 1 - rest, 1 - rest / 2));
+          system_.invert(right, interface, work_, part_of(progress_, 1 - rest, 1 - rest / 2));
       if (!solved) return solved.error();
       field_.iterations += solved->iterations;
       bool heated = false;  // else cut off from the sources by held vertices
@@ -118,24 +121,67 @@ class FarField {
   const std::vector<char>& reached_;
   Eigen::Index column_, columns_;
   HeatField& field_;
+  const Workspace& work_;
   const Progress& progress_;
 };
 
-/// Columns with an entry below `floor` times their largest: one pass along memory.
-std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor) {
-  const auto columns = static_cast<std::size_t>(u.cols());
-  std::vector<double> largest(columns, 0.0), smallest(columns, kUnreached);
-  for (Eigen::Index i = 0; i < u.rows(); ++i) {
-    const double* row = u.data() + i * u.cols();
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double size = std::abs(row[c]);
-      largest[c] = size > largest[c] ? size : largest[c];
-      smallest[c] = size < smallest[c] ? size : smallest[c];
-    }
+/// The largest and the smallest |u| of each column of a block.
+struct Extremes {
+  explicit Extremes(Eigen::Index columns)
+      : largest(static_cast<std::size_t>(columns), 0.0), smallest(largest.size(), kUnreached) {}
+  std::vector<double> largest, smallest;
+
+  void take(std::size_t column, double high, double low) {
+    largest[column] = high > largest[column] ? high : largest[column];
+    smallest[column] = low < smallest[column] ? low : smallest[column];
   }
+  /// Those of rows that stand one after the other.
+  void take_rows(const double* u, std::size_t count) {
+    const std::size_t columns = largest.size();
+    const std::size_t lanes = kLanes / columns * columns;  // whole rows
+    if (lanes == 0) {
+      for (std::size_t e = 0; e < count; ++e) take(e % columns, std::abs(u[e]), std::abs(u[e]));
+      return;
+    }
+    std::array<double, kLanes> high{}, low;
+    low.fill(kUnreached);
+    std::size_t e = 0;
+    const auto look = [&](std::size_t width) {
+      for (std::size_t j = 0; j < width; ++j) {
+        const double size = std::abs(u[e + j]);
+        high[j] = size > high[j] ? size : high[j];
+        low[j] = size < low[j] ? size : low[j];
+      }
+    };
+    if (lanes == kLanes) {  // a number the compiler knows: vectors
+      for (; e + kLanes <= count; e += kLanes) look(kLanes);
+    } else {
+      for (; e + lanes <= count; e += lanes) look(lanes);
+    }
+    look(count - e);
+    for (std::size_t j = 0; j < lanes; ++j) take(j % columns, high[j], low[j]);
+  }
+
+ private:
+  static constexpr std::size_t kLanes = 16;
+};
+
+/// Columns with an entry below `floor` times their largest: one pass along memory.
+std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor,
+                                                    const Workspace& work) {
+  Extremes all(u.cols());
+  std::mutex mutex;
+  work.for_rows(u.rows(), u.cols(), [&](std::int64_t begin, std::int64_t end) {
+    Extremes here(u.cols());
+    here.take_rows(u.data() + begin * u.cols(), static_cast<std::size_t>((end - begin) * u.cols()));
+    const std::lock_guard lock(mutex);
+    for (std::size_t c = 0; c < here.largest.size(); ++c) {
+      all.take(c, here.largest[c], here.smallest[c]);
+    }
+  });
   std::vector<Eigen::Index> found;
-  for (std::size_t c = 0; c < columns; ++c) {
-    if (smallest[c] < floor * largest[c]) found.push_back(static_cast<Eigen::Index>(c));
+  for (std::size_t c = 0; c < all.largest.size(); ++c) {
+    if (all.smallest[c] < floor * all.largest[c]) found.push_back(static_cast<Eigen::Index>(c));
   }
   return found;
 }
@@ -145,16 +191,17 @@ std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor
 Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
                           std::span<const Index> support,
                           const std::vector<std::vector<char>>& reached, double floor,
-                          const Progress& progress) {
+                          const Workspace& work, const Progress& progress) {
   HeatField field;
   field.step = floor;
   field.u = std::move(b);
   if (!report(progress, "solve", 0.0)) return cancelled_error();
-  const auto solved = system.solve(field.u, support, part_of(progress, 0.0, 0.5));
+  const auto solved = system.solve(field.u, support, work, part_of(progress, 0.0, 0.5));
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
-  for (const Eigen::Index c : columns_with_small_values(field.u, floor)) {
-    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, progress);
+  for (const Eigen::Index c : columns_with_small_values(field.u, floor, work)) {
+    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, work,
+                 progress);
     if (const auto extended = far.extend(floor); !extended) return extended.error();
   }
   return field;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/heat/block_pool.h"
 #include "solver/heat/linear_system.h"
 
 namespace geotherm {
@@ -35,7 +36,7 @@ inline constexpr double kIterativeFloor = 1e-7;
 Result<HeatField> diffuse(const LinearSystem& system, const Components& components, Block b,
                           std::span<const Index> support,
                           const std::vector<std::vector<char>>& reached, double floor,
-                          const Progress& progress = {});
+                          const Workspace& work, const Progress& progress = {});
 
 /// The mean of two fields.
 HeatField average(HeatField a, const HeatField& b);

@@ -6,6 +6,7 @@
 
 #include "solver/core/free_memory.h"
 #include "solver/core/number_text.h"
+#include "solver/heat/precision.h"
 
 namespace geotherm {
 namespace {
@@ -22,7 +23,7 @@ std::string size_text(double bytes) {
 }
 
 Error too_large(std::string_view backend, double factors, double work, int count,
-                const std::string& there_is, const char* cure) {
+                const std::string& there_is, const std::string& cure) {
   return {ErrorCode::kOutOfMemory,
           std::string(backend) + " needs about " + size_text(factors) + " for " +
               counted_text(static_cast<std::size_t>(count), "factor", "factors") + " and " +
@@ -47,18 +48,22 @@ FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, boo
 }
 
 Result<void> check_factor_memory(const Analysis& analysis, std::string_view backend,
-                                 const FactorPlan& plan, double limit_mb) {
-  const auto one = static_cast<double>(analysis.factor_bytes(FactorStorage::kSingle));
+                                 Precision precision, const FactorPlan& plan, double limit_mb) {
+  const auto one = static_cast<double>(std::max(analysis.factor_bytes(heat_storage(precision)),
+                                                analysis.factor_bytes(poisson_storage(precision))));
   const double work =
       static_cast<double>(analysis.work_bytes()) * std::min(plan.at_once, plan.missing);
   if (one == 0) return {};
+  const bool halves = static_cast<double>(analysis.factor_bytes(FactorStorage::kSingle)) < one;
+  const std::string compact = halves ? "use --precision compact, " : "";
   if (limit_mb > 0) {
     const double all = one * plan.factors;
     if (all + work <= limit_mb * kMegabyte) return {};
     return too_large(backend, all, work, plan.factors,
                      "the limit is " + size_text(limit_mb * kMegabyte),
-                     "raise --memory-limit, try --backend cg, which holds no factor, or take a "
-                     "mesh with fewer faces");
+                     "raise --memory-limit, " + compact +
+                         "try --backend cg, which holds no factor, "
+                         "or take a mesh with fewer faces");
   }
   const double missing = one * plan.missing;
   if (missing + work <= kUnasked) return {};
@@ -66,8 +71,9 @@ Result<void> check_factor_memory(const Analysis& analysis, std::string_view back
   if (!free || missing + work <= static_cast<double>(*free)) return {};
   return too_large(backend, missing, work, plan.missing,
                    size_text(static_cast<double>(*free)) + " are free",
-                   "close other programs, try --backend cg, which holds no factor, or take a mesh "
-                   "with fewer faces");
+                   "close other programs, " + compact +
+                       "try --backend cg, which holds no factor, "
+                       "or take a mesh with fewer faces");
 }
 
 }  // namespace geotherm

@@ -15,6 +15,7 @@ namespace geotherm {
 /// level and b starts at i * stride.
 struct FieldPass {
   const OperatorMesh* mesh;
+  Index first_face, end_face;  ///< those to be walked
   const double* u;
   const double* log_u;        ///< null: X keeps length 1
   const std::uint8_t* level;  ///< null, or exponents of u: faces with one are done carefully
@@ -39,22 +40,20 @@ inline constexpr double kFront = 0.95;
 /// Faces longer than this many diffusion lengths say nothing reliable about the slope.
 inline constexpr double kResolved = 1.6;
 
-/// Length of X on a face whose gradient of log u is (gx, gy): the slope sqrt(t) |grad log u|,
-/// relative to that of one front, at most 1. Over an extent e of the mesh one front falls by
-/// 2 asinh(x), x = e / (2 sqrt(t)), where exp(-d / sqrt(t)) falls by 2 x; 1 + x^2/6 - x^4/72 is
-/// x / asinh(x) to 2 % for x < 0.8.
-inline double field_length(double base, double x, double height, double gx, double gy,
+/// Length of X on a face whose gradient of log u has this direction (a unit vector) and size: the
+/// slope sqrt(t) |grad log u|, relative to that of one front, at most 1. Over an extent e of the
+/// mesh one front falls by 2 asinh(x), x = e / (2 sqrt(t)), where exp(-d / sqrt(t)) falls by 2 x;
+/// 1 + x^2/6 - x^4/72 is x / asinh(x) to 2 % for x < 0.8.
+inline double field_length(double base, double x, double height, double nx, double ny, double size,
                            double root_t) {
-  const double square = gx * gx + gy * gy;
-  const double inverse = 1 / std::sqrt(square);
-  const double a = base * gx * inverse;
-  const double b = (x * gx + height * gy) * inverse;
+  const double a = base * nx;
+  const double b = x * nx + height * ny;
   const double high = a > b ? a : b;
   const double low = a < b ? a : b;
   const double extent = (high > 0 ? high : 0) - (low < 0 ? low : 0);
   const double half = 0.5 / root_t * extent;
   const double q = half * half / 6;
-  const double length = root_t / kFront * (square * inverse) * (1 + q - 0.5 * q * q);
+  const double length = root_t / kFront * size * (1 + q - 0.5 * q * q);
   return extent > kResolved * root_t || length > 1 ? 1.0 : length;
 }
 
@@ -62,8 +61,8 @@ inline double field_length(double base, double x, double height, double gx, doub
 void logarithms(const double* u, double* out, std::size_t count,
                 InstructionSet set = best_instruction_set());
 
-/// Adds to b the integrated divergence of X = -grad u / |grad u| over all faces, for a group of 1,
-/// 2, 4, 8 or 16 source sets.
+/// Adds to b the integrated divergence of X = -grad u / |grad u| over the pass's faces, for a group
+/// of 1, 2, 4, 8 or 16 source sets.
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 

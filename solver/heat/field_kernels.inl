@@ -20,6 +20,23 @@ namespace {
 constexpr double kSafeLow = 1e-280;
 constexpr double kSafeHigh = 1e280;
 
+/// 1 / sqrt(x) to a few units of the last digit, for 1e-290 < x < 1e290, in a quarter of the time
+/// that a square root and a division take: a guess from halving the exponent (to 3.5 %), and
+/// Newton's iteration, which squares the error (Lomont 2003).
+inline double inverse_root(double x) {
+  constexpr std::uint64_t kGuess = 0x5fe6eb50c7b537a9;
+  double y = std::bit_cast<double>(kGuess - (std::bit_cast<std::uint64_t>(x) >> 1));
+  const double half = 0.5 * x;
+  for (int i = 0; i < 4; ++i) y *= 1.5 - half * y * y;
+  return y;
+}
+
+/// The power of two that brings x, positive and not denormal, to between 1 and 2.
+inline double to_one(double x) {
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000, kOfInverse = 0x7fe0000000000000;
+  return std::bit_cast<double>(kOfInverse - (std::bit_cast<std::uint64_t>(x) & kExponent));
+}
+
 template <int K>
 struct Lanes {
   // Sixteen lanes, not eight: the compiler unrolls shorter loops before it thinks of vectors.
@@ -28,7 +45,7 @@ struct Lanes {
   double du1[kCount], du2[kCount];  ///< differences of u to corner 0
   double same[kCount];              ///< what is no difference
   double dl1[kCount], dl2[kCount];  ///< of log u
-  double inverse_base[kCount], x[kCount], inverse_height[kCount], base[kCount], height[kCount];
+  double base[kCount], x[kCount], height[kCount];
   double d1[kCount], d2[kCount];
   double root_t[kCount];   ///< where faces have their own
   double far[kCount];      ///< not 0 where a corner has an exponent of its own
@@ -40,16 +57,12 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
   for (int i = 0; i < Lanes<K>::kFaces; ++i) {
     const Face& face = pass.mesh->faces[first + i];
     const FaceLayout& p = pass.mesh->layout[first + i];
-    const double inverse_base = 1 / p.base;
-    const double inverse_height = 1 / p.height;
     for (int k = 0; k < K; ++k) {
       const int lane = i * K + k;
       const double u0 = pass.u[face[0] * pass.stride + k];
       s.du1[lane] = pass.u[face[1] * pass.stride + k] - u0;
       s.du2[lane] = pass.u[face[2] * pass.stride + k] - u0;
       s.same[lane] = kSafeLow + kEquallyWarm * std::abs(u0);
-      s.inverse_base[lane] = inverse_base;
-      s.inverse_height[lane] = inverse_height;
       s.base[lane] = p.base;
       s.x[lane] = p.x;
       s.height[lane] = p.height;
@@ -79,10 +92,14 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
 template <int K, class RootT>
 void shorten(Lanes<K>& s, const RootT& root_t) {
   for (int j = 0; j < Lanes<K>::kCount; ++j) {
-    const double gx = s.dl1[j] * s.inverse_base[j];
-    const double gy = (s.dl2[j] - s.x[j] * gx) * s.inverse_height[j];
+    const double base = s.base[j], x = s.x[j], height = s.height[j];
+    const double gx = s.dl1[j] * height;
+    const double gy = s.dl2[j] * base - x * s.dl1[j];
     const double square = gx * gx + gy * gy;
-    const double length = field_length(s.base[j], s.x[j], s.height[j], gx, gy, root_t(j));
+    const double inverse = inverse_root(square);
+    const double size = square * inverse / (base * height);
+    const double length =
+        field_length(base, x, height, gx * inverse, gy * inverse, size, root_t(j));
     s.d1[j] *= length;
     s.d2[j] *= length;
     s.careful[j] += square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
@@ -97,13 +114,15 @@ bool compute(const FieldPass& pass, Lanes<K>& s) {
     const double size1 = std::abs(s.du1[j]);
     const double size2 = std::abs(s.du2[j]);
     const double largest = size1 > size2 ? size1 : size2;
-    const double to_one = 1 / largest;
-    const double gx = s.du1[j] * to_one * s.inverse_base[j];
-    const double gy = (s.du2[j] * to_one - s.x[j] * gx) * s.inverse_height[j];
+    const double scale = to_one(largest);
+    const double du1 = s.du1[j] * scale;
+    // The gradient times base and height: only its direction counts.
+    const double gx = du1 * s.height[j];
+    const double gy = s.du2[j] * scale * s.base[j] - s.x[j] * du1;
     const double square = gx * gx + gy * gy;
-    const double scale = -0.5 / std::sqrt(square);
-    const double fx = gx * scale;
-    const double fy = gy * scale;
+    const double half = -0.5 * inverse_root(square);
+    const double fx = gx * half;
+    const double fy = gy * half;
     s.d1[j] = s.height[j] * fx - s.x[j] * fy;
     s.d2[j] = s.base[j] * fy;
     s.careful[j] = largest > s.same[j] && square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
@@ -143,10 +162,14 @@ void add_one(const FieldPass& pass, Index f, int column) {
 template <int K>
 void run(const FieldPass& pass) {
   constexpr int kFaces = Lanes<K>::kFaces;
-  Lanes<K> s;
-  Index f = 0;
-  for (; f + kFaces <= pass.mesh->face_count(); f += kFaces) {
-    load<K>(pass, f, s);
+  // Two sets of lanes: what has just been stored one by one cannot be read as a vector yet.
+  Lanes<K> lanes[2];
+  Index f = pass.first_face;
+  const Index end = f + (pass.end_face - f) / kFaces * kFaces;
+  if (f < end) load<K>(pass, f, lanes[0]);
+  for (int turn = 0; f < end; f += kFaces, turn = 1 - turn) {
+    if (f + kFaces < end) load<K>(pass, f + kFaces, lanes[1 - turn]);
+    Lanes<K>& s = lanes[turn];
     if (compute<K>(pass, s)) {
       for (int j = 0; j < Lanes<K>::kCount; ++j) {
         if (s.careful[j] == 0) continue;
@@ -158,7 +181,7 @@ void run(const FieldPass& pass) {
     }
     scatter<K>(pass, f, s);
   }
-  for (; f < pass.mesh->face_count(); ++f) {
+  for (; f < pass.end_face; ++f) {
     for (int k = 0; k < K; ++k) add_one(pass, f, k);
   }
 }

@@ -13,6 +13,7 @@
 #include "solver/heat/heat_state.h"
 #include "solver/heat/judge.h"
 #include "solver/heat/option_text.h"
+#include "solver/heat/precision.h"
 #include "solver/heat/query.h"
 
 namespace geotherm {
@@ -100,14 +101,15 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   const int threads = thread_count(options.threads);
   const bool iterative = next->backend->iterative();
 
-  if (state_->poisson) next->poisson = state_->poisson->with(options.constraint);
-  const bool same_time =
-      state_->heat && state_->times == next->times && state_->options.variant == options.variant;
+  if (state_->poisson) next->poisson = state_->poisson->with(options.constraint, options.precision);
+  const bool same_heat = state_->heat && state_->times == next->times &&
+                         state_->options.variant == options.variant &&
+                         same_factors(state_->options.precision, options.precision);
   const FactorPlan plan = plan_factors(
-      options.boundary, same_time ? std::optional(state_->options.boundary) : std::nullopt,
+      options.boundary, same_heat ? std::optional(state_->options.boundary) : std::nullopt,
       next->poisson != nullptr, threads);
-  if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend, plan,
-                                            options.memory_limit_mb);
+  if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend,
+                                            options.precision, plan, options.memory_limit_mb);
       !fits) {
     return {fits.error(), Successor::kAny};
   }
@@ -115,10 +117,11 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   run_both(
       threads,
       [&] {
-        auto built = HeatStep::build(next->surface, next->times.t, options.boundary,
-                                     consistent_share(options.variant, next->times.relative),
-                                     iterative, state_->heat.get(), std::max(1, threads / 2),
-                                     part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
+        auto built =
+            HeatStep::build(next->surface, next->times.t, options.boundary,
+                            consistent_share(options.variant, next->times.relative), iterative,
+                            options.precision, state_->heat.get(), std::max(1, threads / 2),
+                            part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {
           next->heat = std::move(*built);
         } else {
@@ -128,7 +131,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
       [&] {
         if (next->poisson) return;
         auto built = PoissonSolver::build(next->surface, options.constraint, iterative,
-                                          std::max(1, threads - threads / 2),
+                                          options.precision, std::max(1, threads - threads / 2),
                                           part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
         if (built) {
           next->poisson = std::move(*built);
@@ -185,8 +188,11 @@ double HeatMethod::memory_mb() const {
 }
 double HeatMethod::forecast_mb() const {
   const FactorPlan plan = plan_factors(state_->options.boundary, {}, false, 1);
-  return static_cast<double>(state_->surface->analysis->factor_bytes(FactorStorage::kSingle)) *
-         plan.factors / (1024.0 * 1024.0);
+  const Analysis& analysis = *state_->surface->analysis;
+  const Precision precision = state_->options.precision;
+  const std::int64_t bytes = analysis.factor_bytes(heat_storage(precision)) * (plan.factors - 1) +
+                             analysis.factor_bytes(poisson_storage(precision));
+  return static_cast<double>(bytes) / (1024.0 * 1024.0);
 }
 const std::vector<std::string>& HeatMethod::warnings() const { return state_->warnings; }
 

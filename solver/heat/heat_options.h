@@ -68,6 +68,14 @@ enum class LaplacianKind {
   kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
 };
 
+/// How accurately systems are solved (docs/numerics.md, "Precision"). Iterative backends, which
+/// hold no factor and have a tolerance of their own, ignore it.
+enum class Precision {
+  kCompact,  ///< factors at half the size, where the backend can: distances to 1e-6 of the largest
+  kRefined,  ///< the same factors, and a step of iterative refinement in double a solve
+  kFull,     ///< factors in double
+};
+
 /// All options of the heat method. The defaults are the recommended ones.
 struct HeatOptions {
   std::string backend;  ///< a name from backend_names(); empty: the first of them
@@ -77,6 +85,7 @@ struct HeatOptions {
   BoundaryRule boundary = BoundaryRule::kNeumann;
   LaplacianKind laplacian = LaplacianKind::kAuto;
   Variant variant = Variant::kCorrected;
+  Precision precision = Precision::kCompact;
   int threads = 0;             ///< 0: all cores
   bool strict = false;         ///< a backend that fails is not replaced by the next one
   double memory_limit_mb = 0;  ///< most that factors may take, those being made with their

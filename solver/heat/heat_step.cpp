@@ -7,13 +7,11 @@
 #include <cmath>
 
 #include "solver/core/stopwatch.h"
+#include "solver/heat/precision.h"
 #include "solver/heat/quality.h"
 
 namespace geotherm {
 namespace {
-
-/// The heat falls by hundreds of decades.
-constexpr FactorStorage kStorage = FactorStorage::kWideExponent;
 
 /// What brings the right sides of all components to one size, as their systems see them: they are
 /// lengths squared, and iterations end by one norm over all components.
@@ -34,28 +32,31 @@ void scale_rows(const Components& components, const std::vector<double>& factors
 Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
                                                         PerComponent t, BoundaryRule boundary,
                                                         PerComponent consistent_share,
-                                                        bool iterative, const HeatStep* previous,
-                                                        int threads, const Progress& progress) {
+                                                        bool iterative, Precision precision,
+                                                        const HeatStep* previous, int threads,
+                                                        const Progress& progress) {
   std::shared_ptr<HeatStep> out(new HeatStep);
   out->surface_ = std::move(surface);
   out->t_ = std::move(t);
   out->consistent_share_ = std::move(consistent_share);
   out->boundary_ = boundary;
   out->iterative_ = iterative;
+  out->precision_ = precision;
   out->threads_ = threads;
   if (previous != nullptr && previous->t_ == out->t_ &&
-      previous->consistent_share_ == out->consistent_share_) {
-    out->neumann_ = previous->neumann_;
-    out->dirichlet_ = previous->dirichlet_;
+      previous->consistent_share_ == out->consistent_share_ &&
+      (iterative || same_factors(previous->precision_, precision))) {
+    if (previous->neumann_) out->neumann_ = previous->neumann_->refined(out->refines());
+    if (previous->dirichlet_) out->dirichlet_ = previous->dirichlet_->refined(out->refines());
   }
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     const double share = out->neumann_ ? 0.5 : 0.0;
     if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
-    auto built =
-        LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0, out->t_,
-                            std::move(held), {threads, kStorage}, out->consistent_share_);
+    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0,
+                                     out->t_, std::move(held), {threads, heat_storage(precision)},
+                                     out->consistent_share_);
     if (!built) return Result<void>(built.error());
-    target = std::move(*built);
+    target = (*built)->refined(out->refines());
     return Result<void>();
   };
   if (boundary != BoundaryRule::kDirichlet && !out->neumann_) {
@@ -105,36 +106,56 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
     held.insert(held.end(), rows.begin(), rows.end());
     for (const auto& anchor : anchors.anchors) b(anchor.row, 0) = held_value(anchor);
   }
-  return LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
-                             {threads_, kStorage}, consistent_share_);
+  const auto built =
+      LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
+                          {threads_, heat_storage(precision_)}, consistent_share_);
+  if (!built) return built;
+  return (*built)->refined(refines());
 }
 
-/// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set.
+/// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set. The entries of
+/// the inverse are as accurate as the factor; refined, lambda is, too, and takes one solve more.
 Result<void> HeatStep::hold_by_schur(const LinearSystem& system,
-                                     std::span<const SourceAnchors> anchors, Block& b) const {
-  for (std::size_t c = 0; c < anchors.size(); ++c) {
-    const std::vector<Index> rows = anchors[c].rows();
+                                     std::span<const SourceAnchors> anchors, const Workspace& work,
+                                     Block& b) const {
+  std::vector<Eigen::PartialPivLU<Eigen::MatrixXd>> inverse;
+  std::vector<Index> support;
+  for (const SourceAnchors& set : anchors) {
+    const std::vector<Index> rows = set.rows();
+    support.insert(support.end(), rows.begin(), rows.end());
     const auto entries = system.factor().inverse_entries(rows);
     if (!entries) return entries.error();
-    Eigen::VectorXd values(static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      values(static_cast<Eigen::Index>(i)) = held_value(anchors[c].anchors[i]);
+    inverse.emplace_back(*entries);
+  }
+  Block u;  // of the lambda so far
+  for (int round = 0; round < (system.refines() ? 2 : 1); ++round) {
+    for (std::size_t c = 0; c < anchors.size(); ++c) {
+      const auto& held = anchors[c].anchors;
+      const auto column = static_cast<Eigen::Index>(c);
+      Eigen::VectorXd missing(static_cast<Eigen::Index>(held.size()));
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        missing(static_cast<Eigen::Index>(i)) =
+            held_value(held[i]) - (round > 0 ? u(held[i].row, column) : 0.0);
+      }
+      const Eigen::VectorXd lambda = inverse[c].solve(missing);
+      for (std::size_t i = 0; i < held.size(); ++i) {
+        b(held[i].row, column) += lambda(static_cast<Eigen::Index>(i));
+      }
     }
-    const Eigen::VectorXd lambda = entries->partialPivLu().solve(values);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      b(rows[i], static_cast<Eigen::Index>(c)) = lambda(static_cast<Eigen::Index>(i));
-    }
+    if (round > 0 || !system.refines()) break;
+    u = b;
+    if (const auto solved = system.invert(u, support, work); !solved) return solved.error();
   }
   return {};
 }
 
 Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                                               std::span<const SourceAnchors> anchors, HeatMode mode,
-                                              bool residuals, BlockPool& pool,
+                                              bool residuals, const Workspace& work,
                                               const Progress& progress) const {
   const OperatorMesh& mesh = *surface_->operators;
   const auto columns = static_cast<Eigen::Index>(anchors.size());
-  Block b = pool.take_zero(mesh.size(), columns);
+  Block b = work.take_zero(mesh.size(), columns);
   std::vector<Index> support;
   std::vector<std::vector<char>> reached;
   for (std::size_t c = 0; c < anchors.size(); ++c) {
@@ -156,7 +177,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     if (!built) return built.error();
     system = std::move(*built);
   } else if (mode == HeatMode::kHold) {
-    if (const auto held = hold_by_schur(*system, anchors, b); !held) return held.error();
+    if (const auto held = hold_by_schur(*system, anchors, work, b); !held) return held.error();
   }
   std::vector<double> factors;
   if (iterative_ && mesh.components.count > 1) {
@@ -166,7 +187,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   Block right;  // kept only where it is looked at again
   if (residuals) right = b;
   auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
-                                 iterative_ ? kIterativeFloor : kDirectFloor, progress);
+                                 iterative_ ? kIterativeFloor : kDirectFloor, work, progress);
   if (!field) return field.error();
   Answer answer{std::move(*field), {}, 0.0, {}};
   const Stopwatch watch;
@@ -187,18 +208,18 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
 }
 
 Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
-                                           bool residuals, BlockPool& pool,
+                                           bool residuals, const Workspace& work,
                                            const Progress& progress) const {
   if (boundary_ != BoundaryRule::kAverage) {
-    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, pool,
+    return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, work,
                       progress);
   }
-  auto neumann = solve_rule(false, anchors, mode, residuals, pool, part_of(progress, 0.0, 0.5));
+  auto neumann = solve_rule(false, anchors, mode, residuals, work, part_of(progress, 0.0, 0.5));
   if (!neumann) return neumann;
-  auto dirichlet = solve_rule(true, anchors, mode, residuals, pool, part_of(progress, 0.5, 1.0));
+  auto dirichlet = solve_rule(true, anchors, mode, residuals, work, part_of(progress, 0.5, 1.0));
   if (!dirichlet) return dirichlet;
   neumann->field = average(std::move(neumann->field), dirichlet->field);
-  pool.give(std::move(dirichlet->field.u));
+  work.pool.give(std::move(dirichlet->field.u));
   neumann->warnings = dirichlet->warnings;
   neumann->residual_ms += dirichlet->residual_ms;
   for (std::size_t c = 0; c < neumann->residual.size(); ++c) {

@@ -26,13 +26,14 @@ class HeatStep {
   };
 
   /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it
-  /// has them with this t and share. `progress` is asked before each factorisation. Errors: the
-  /// backend's, kCancelled.
+  /// has them with this t, share and storage. `progress` is asked before each factorisation.
+  /// Errors: the backend's, kCancelled.
   static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
                                                        PerComponent t, BoundaryRule boundary,
                                                        PerComponent consistent_share,
-                                                       bool iterative, const HeatStep* previous,
-                                                       int threads, const Progress& progress = {});
+                                                       bool iterative, Precision precision,
+                                                       const HeatStep* previous, int threads,
+                                                       const Progress& progress = {});
 
   /// True when these sources change the matrix, so that they cannot share a block with others:
   /// sources on a Dirichlet border, and u held on many vertices.
@@ -42,7 +43,7 @@ class HeatStep {
   /// `progress` is asked before each factorisation and solve, and by an iterative backend within.
   /// Errors: the backend's, kCancelled.
   Result<Answer> diffuse(std::span<const SourceAnchors> anchors, HeatMode mode, bool residuals,
-                         BlockPool& pool, const Progress& progress = {}) const;
+                         const Workspace& work, const Progress& progress = {}) const;
 
   FactorStats stats() const;
 
@@ -51,13 +52,14 @@ class HeatStep {
   std::vector<Index> border_without(const SourceAnchors* anchors) const;
   bool on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
-                            bool residuals, BlockPool& pool, const Progress& progress) const;
+                            bool residuals, const Workspace& work, const Progress& progress) const;
   /// The system of this rule for one source set, and its right side with held values in place.
   Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
                                                          const SourceAnchors& anchors,
                                                          HeatMode mode, Block& b) const;
   Result<void> hold_by_schur(const LinearSystem& system, std::span<const SourceAnchors> anchors,
-                             Block& b) const;
+                             const Workspace& work, Block& b) const;
+  bool refines() const { return precision_ == Precision::kRefined && !iterative_; }
   double held_value(const SourceAnchors::Anchor& anchor) const;
 
   std::shared_ptr<const Surface> surface_;
@@ -65,6 +67,7 @@ class HeatStep {
   PerComponent t_ = 0, consistent_share_ = 0;
   BoundaryRule boundary_ = BoundaryRule::kNeumann;
   bool iterative_ = false;
+  Precision precision_ = Precision::kCompact;
   int threads_ = 1;
 };
 

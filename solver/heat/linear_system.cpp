@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/heat/linear_system.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace geotherm {
@@ -23,11 +24,11 @@ Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
 }
 
 Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support,
-                                        const Progress& progress) const {
+                                        const Workspace& work, const Progress& progress) const {
   const std::span<const Index> held = matrix_->held();
   bool zero = true;
   for (const Index i : held) zero = zero && (x.row(i).array() == 0).all();
-  if (zero) return factor_->solve(x, support, progress);
+  if (zero) return invert(x, support, work, progress);
 
   const auto n = static_cast<std::size_t>(matrix_->size());
   std::vector<double> known(n), moved(n);
@@ -39,7 +40,34 @@ Result<SolveReport> LinearSystem::solve(Block& x, std::span<const Index> support
       if (!matrix_->is_held(static_cast<Index>(i))) x(static_cast<Eigen::Index>(i), c) -= moved[i];
     }
   }
-  return factor_->solve(x, {}, progress);
+  return invert(x, {}, work, progress);
+}
+
+Result<SolveReport> LinearSystem::invert(Block& x, std::span<const Index> support,
+                                         const Workspace& work, const Progress& progress) const {
+  if (!refine_) return factor_->solve(x, support, progress, work.threads);
+  Block b = work.pool.take(x.rows(), x.cols());
+  work.for_rows(x.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+    std::copy(x.data() + begin, x.data() + end, b.data() + begin);
+  });
+  const auto solved = factor_->solve(x, support, part_of(progress, 0.0, 0.5), work.threads);
+  if (!solved) return solved;
+  Block r = work.pool.take(x.rows(), x.cols());
+  matrix_->residual(b, x, r, work.threads);
+  work.pool.give(std::move(b));
+  const auto corrected = factor_->solve(r, {}, part_of(progress, 0.5, 1.0), work.threads);
+  if (!corrected) return corrected;
+  work.for_rows(x.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t e = begin; e < end; ++e) x.data()[e] += r.data()[e];
+  });
+  work.pool.give(std::move(r));
+  return solved;
+}
+
+std::shared_ptr<const LinearSystem> LinearSystem::refined(bool refine) const {
+  std::shared_ptr<LinearSystem> out(new LinearSystem(*this));
+  out->refine_ = refine;
+  return out;
 }
 
 }  // namespace geotherm

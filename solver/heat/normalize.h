@@ -4,19 +4,27 @@
 #include <vector>
 
 #include "solver/heat/diffuse.h"
+#include "solver/heat/poisson.h"
 #include "solver/heat/source_anchors.h"
 #include "solver/method/distance_result.h"
 
 namespace geotherm {
 
-/// Makes distances of phi (n values, elimination order, units of the intrinsic mesh), which is
-/// shifted in place. Under kPinSources the anchors have their value exactly; otherwise each
-/// component is shifted so that phi agrees with the anchors in the mean. Distances below 0 become 0
-/// and are counted where that is more than round-off. Fills `distances` (file order, model units,
-/// kUnreached elsewhere), `max_source_distance` and `clamped_vertices`. Errors: kNumericalFailure
-/// when a value is not finite.
-Result<void> normalize(const Surface& surface, std::span<double> phi, const SourceAnchors& anchors,
-                       ConstraintMode mode, DistanceResult& result);
+/// Makes distances of a Poisson answer (n x K, elimination order, units of the intrinsic mesh), one
+/// source set a column. Under kPinSources the anchors have their value exactly; otherwise each
+/// component is shifted so that phi agrees with the anchors in the mean: `answer.shift` says by how
+/// much then. Distances below 0 become 0 and are counted where that is more than round-off. Fills
+/// `distances` (file order, model units, kUnreached elsewhere), `max_source_distance` and
+/// `clamped_vertices` of the results. Errors: kNumericalFailure when a value is not finite. Cost:
+/// one pass over the vertices.
+Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
+                       std::span<const SourceAnchors> anchors, ConstraintMode mode, int threads,
+                       std::span<DistanceResult> results);
+
+/// phi of one column after normalize(), as the distances have it but for the clamping.
+std::vector<double> shifted_phi(const Surface& surface, const PoissonAnswer& answer,
+                                const SourceAnchors& anchors, ConstraintMode mode,
+                                Eigen::Index column);
 
 /// u of one column, file order, scaled so that the largest value is 1; 0 where out of range.
 std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,

@@ -36,6 +36,9 @@ constexpr Names<LaplacianKind, 4> kLaplacians = {
 
 constexpr Names<Variant, 2> kVariants = {
     {{Variant::kCorrected, "corrected"}, {Variant::kClassic, "classic"}}};
+constexpr Names<Precision, 3> kPrecisions = {{{Precision::kCompact, "compact"},
+                                              {Precision::kRefined, "refined"},
+                                              {Precision::kFull, "full"}}};
 
 template <class Enum, std::size_t N>
 std::string name_of(const Names<Enum, N>& names, Enum value) {
@@ -96,6 +99,7 @@ std::string to_text(HeatMode mode) { return name_of(kHeatModes, mode); }
 std::string to_text(BoundaryRule rule) { return name_of(kBoundaryRules, rule); }
 std::string to_text(LaplacianKind kind) { return name_of(kLaplacians, kind); }
 std::string to_text(Variant variant) { return name_of(kVariants, variant); }
+std::string to_text(Precision precision) { return name_of(kPrecisions, precision); }
 
 Result<TimeStep> parse_time_step(std::string_view text, double factor) {
   bool has_value = false;
@@ -163,6 +167,9 @@ Result<LaplacianKind> parse_laplacian(std::string_view text) {
 }
 Result<Variant> parse_variant(std::string_view text) {
   return value_of(kVariants, "variant", text);
+}
+Result<Precision> parse_precision(std::string_view text) {
+  return value_of(kPrecisions, "precision", text);
 }
 
 }  // namespace geotherm

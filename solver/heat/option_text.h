@@ -17,6 +17,7 @@ std::string to_text(HeatMode mode);
 std::string to_text(BoundaryRule rule);
 std::string to_text(LaplacianKind kind);
 std::string to_text(Variant variant);
+std::string to_text(Precision precision);
 
 /// `factor` (m) is no part of the time step's text; it is kept from the argument.
 Result<TimeStep> parse_time_step(std::string_view text, double factor = 1.0);
@@ -25,5 +26,6 @@ Result<HeatMode> parse_heat_mode(std::string_view text);
 Result<BoundaryRule> parse_boundary_rule(std::string_view text);
 Result<LaplacianKind> parse_laplacian(std::string_view text);
 Result<Variant> parse_variant(std::string_view text);
+Result<Precision> parse_precision(std::string_view text);
 
 }  // namespace geotherm

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "solver/heat/poisson.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include "solver/heat/precision.h"
 
 namespace geotherm {
 namespace {
-
-constexpr FactorStorage kStorage = FactorStorage::kSingle;
 
 /// One held vertex a component: the last eliminated (the pivot that suffers least), the last of
 /// the file for the penalty mode, or the one asked for.
@@ -61,7 +60,7 @@ void remove(const Components& components, std::span<const double> direction,
 
 Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
     std::shared_ptr<const Surface> surface, const Constraint& constraint, bool iterative,
-    int threads, const Progress& progress) {
+    Precision precision, int threads, const Progress& progress) {
   std::shared_ptr<PoissonSolver> out(new PoissonSolver);
   std::vector<Index> pins;
   auto chosen = choose_pins(*surface, constraint);
@@ -69,9 +68,10 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
   if (!report(progress, "factorize", 0.0)) return cancelled_error();
   auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
-                                    std::move(pins), {threads, kStorage});
+                                    std::move(pins), {threads, poisson_storage(precision)});
   if (!system) return system.error();
-  out->system_ = std::move(*system);
+  out->system_ = (*system)->refined(precision == Precision::kRefined && !iterative);
+  out->precision_ = precision;
   out->surface_ = std::move(surface);
   out->constraint_ = constraint;
   out->iterative_ = iterative;
@@ -79,7 +79,9 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   return std::shared_ptr<const PoissonSolver>(std::move(out));
 }
 
-std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint) const {
+std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint,
+                                                         Precision precision) const {
+  if (!iterative_ && !same_factors(precision, precision_)) return nullptr;
   const auto wanted = choose_pins(*surface_, constraint);
   const auto held = system_->matrix().held();
   if (!wanted) return nullptr;
@@ -89,21 +91,25 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   if (!same) return nullptr;
   std::shared_ptr<PoissonSolver> out(new PoissonSolver(*this));
   out->constraint_ = constraint;
+  out->precision_ = precision;
+  out->system_ = system_->refined(precision == Precision::kRefined && !iterative_);
   return out;
 }
 
-Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Progress& progress) const {
+Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work,
+                                                  const Progress& progress) const {
   if (!report(progress, "solve", 0.0)) return cancelled_error();
   for (const Index pin : system_->matrix().held()) b.row(pin).setZero();
-  const auto solved = system_->factor().solve(b, {}, progress);
+  const auto solved = system_->invert(b, {}, work, progress);
   if (!solved) return solved.error();
-  return PoissonAnswer{std::move(b), solved->iterations};
+  return PoissonAnswer{std::move(b), {}, solved->iterations};
 }
 
 Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
-                                           const Progress& progress) const {
+                                           const Workspace& work, const Progress& progress) const {
   const std::vector<ComponentSize>& sizes = surface_->components;
-  if (!iterative_ || sizes.size() == 1) return solve_as_given(std::move(b), anchors, progress);
+  if (!iterative_ || sizes.size() == 1)
+    return solve_as_given(std::move(b), anchors, work, progress);
   // Iterations end by one norm over all components: each comes in its own unit of length, else
   // those with short edges would hardly count.
   const std::vector<Index>& component = surface_->operators->components.of;
@@ -112,7 +118,7 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
   for (SourceAnchors& set : scaled) {
     for (auto& anchor : set.anchors) anchor.offset /= sizes[component[anchor.row]].mean_edge;
   }
-  auto answer = solve_as_given(std::move(b), scaled, progress);
+  auto answer = solve_as_given(std::move(b), scaled, work, progress);
   if (!answer) return answer;
   Block& phi = answer->phi;
   for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) *= sizes[component[i]].mean_edge;
@@ -120,6 +126,7 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
 }
 
 Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const SourceAnchors> anchors,
+                                                    const Workspace& work,
                                                     const Progress& progress) const {
   const Components& components = surface_->operators->components;
   const std::span<const double> mass = surface_->operators->mass;
@@ -127,16 +134,17 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
     case ConstraintMode::kPinSources: {
       std::size_t most = 0;
       for (const SourceAnchors& a : anchors) most = std::max(most, a.anchors.size());
-      return iterative_ || most > kMostSchurRows ? solve_held(b, anchors, progress)
-                                                 : solve_schur(std::move(b), anchors, progress);
+      return iterative_ || most > kMostSchurRows
+                 ? solve_held(b, anchors, work, progress)
+                 : solve_schur(std::move(b), anchors, work, progress);
     }
     case ConstraintMode::kPinVertex:
-      return solve_pinned(std::move(b), progress);
+      return solve_pinned(std::move(b), work, progress);
     case ConstraintMode::kPenalty: {
       std::vector<Index> rows(system_->matrix().held().begin(), system_->matrix().held().end());
       Block ends(static_cast<Eigen::Index>(rows.size()), b.cols());
       for (std::size_t i = 0; i < rows.size(); ++i) ends.row(i) = b.row(rows[i]);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (!answer) return answer.error();
       for (std::size_t i = 0; i < rows.size(); ++i) {
         answer->phi.row(rows[i]) = ends.row(i) / constraint_.penalty;
@@ -147,13 +155,13 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
       // [L a; a' 0] [phi; lambda] = [b; 0]: lambda = 1'b / 1'a takes the inconsistency along the
       // masses, and phi is the pinned solution shifted to the mass-weighted mean 0.
       remove(components, mass, {}, b);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (answer) remove(components, {}, mass, answer->phi);
       return answer;
     }
     case ConstraintMode::kPseudoInverse: {
       remove(components, {}, {}, b);
-      auto answer = solve_pinned(std::move(b), progress);
+      auto answer = solve_pinned(std::move(b), work, progress);
       if (answer) remove(components, {}, {}, answer->phi);
       return answer;
     }
@@ -163,9 +171,10 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
 
 Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
                                                 std::span<const SourceAnchors> anchors,
+                                                const Workspace& work,
                                                 const Progress& progress) const {
   const Components& components = surface_->operators->components;
-  PoissonAnswer answer{b, 0};
+  PoissonAnswer answer{b};
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     const SourceAnchors& a = anchors[static_cast<std::size_t>(c)];
     std::vector<Index> held = a.rows();
@@ -178,79 +187,19 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
     const Progress part =
         part_of(progress, static_cast<double>(c) / columns, static_cast<double>(c + 1) / columns);
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto system = LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0,
-                                            std::move(held), {threads_, kStorage});
+    const auto system =
+        LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0, std::move(held),
+                            {threads_, poisson_storage(precision_)});
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
     for (const auto& anchor : a.anchors) x(anchor.row, 0) = anchor.offset;
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto solved = (*system)->solve(x, {}, part);
+    const auto solved = (*system)->refined(system_->refines())->solve(x, {}, work, part);
     if (!solved) return solved.error();
     answer.phi.col(c) = x;
     answer.iterations = std::max(answer.iterations, solved->iterations);
   }
-  return answer;
-}
-
-/// phi = z + G_S lambda + c 1 on each component, z the pinned solution and G the pinned inverse:
-/// phi = g on the anchors and 1' lambda = 0 (so that the right side stays consistent) make a small
-/// dense system for lambda and c.
-Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const SourceAnchors> anchors,
-                                                 const Progress& progress) const {
-  const Components& components = surface_->operators->components;
-  auto answer = solve_pinned(std::move(b), progress);
-  if (!answer) return answer.error();
-  Block& phi = answer->phi;
-  std::vector<Index> support;
-  Block correction;
-  Block shift = Block::Zero(components.count, phi.cols());
-  const auto is_pin = [this](Index row) { return system_->matrix().is_held(row); };
-  for (Eigen::Index c = 0; c < phi.cols(); ++c) {
-    const SourceAnchors& set = anchors[static_cast<std::size_t>(c)];
-    for (const Index component : set.components) {
-      std::vector<SourceAnchors::Anchor> here;
-      std::vector<Index> rows;
-      for (const auto& anchor : set.anchors) {
-        if (components.of[anchor.row] != component) continue;
-        here.push_back(anchor);
-        rows.push_back(anchor.row);
-      }
-      const auto k = static_cast<Eigen::Index>(rows.size());
-      if (k == 1) {
-        shift(component, c) = here[0].offset - phi(rows[0], c);
-        continue;
-      }
-      const auto entries = system_->factor().inverse_entries(rows);
-      if (!entries) return entries.error();
-      Eigen::MatrixXd bordered = Eigen::MatrixXd::Ones(k + 1, k + 1);
-      bordered(k, k) = 0;
-      bordered.topLeftCorner(k, k) = *entries;
-      Eigen::VectorXd right(k + 1);
-      right(k) = 0;
-      for (Eigen::Index i = 0; i < k; ++i) {
-        right(i) = here[i].offset - phi(rows[i], c);
-        if (!is_pin(rows[i])) continue;
-        bordered.row(i).head(k).setZero();  // the pinned inverse is 0 there
-        bordered.col(i).head(k).setZero();
-      }
-      const Eigen::VectorXd lambda = bordered.partialPivLu().solve(right);
-      shift(component, c) = lambda(k);
-      if (correction.size() == 0) correction = Block::Zero(phi.rows(), phi.cols());
-      for (Eigen::Index i = 0; i < k; ++i) {
-        if (is_pin(rows[i])) continue;
-        correction(rows[i], c) = lambda(i);
-        support.push_back(rows[i]);
-      }
-    }
-  }
-  if (!support.empty()) {
-    if (!report(progress, "solve", 1.0)) return cancelled_error();
-    const auto solved = system_->factor().solve(correction, support);
-    if (!solved) return solved.error();
-    phi += correction;
-  }
-  for (Eigen::Index i = 0; i < phi.rows(); ++i) phi.row(i) += shift.row(components.of[i]);
   return answer;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "solver/heat/block_pool.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/source_anchors.h"
 
@@ -15,7 +16,10 @@ inline constexpr std::size_t kMostSchurRows = 128;
 
 /// What solving for phi did.
 struct PoissonAnswer {
-  Block phi;  ///< n x K, not normalised except under kPinSources (phi = offset on every anchor)
+  /// n x K, not normalised except under kPinSources: there phi, or phi + shift, is each anchor's
+  /// offset.
+  Block phi;
+  Block shift{};  ///< components x K, still to be added to phi; empty: nothing
   int iterations = 0;
 };
 
@@ -29,16 +33,18 @@ class PoissonSolver {
   /// kCancelled.
   static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Surface> surface,
                                                             const Constraint& constraint,
-                                                            bool iterative, int threads,
+                                                            bool iterative, Precision precision,
+                                                            int threads,
                                                             const Progress& progress = {});
 
-  /// The same system under another mode; null when the mode needs another factor.
-  std::shared_ptr<const PoissonSolver> with(const Constraint& constraint) const;
+  /// The same system under another mode and precision; null when these need another factor.
+  std::shared_ptr<const PoissonSolver> with(const Constraint& constraint,
+                                            Precision precision) const;
 
   /// b: n x K, one anchor list a column. `progress` is asked before each factorisation and solve,
   /// and by an iterative backend within. Errors: the backend's, kCancelled.
   Result<PoissonAnswer> solve(Block b, std::span<const SourceAnchors> anchors,
-                              const Progress& progress = {}) const;
+                              const Workspace& work, const Progress& progress = {}) const;
 
   /// True when a query with these sources makes a factor of its own.
   bool needs_own_system(const SourceAnchors& anchors) const {
@@ -51,17 +57,19 @@ class PoissonSolver {
 
  private:
   Result<PoissonAnswer> solve_as_given(Block b, std::span<const SourceAnchors> anchors,
-                                       const Progress& progress) const;
+                                       const Workspace& work, const Progress& progress) const;
   PoissonSolver() = default;
-  Result<PoissonAnswer> solve_pinned(Block b, const Progress& progress) const;
+  Result<PoissonAnswer> solve_pinned(Block b, const Workspace& work,
+                                     const Progress& progress) const;
   Result<PoissonAnswer> solve_held(const Block& b, std::span<const SourceAnchors> anchors,
-                                   const Progress& progress) const;
+                                   const Workspace& work, const Progress& progress) const;
   Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors,
-                                    const Progress& progress) const;
+                                    const Workspace& work, const Progress& progress) const;
 
   std::shared_ptr<const Surface> surface_;
   std::shared_ptr<const LinearSystem> system_;
   Constraint constraint_;
+  Precision precision_ = Precision::kCompact;
   bool iterative_ = false;
   int threads_ = 1;
 };

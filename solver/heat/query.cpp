@@ -48,16 +48,6 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
   return groups;
 }
 
-/// The columns of a block as vectors of their own.
-std::vector<std::vector<double>> split_columns(const Block& block) {
-  std::vector<std::vector<double>> columns(static_cast<std::size_t>(block.cols()));
-  for (auto& column : columns) column.resize(static_cast<std::size_t>(block.rows()));
-  for (Eigen::Index i = 0; i < block.rows(); ++i) {
-    for (Eigen::Index c = 0; c < block.cols(); ++c) columns[c][i] = block(i, c);
-  }
-  return columns;
-}
-
 /// Rows that every source set finds at 0, but for its own.
 std::span<const char> held_at_zero(const QueryPipeline& p) {
   if (p.options.boundary != BoundaryRule::kDirichlet) return {};
@@ -106,18 +96,18 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
     FactorPlan plan = plan_factors(p.options.boundary, {}, false, 1);
     plan.factors += own;
     plan.missing = plan.at_once = own;
-    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend, plan,
-                                          p.options.memory_limit_mb);
+    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend,
+                                          p.options.precision, plan, p.options.memory_limit_mb);
     if (fits) return threads;
     if (own == 1) return fits.error();
   }
 }
 
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
-                         const QueryOptions& query, std::span<DistanceResult> results,
-                         const Progress& progress) {
+                         const QueryOptions& query, const Workspace& work,
+                         std::span<DistanceResult> results, const Progress& progress) {
   Stopwatch watch;
-  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool,
+  auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
   const auto with_cure = [&](Error error) {
     return with_time_cure(std::move(error), extreme_time(p.times, anchors),
@@ -127,20 +117,18 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   if (!report(progress, "solve", kHeatShare)) return cancelled_error();
   const UnitField field(*p.surface.operators, heat->field,
-                        p.options.variant == Variant::kClassic ? 0.0 : p.times.t, p.pool);
+                        p.options.variant == Variant::kClassic ? 0.0 : p.times.t, work);
   Block b = field.divergence(anchors);
   const double gradient_ms = watch.lap();
   Block right;
   if (query.quality) right = b;
   watch.lap();
-  auto answer = p.poisson.solve(std::move(b), anchors, part_of(progress, kHeatShare, kSolvedShare));
+  auto answer =
+      p.poisson.solve(std::move(b), anchors, work, part_of(progress, kHeatShare, kSolvedShare));
   if (!answer) return answer.error();
-  std::vector<std::vector<double>> phi = split_columns(answer->phi);
-  for (std::size_t c = 0; c < anchors.size(); ++c) {
-    const auto normalized =
-        normalize(p.surface, phi[c], anchors[c], p.options.constraint.mode, results[c]);
-    if (!normalized) return with_cure(normalized.error());
-  }
+  const ConstraintMode mode = p.options.constraint.mode;
+  const auto normalized = normalize(p.surface, *answer, anchors, mode, work.threads, results);
+  if (!normalized) return with_cure(normalized.error());
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
@@ -154,12 +142,13 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     result.quality.iterations_heat = heat->field.iterations;
     result.quality.iterations_poisson = answer->iterations;
     if (query.quality) {
+      const std::vector<double> phi = shifted_phi(p.surface, *answer, anchors[c], mode, column);
       result.quality.heat_residual = heat->residual[c];
       result.quality.poisson_residual =
-          poisson_residual(*p.surface.operators, phi[c], right, column, anchors[c],
-                           p.options.constraint.mode == ConstraintMode::kPinSources);
-      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi[c], column,
-                                             anchors[c], held_at_zero(p), result.quality);
+          poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
+                           mode == ConstraintMode::kPinSources);
+      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
+                                             held_at_zero(p), result.quality);
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -189,6 +178,8 @@ class GroupRunner {
   /// What ended for want of memory is thrown.
   std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
+    threads_of_group_ = std::max(1, thread_count(pipeline_.options.threads) /
+                                        static_cast<int>(std::max<std::size_t>(workers, 1)));
     {
       std::vector<std::jthread> helpers;
       for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back([this] { work(); });
@@ -207,8 +198,9 @@ class GroupRunner {
           part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
       const Group& group = groups_[g];
       try {
-        const auto done = solve_group(pipeline_, group.anchors, query_,
-                                      results_.subspan(group.first, group.anchors.size()), part);
+        const auto done =
+            solve_group(pipeline_, group.anchors, query_, {pipeline_.pool, threads_of_group_},
+                        results_.subspan(group.first, group.anchors.size()), part);
         if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
       } catch (const std::bad_alloc&) {
         memory_ended_ = true;
@@ -233,6 +225,7 @@ class GroupRunner {
   std::span<DistanceResult> results_;
   SharedProgress progress_;
   const Progress watch_;
+  int threads_of_group_ = 1;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::atomic<bool> memory_ended_{false};

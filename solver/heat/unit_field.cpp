@@ -2,7 +2,9 @@
 #include "solver/heat/unit_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 
 #include "solver/heat/field_kernels.h"
 
@@ -19,6 +21,11 @@ constexpr double kSafeHigh = 1e280;
 /// exact distances: below the first it helps, above the second it harms.
 constexpr double kShort = 0.15;
 constexpr double kLong = 0.35;
+
+/// Rows whose logarithms are taken before they are looked at.
+constexpr std::int64_t kRowsOfPiece = 1024;
+/// Ranges of faces that are worth a thread, with one column.
+constexpr std::int64_t kRanges = 2;
 
 /// The unit vector against the gradient whose values at the corners are these, however small.
 Field against_gradient(const FaceLayout& p, double u0, double u1, double u2) {
@@ -43,11 +50,75 @@ void add_divergence(const Face& face, const FaceLayout& p, const Field& x, Block
   for (int k = 0; k < 3; ++k) b(face[k], column) += d[k];
 }
 
+/// The largest and the smallest logarithm of each component and column. Comparisons are false for
+/// what is no number, the logarithm of 0 and below.
+class Spread {
+ public:
+  Spread(const Components& components, Eigen::Index columns)
+      : components_(components),
+        high_(Block::Constant(components.count, columns, -kUnreached)),
+        low_(-high_) {
+    most_.fill(-kUnreached);
+    least_.fill(kUnreached);
+  }
+
+  /// `log_u`: of rows begin to end.
+  void take(const double* log_u, std::int64_t begin, std::int64_t end) {
+    const Eigen::Index columns = high_.cols();
+    const std::int64_t count = (end - begin) * columns;
+    std::int64_t e = 0;
+    if (components_.count == 1 && kLanes % columns == 0) {
+      for (; e + kLanes <= count; e += kLanes) {
+        for (int j = 0; j < kLanes; ++j) {
+          const double value = log_u[e + j];
+          most_[j] = value > most_[j] ? value : most_[j];
+          least_[j] = value < least_[j] ? value : least_[j];
+        }
+      }
+    }
+    for (; e < count; ++e) {
+      widen(components_.of[static_cast<std::size_t>(begin + e / columns)], e % columns, log_u[e]);
+    }
+  }
+  void take(Spread& other) {
+    high_ = high_.cwiseMax(other.high());
+    low_ = low_.cwiseMin(other.low());
+  }
+
+  const Block& high() {
+    gather();
+    return high_;
+  }
+  const Block& low() {
+    gather();
+    return low_;
+  }
+
+ private:
+  static constexpr int kLanes = 16;
+  void widen(Index component, Eigen::Index c, double value) {
+    if (value > high_(component, c)) high_(component, c) = value;
+    if (value < low_(component, c)) low_(component, c) = value;
+  }
+  void gather() {
+    for (int j = 0; j < kLanes && kLanes % high_.cols() == 0; ++j) {
+      double& high = high_(0, j % high_.cols());
+      double& low = low_(0, j % high_.cols());
+      high = std::max(high, most_[j]);
+      low = std::min(low, least_[j]);
+    }
+  }
+
+  const Components& components_;
+  Block high_, low_;  ///< components x K
+  std::array<double, kLanes> most_, least_;
+};
+
 }  // namespace
 
 UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
-                     BlockPool& pool)
-    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), pool_(pool) {
+                     const Workspace& work)
+    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), work_(work) {
   if (!(root_t_ > 0)) return;
   if (!t.same()) {
     root_t_of_face_.reserve(mesh.faces.size());
@@ -55,29 +126,35 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerC
       root_t_of_face_.push_back(std::sqrt(t.of(mesh.components.of[face[0]])));
     }
   }
-  log_u_ = pool.take(heat.u.rows(), heat.u.cols());
-  logarithms(heat.u.data(), log_u_.data(), static_cast<std::size_t>(heat.u.size()));
-  if (!heat.level.empty()) {
-    const double step = std::log(heat.step);
-    for (Eigen::Index e = 0; e < heat.u.size(); ++e) {
-      log_u_.data()[e] += step * heat.level[static_cast<std::size_t>(e)];
+  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
+  take_logarithms();
+}
+
+void UnitField::take_logarithms() {
+  const Eigen::Index columns = log_u_.cols();
+  const double step = std::log(heat_.step);
+  Spread all(mesh_.components, columns);
+  std::mutex mutex;
+  work_.for_rows(log_u_.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
+    Spread spread(mesh_.components, columns);
+    // In pieces that stay in the nearest cache between their two passes.
+    for (std::int64_t next = begin; begin < end; begin = next) {
+      next = std::min(end, begin + kRowsOfPiece);
+      const std::int64_t from = begin * columns, to = next * columns;
+      logarithms(heat_.u.data() + from, log_u_.data() + from, static_cast<std::size_t>(to - from));
+      for (std::int64_t e = from; e < to && !heat_.level.empty(); ++e) {
+        log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
+      }
+      spread.take(log_u_.data() + from, begin, next);
     }
-  }
-  measure_trust();
+    const std::lock_guard lock(mutex);
+    all.take(spread);
+  });
+  measure_trust(all.high(), all.low());
 }
 
 /// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
-void UnitField::measure_trust() {
-  const Eigen::Index columns = log_u_.cols();
-  Block high = Block::Constant(mesh_.components.count, columns, -kUnreached);
-  Block low = -high;
-  for (Eigen::Index i = 0; i < log_u_.rows(); ++i) {
-    const Index component = mesh_.components.of[i];
-    for (Eigen::Index c = 0; c < columns; ++c) {  // comparisons that are false where u <= 0
-      if (log_u_(i, c) > high(component, c)) high(component, c) = log_u_(i, c);
-      if (log_u_(i, c) < low(component, c)) low(component, c) = log_u_(i, c);
-    }
-  }
+void UnitField::measure_trust(const Block& high, const Block& low) {
   std::vector<double> trust(static_cast<std::size_t>(high.size()), 1.0);
   bool whole = true;
   for (std::size_t e = 0; e < trust.size(); ++e) {
@@ -102,7 +179,9 @@ double UnitField::length(Index f, Eigen::Index column) const {
       gradient(p, log_u_(face[0], column), log_u_(face[1], column), log_u_(face[2], column));
   const double square = g[0] * g[0] + g[1] * g[1];
   if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
-  const double whole = field_length(p.base, p.x, p.height, g[0], g[1], root_t(f));
+  const double size = std::sqrt(square);
+  const double whole =
+      field_length(p.base, p.x, p.height, g[0] / size, g[1] / size, size, root_t(f));
   return 1 - trust(face[0], column) * (1 - whole);
 }
 
@@ -126,9 +205,10 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   return {x[0] * size, x[1] * size};
 }
 
-void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
+void UnitField::add_group(Index first_face, Index end_face, Eigen::Index first, int group,
+                          Block& b) const {
   if (!trust_.empty()) {  // rare: face by face
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
+    for (Index f = first_face; f < end_face; ++f) {
       for (Eigen::Index c = first; c < first + group; ++c) {
         add_divergence(mesh_.faces[f], mesh_.layout[f], of_face(f, c), b, c);
       }
@@ -142,6 +222,8 @@ void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   const Context context{this, first};
   FieldPass pass{};
   pass.mesh = &mesh_;
+  pass.first_face = first_face;
+  pass.end_face = end_face;
   pass.u = heat_.u.data() + first;
   if (!heat_.level.empty()) pass.level = heat_.level.data() + first;
   pass.b = b.data() + first;
@@ -159,14 +241,29 @@ void UnitField::add_group(Eigen::Index first, int group, Block& b) const {
   add_unit_divergence(pass, group);
 }
 
-Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
-  const Eigen::Index columns = heat_.u.cols();
-  Block b = pool_.take_zero(heat_.u.rows(), columns);
-  for (Eigen::Index first = 0; first < columns;) {
-    const int group = column_group(columns - first);
-    add_group(first, group, b);
+void UnitField::add_faces(Index first_face, Index end_face, Block& b) const {
+  for (Eigen::Index first = 0; first < b.cols();) {
+    const int group = column_group(b.cols() - first);
+    add_group(first_face, end_face, first, group, b);
     first += group;
   }
+}
+
+Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
+  const Eigen::Index columns = heat_.u.cols();
+  Block b = work_.pool.take(heat_.u.rows(), columns);
+  // Ranges write to rows of their own, then those faces follow that join them: each row has its sum
+  // in one order, with any number of threads.
+  parallel_for(work_.threads, std::ssize(mesh_.ranges),
+               std::max<std::int64_t>(1, kRanges / columns),
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t r = begin; r < end; ++r) {
+                   const FaceRange& range = mesh_.ranges[static_cast<std::size_t>(r)];
+                   b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
+                   add_faces(range.first_face, range.end_face, b);
+                 }
+               });
+  add_faces(mesh_.crossing, mesh_.face_count(), b);
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {
     for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {

@@ -23,8 +23,8 @@ class UnitField {
   /// `t` in units of the intrinsic mesh squared, or 0 everywhere. Keeps references. Cost: a
   /// logarithm a row.
   UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
-            BlockPool& pool);
-  ~UnitField() { pool_.give(std::move(log_u_)); }
+            const Workspace& work);
+  ~UnitField() { work_.pool.give(std::move(log_u_)); }
   UnitField(const UnitField&) = delete;
   UnitField& operator=(const UnitField&) = delete;
 
@@ -37,8 +37,11 @@ class UnitField {
   Block divergence(std::span<const SourceAnchors> anchors) const;
 
  private:
-  void add_group(Eigen::Index first, int group, Block& b) const;
-  void measure_trust();
+  void take_logarithms();
+  /// Adds what these faces give to b.
+  void add_faces(Index first_face, Index end_face, Block& b) const;
+  void add_group(Index first_face, Index end_face, Eigen::Index first, int group, Block& b) const;
+  void measure_trust(const Block& high, const Block& low);
   double trust(Index row, Eigen::Index column) const;
   double length(Index face, Eigen::Index column) const;
   double root_t(Index face) const {
@@ -49,7 +52,7 @@ class UnitField {
   const HeatField& heat_;
   double root_t_;                       ///< of the first component, so of all where they share one
   std::vector<double> root_t_of_face_;  ///< F; empty where they do
-  BlockPool& pool_;
+  Workspace work_;
   Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
   std::vector<double> trust_;  ///< how far lengths count, per component and column; empty: wholly
 };

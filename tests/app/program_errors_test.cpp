@@ -101,6 +101,7 @@ const std::vector<Failure>& failures() {
       {"Boundary", {"solve", "bunny", "-s", "1", "--boundary", "open"}, 2, {"neumann"}},
       {"Laplacian", {"solve", "bunny", "-s", "1", "--laplacian", "odd"}, 2, {"cotan"}},
       {"Variant", {"solve", "bunny", "-s", "1", "--variant", "odd"}, 2, {"corrected"}},
+      {"Precision", {"solve", "bunny", "-s", "1", "--precision", "half"}, 2, {"refined"}},
       {"MemoryLimit",
        {"solve", "bunny", "-s", "1", "--memory-limit", "4T"},
        2,

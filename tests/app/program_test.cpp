@@ -155,12 +155,13 @@ INSTANTIATE_TEST_SUITE_P(All, ProgramBackends, testing::ValuesIn(backend_names()
 TEST_F(Program, SolvePassesOptionsOn) {
   const Json solved = json({"solve", "bunny", "-s", "1,900", "--constraint", "penalty:5", "--heat",
                             "hold", "--boundary", "average", "--laplacian", "intrinsic-delaunay",
-                            "--variant", "classic", "--json", "-"});
+                            "--variant", "classic", "--precision", "refined", "--json", "-"});
   EXPECT_EQ(solved["options"]["constraint"], "penalty:5");
   EXPECT_EQ(solved["options"]["heat"], "hold");
   EXPECT_EQ(solved["options"]["boundary"], "average");
   EXPECT_EQ(solved["options"]["laplacian"], "intrinsic-delaunay");
   EXPECT_EQ(solved["options"]["variant"], "classic");
+  EXPECT_EQ(solved["options"]["precision"], "refined");
 }
 
 TEST_F(Program, InfoTellsWhatAMeshIs) {

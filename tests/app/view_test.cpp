@@ -78,6 +78,8 @@ TEST_F(View, EveryOptionOfSolveAndRenderReachesTheWindow) {
                  "cotan",
                  "--variant",
                  "classic",
+                 "--precision",
+                 "full",
                  "--threads",
                  "1",
                  "--view",
@@ -128,6 +130,7 @@ TEST_F(View, EveryOptionOfSolveAndRenderReachesTheWindow) {
   EXPECT_EQ(state.options.boundary, BoundaryRule::kAverage);
   EXPECT_EQ(state.options.laplacian, LaplacianKind::kCotan);
   EXPECT_EQ(state.options.variant, Variant::kClassic);
+  EXPECT_EQ(state.options.precision, Precision::kFull);
   EXPECT_EQ(state.options.threads, 1);
   const app::PictureSettings& picture = state.picture;
   EXPECT_EQ(picture.view, app::View::kFlat);

@@ -87,6 +87,7 @@ MethodOptions any_heat(Dice& dice) {
   out.time_step.factor = dice.power(-1, 2);
   out.backend = dice.pick(backend_names());
   out.threads = static_cast<int>(dice.from(1, 2));
+  out.precision = any_of(dice, {Precision::kCompact, Precision::kRefined, Precision::kFull});
   return out;
 }
 

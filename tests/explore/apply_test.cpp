@@ -165,6 +165,8 @@ ViewerState random_state(unsigned seed) {
                                           "boundary average",
                                           "laplacian cotan",
                                           "variant classic",
+                                          "precision refined",
+                                          "precision full",
                                           "threads 2",
                                           "threads 0",
                                           "view flat",

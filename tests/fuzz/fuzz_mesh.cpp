@@ -64,6 +64,7 @@ void read_options(ByteReader& reader, FuzzCase& out) {
   options.strict = (bits & 4) != 0;
   if ((bits & 8) != 0) options.memory_limit_mb = kTightMb;
   out.welding = static_cast<Welding>(bits >> 4 & 3);
+  if ((bits & 64) != 0) options.precision = Precision::kRefined;
 }
 
 std::vector<Vec3> read_positions(ByteReader& reader, int count) {

@@ -47,6 +47,13 @@ const OptionCase kOptions[] = {
        o.constraint.mode = ConstraintMode::kPseudoInverse;
      }},
     {"cotan", [](HeatOptions& o) { o.laplacian = LaplacianKind::kCotan; }},
+    {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }},
+    {"refined_hold_average",
+     [](HeatOptions& o) {
+       o.precision = Precision::kRefined;
+       o.heat = HeatMode::kHold;
+       o.boundary = BoundaryRule::kAverage;
+     }},
 };
 
 void PrintTo(const OptionCase& c, std::ostream* out) { *out << c.name; }

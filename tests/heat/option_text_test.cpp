@@ -46,6 +46,9 @@ TEST(OptionText, OfModesReadsBack) {
   for (const auto variant : {Variant::kCorrected, Variant::kClassic}) {
     EXPECT_EQ(*parse_variant(to_text(variant)), variant);
   }
+  for (const auto precision : {Precision::kCompact, Precision::kRefined, Precision::kFull}) {
+    EXPECT_EQ(*parse_precision(to_text(precision)), precision);
+  }
 }
 
 template <class T>
@@ -60,6 +63,7 @@ TEST(OptionText, ThatIsUnknownIsRefusedWithTheNamesThereAre) {
   expect_refused(parse_boundary_rule("robin"), "average");
   expect_refused(parse_laplacian(""), "intrinsic-delaunay");
   expect_refused(parse_variant("Classic"), "classic");
+  expect_refused(parse_precision("double"), "refined");
   expect_refused(parse_constraint("pin"), "pseudo-inverse");
   expect_refused(parse_time_step("mean"), "mean-edge");
 }

@@ -33,6 +33,8 @@ const Change kChanges[] = {
     {"dirichlet", [](HeatOptions& o) { o.boundary = BoundaryRule::kDirichlet; }, false},
     {"average", [](HeatOptions& o) { o.boundary = BoundaryRule::kAverage; }, false},
     {"variant", [](HeatOptions& o) { o.variant = Variant::kClassic; }, false},
+    {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }, false},
+    {"full", [](HeatOptions& o) { o.precision = Precision::kFull; }, false},
     {"backend", [](HeatOptions& o) { o.backend = backend_names().back(); }, true},
     {"laplacian", [](HeatOptions& o) { o.laplacian = LaplacianKind::kCotan; }, true},
 };

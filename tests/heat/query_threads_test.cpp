@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A query on several threads, alone and in a block, on a mesh large enough that steps share their
+// rows and faces out.
+#include <gtest/gtest.h>
+
+#include "solver/heat/surface.h"
+#include "tests/support/shapes.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// Several ranges of faces, and more values than one thread takes at once.
+constexpr Index kCells = 300;
+
+struct Case {
+  const char* name;
+  void (*set)(HeatOptions&);
+  std::size_t sets;
+};
+
+const Case kCases[] = {
+    {"one_set", [](HeatOptions&) {}, 1},
+    {"three_sets", [](HeatOptions&) {}, 3},
+    {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }, 1},
+    {"pin_vertex", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPinVertex; }, 1},
+    {"large_time", [](HeatOptions& o) { o.time_step.factor = 5000; }, 1},
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class QueryThreads : public testing::TestWithParam<Case> {
+ protected:
+  MeshPtr mesh = finish(plane_grid(kCells, kCells, 1, 1));
+  std::vector<std::vector<double>> distances(int threads) const {
+    HeatOptions options = with_backend(direct_backends().front());
+    options.threads = threads;
+    GetParam().set(options);
+    const HeatMethod method = method_of(mesh, options);
+    std::vector<SourceSet> sets;
+    for (std::size_t k = 0; k < GetParam().sets; ++k) {
+      const auto first = static_cast<Index>(k * 991);
+      sets.push_back(SourceSet::of_vertices({first, 3 * first + 7000}));
+    }
+    const auto results = method.solve_each(sets);
+    std::vector<std::vector<double>> out;
+    if (!results) {
+      ADD_FAILURE() << results.error().message;
+      return out;
+    }
+    for (const DistanceResult& result : *results) out.push_back(result.distances);
+    return out;
+  }
+};
+
+TEST_P(QueryThreads, DoNotChangeABit) {
+  const auto alone = distances(1);
+  EXPECT_EQ(distances(2), alone);
+  EXPECT_EQ(distances(5), alone);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, QueryThreads, testing::ValuesIn(kCases),
+                         [](const auto& each) { return each.param.name; });
+
+class FaceRanges : public testing::TestWithParam<std::string> {
+ protected:
+  std::shared_ptr<const Surface> surface =
+      *build_surface(finish(plane_grid(kCells, kCells, 1, 1)), **find_backend(GetParam()),
+                     LaplacianKind::kAuto, 1);
+  const OperatorMesh& mesh = *surface->operators;
+};
+
+TEST_P(FaceRanges, HoldEveryRowOnceAndFacesOfTheirRowsOnly) {
+  ASSERT_GT(mesh.ranges.size(), 3U);
+  Index row = 0, face = 0;
+  for (const FaceRange& range : mesh.ranges) {
+    EXPECT_EQ(range.first_row, row);
+    EXPECT_EQ(range.first_face, face);
+    for (; face < range.end_face; ++face) {
+      for (const Index corner : mesh.faces[static_cast<std::size_t>(face)]) {
+        ASSERT_GE(corner, range.first_row);
+        ASSERT_LT(corner, range.end_row);
+      }
+    }
+    row = range.end_row;
+  }
+  EXPECT_EQ(row, mesh.size());
+  EXPECT_EQ(face, mesh.crossing);
+}
+
+TEST_P(FaceRanges, LeaveFewFacesThatCross) {
+  // What crosses is walked by one thread: more than this would be felt with many.
+  EXPECT_LT(mesh.face_count() - mesh.crossing, mesh.face_count() / 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, FaceRanges, testing::ValuesIn(direct_backends()),
+                         backend_test_name);
+
+}  // namespace
+}  // namespace geotherm::test
