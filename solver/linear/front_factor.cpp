@@ -171,12 +171,14 @@ class Factorizer {
     const int threads = front.width * height * height > kLargeFront ? threads_ : 1;
     const Index below = slabs(front.below);
     parallel_for(threads, below, kSlabsAPiece, [&](std::int64_t begin, std::int64_t end) {
+      const FlushDenormals flush;
       kernels_.factor_below(front, inverses, static_cast<Index>(begin), static_cast<Index>(end));
     });
     // Later slabs of a triangle are longer: the pieces alternate.
     const std::int64_t pieces = threads == 1 ? 1 : (below + kSlabsAPiece - 1) / kSlabsAPiece;
     std::atomic<Index> next{0};
     parallel_for(threads, pieces, 1, [&](std::int64_t, std::int64_t) {
+      const FlushDenormals flush;
       for (Index k = next++; k < pieces; k = next++) {
         const auto from = static_cast<Index>(below * std::int64_t{k} / pieces);
         const auto to = static_cast<Index>(below * std::int64_t{k + 1} / pieces);

@@ -87,7 +87,8 @@ inline Index factor_tile(double* tile, Index columns) {
 inline void invert_tile(const double* tile, Index columns, double* inverse) {
   for (Index r = 0; r < columns; ++r) {
     Slab row = Slab::zero();
-    for (Index k = 0; k < r; ++k) row.subtract(tile[k * kSlab + r], Slab::load(inverse + k * kSlab));
+    for (Index k = 0; k < r; ++k)
+      row.subtract(tile[k * kSlab + r], Slab::load(inverse + k * kSlab));
     double values[kSlab];
     row.store(values);
     values[r] += 1;
@@ -122,22 +123,37 @@ inline void tile_to_solve_with(const double* tile, Index columns, const double* 
 
 Index block_columns(Index width, Index block) { return std::min(kSlab, width - block * kSlab); }
 
+/// Columns are worked off in strips of so many: three slabs of a strip and one more stay in the
+/// nearest cache while they meet all others.
+constexpr Index kStrip = 96;
+
 Index factor_own(const FrontPanel& front, double* inverses) {
   const Index blocks = slabs(front.width);
   const std::int64_t size = front.slab_size();
-  for (Index b = 0; b < blocks; ++b) {
-    const double* rows = front.values + b * size;
-    const Index columns = block_columns(front.width, b);
-    double* const diagonal = front.values + b * size + b * kTile;
-    double* const inverse = inverses + b * kTile;
-    const auto slab = [&](Index i) { return front.values + (b + i) * size; };
-    subtract_all(
-        blocks - b, slab, rows, b * kSlab, [&](Index i) { return slab(i) + b * kTile; });
-    const Index failed = factor_tile(diagonal, columns);
-    if (failed != kNoIndex) return b * kSlab + failed;
-    invert_tile(diagonal, columns, inverse);
-    for (Index i = b + 1; i < blocks; ++i) {
-      divide_tile(front.values + i * size + b * kTile, columns, inverse);
+  const auto slab = [&](Index i) { return front.values + i * size; };
+  for (Index begin = 0; begin < blocks; begin += kStrip / kSlab) {
+    const Index end = std::min<Index>(blocks, begin + kStrip / kSlab);
+    for (Index b = begin; b < end; ++b) {
+      const Index columns = block_columns(front.width, b);
+      double* const diagonal = slab(b) + b * kTile;
+      double* const inverse = inverses + b * kTile;
+      subtract_all(
+          blocks - b, [&](Index i) { return slab(b + i) + begin * kTile; }, slab(b) + begin * kTile,
+          (b - begin) * kSlab, [&](Index i) { return slab(b + i) + b * kTile; });
+      const Index failed = factor_tile(diagonal, columns);
+      if (failed != kNoIndex) return b * kSlab + failed;
+      invert_tile(diagonal, columns, inverse);
+      for (Index i = b + 1; i < blocks; ++i) divide_tile(slab(i) + b * kTile, columns, inverse);
+    }
+    for (Index first = end; first < blocks; first += kTileSlabs) {
+      const Index count = std::min<Index>(kTileSlabs, blocks - first);
+      for (Index b = end; b < first + count; ++b) {
+        const Index from = std::max<Index>(b - first, 0);
+        subtract_all(
+            count - from, [&](Index i) { return slab(first + from + i) + begin * kTile; },
+            slab(b) + begin * kTile, (end - begin) * kSlab,
+            [&](Index i) { return slab(first + from + i) + b * kTile; });
+      }
     }
   }
   return kNoIndex;
@@ -145,16 +161,22 @@ Index factor_own(const FrontPanel& front, double* inverses) {
 
 void factor_below(const FrontPanel& front, const double* inverses, Index begin, Index end) {
   const std::int64_t size = front.slab_size();
+  const Index blocks = slabs(front.width);
   double* const below = front.below_values();
-  // A few slabs at a time, so that they stay in the nearest cache while all blocks pass.
   for (Index first = begin; first < end; first += kTileSlabs) {
     const Index count = std::min<Index>(kTileSlabs, end - first);
-    const auto slab = [&](Index i) { return below + (first + i) * size; };
-    for (Index b = 0; b < slabs(front.width); ++b) {
-      subtract_all(count, slab, front.values + b * size, b * kSlab,
-                   [&](Index i) { return slab(i) + b * kTile; });
-      for (Index i = 0; i < count; ++i) {
-        divide_tile(slab(i) + b * kTile, block_columns(front.width, b), inverses + b * kTile);
+    for (Index strip = 0; strip < blocks; strip += kStrip / kSlab) {
+      const Index strip_end = std::min<Index>(blocks, strip + kStrip / kSlab);
+      const auto tile = [&](Index i, Index b) { return below + (first + i) * size + b * kTile; };
+      for (Index b = strip; b < blocks; ++b) {
+        const Index depth = (std::min(b, strip_end) - strip) * kSlab;
+        subtract_all(
+            count, [&](Index i) { return tile(i, strip); }, front.values + b * size + strip * kTile,
+            depth, [&](Index i) { return tile(i, b); });
+        if (b >= strip_end) continue;
+        for (Index i = 0; i < count; ++i) {
+          divide_tile(tile(i, b), block_columns(front.width, b), inverses + b * kTile);
+        }
       }
     }
   }
@@ -165,12 +187,15 @@ void update(const FrontPanel& front, double* triangle, Index begin, Index end) {
   const double* const below = front.below_values();
   for (Index first = begin; first < end; first += kTileSlabs) {
     const Index count = std::min<Index>(kTileSlabs, end - first);
-    const auto a = [&](Index i) { return below + (first + i) * size; };
-    for (Index column = 0; column < first + count; ++column) {
-      const Index from = std::max<Index>(column - first, 0);  // slabs that have this column
-      subtract_all(
-          count - from, [&](Index i) { return a(from + i); }, below + column * size, front.width,
-          [&](Index i) { return triangle + triangle_size(first + from + i) + column * kTile; });
+    for (Index strip = 0; strip < front.width; strip += kStrip) {
+      const Index depth = std::min(kStrip, front.width - strip);
+      const auto a = [&](Index i) { return below + i * size + strip * kSlab; };
+      for (Index column = 0; column < first + count; ++column) {
+        const Index from = first + std::max<Index>(column - first, 0);  // has this column
+        subtract_all(
+            first + count - from, [&](Index i) { return a(from + i); }, a(column), depth,
+            [&](Index i) { return triangle + triangle_size(from + i) + column * kTile; });
+      }
     }
   }
 }

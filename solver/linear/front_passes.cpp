@@ -201,6 +201,7 @@ void FrontPasses::backward(double* x, Eigen::Index stride, int threads) const {
 }
 
 void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+  const FlushDenormals flush;
   struct Held {
     Index front;
     Doubles vector;
@@ -220,6 +221,7 @@ void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index>
 }
 
 void FrontPasses::backward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+  const FlushDenormals flush;
   struct Held {
     Index front;
     Doubles vector;

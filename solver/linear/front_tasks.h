@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "solver/core/flush_denormals.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/front_tree.h"
 
@@ -58,7 +59,8 @@ class TaskQueue {
 };
 
 /// Calls work(task, worker) for every task, on up to `threads` threads; make_worker() makes what a
-/// thread keeps for itself. `work` returns false to stop everything. Exceptions are rethrown.
+/// thread keeps for itself; denormals are flushed within. `work` returns false to stop everything.
+/// Exceptions are rethrown.
 template <class MakeWorker, class Work>
 void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int threads,
                const MakeWorker& make_worker, const Work& work) {
@@ -66,6 +68,7 @@ void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int thread
   SharedFailure failure;
   const auto run = [&] {
     try {
+      const FlushDenormals flush;
       auto worker = make_worker();
       for (Index task = queue.next(kNoIndex); task != kNoIndex; task = queue.next(task)) {
         if (!work(tree.tasks[task], task, worker)) return queue.stop();
