@@ -113,8 +113,9 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
   }
 }
 
+/// `threads`: of this group alone.
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
-                         const QueryOptions& query, std::span<DistanceResult> results,
+                         const QueryOptions& query, std::span<DistanceResult> results, int threads,
                          const Progress& progress) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, p.pool,
@@ -155,11 +156,21 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     result.quality.iterations_poisson = answer->iterations;
     if (query.quality) {
       result.quality.heat_residual = heat->residual[c];
-      result.quality.poisson_residual =
-          poisson_residual(*p.surface.operators, phi[c], right, column, anchors[c],
-                           p.options.constraint.mode == ConstraintMode::kPinSources);
-      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi[c], column,
-                                             anchors[c], held_at_zero(p), result.quality);
+      FaceCounts faces;
+      Quality of_faces = result.quality;
+      run_both(
+          threads,
+          [&] {
+            result.quality.poisson_residual =
+                poisson_residual(*p.surface.operators, phi[c], right, column, anchors[c],
+                                 p.options.constraint.mode == ConstraintMode::kPinSources);
+          },
+          [&] {
+            faces = inspect_faces(*p.surface.operators, field, phi[c], column, anchors[c],
+                                  held_at_zero(p), threads, of_faces);
+          });
+      result.quality.zero_gradient_faces = of_faces.zero_gradient_faces;
+      result.quality.eikonal_error_mean = of_faces.eikonal_error_mean;
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -189,6 +200,8 @@ class GroupRunner {
   /// What ended for want of memory is thrown.
   std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
     const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
+    const int all = thread_count(pipeline_.options.threads);
+    threads_a_group_ = std::max(1, all / static_cast<int>(std::max<std::size_t>(workers, 1)));
     {
       std::vector<std::jthread> helpers;
       for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back([this] { work(); });
@@ -208,7 +221,8 @@ class GroupRunner {
       const Group& group = groups_[g];
       try {
         const auto done = solve_group(pipeline_, group.anchors, query_,
-                                      results_.subspan(group.first, group.anchors.size()), part);
+                                      results_.subspan(group.first, group.anchors.size()),
+                                      threads_a_group_, part);
         if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
       } catch (const std::bad_alloc&) {
         memory_ended_ = true;
@@ -234,6 +248,7 @@ class GroupRunner {
   SharedProgress progress_;
   const Progress watch_;
   std::atomic<std::size_t> next_{0};
+  int threads_a_group_ = 1;
   std::mutex mutex_;
   std::atomic<bool> memory_ended_{false};
   std::optional<Error> failure_;
