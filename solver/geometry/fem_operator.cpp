@@ -119,8 +119,8 @@ const LowerMatrix& FemOperator::assembled() const {
   if (!assembled_.value.empty()) return assembled_;
   assembled_.start = mesh_->lower.start;
   assembled_.row = mesh_->lower.row;
-  assembled_.value.resize(assembled_.row.size());
   const RawVector<double> weight = side_weights();
+  assembled_.value.resize(assembled_.row.size());
   parallel_for(threads_, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
       assemble_column(j, weight);
@@ -135,12 +135,12 @@ void FemOperator::assemble_column(Index j, const RawVector<double>& weight) cons
   const Index* const rows = assembled_.row.data() + begin;
   double* const values = assembled_.value.data() + begin;
   const auto count = static_cast<std::size_t>(assembled_.start[j + 1] - begin);
-  values[0] = diagonal_[j];
+  // Where a row stands is counted, and what belongs to earlier columns falls on the diagonal, which
+  // is set in the end: a processor would guess comparisons wrong.
   const auto subtract = [&](Index row, Side side) {
-    if (row <= j) return;
     std::size_t entry = 1;
-    while (rows[entry] != row) ++entry;
-    values[entry] -= weight[side];
+    for (std::size_t e = 1; e < count; ++e) entry += rows[e] < row ? 1 : 0;
+    values[row > j ? entry : 0] -= weight[side];
   };
   for (const Side corner : mesh_->corners.at(j)) {
     const Face& face = mesh_->faces[face_of(corner)];
@@ -148,6 +148,7 @@ void FemOperator::assemble_column(Index j, const RawVector<double>& weight) cons
     subtract(face[next_corner(k)], corner);
     subtract(face[before], corner - k + before);
   }
+  values[0] = diagonal_[j];
   if (is_held_.empty()) return;
   for (std::size_t e = 1; e < count; ++e) {
     if (is_held_[j] || is_held_[rows[e]]) values[e] = 0;
