@@ -35,11 +35,18 @@ struct IntrinsicMesh {
 /// bits with any number of threads.
 double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges, int threads = 1);
 
-/// |v|, also where its square is out of the doubles' range.
+/// |v|, also where its square is out of the doubles' range. A vector scaled by a power of two has
+/// the norm scaled by that, to the last bit.
 inline double safe_norm(const Vec3& v) {
   constexpr double kSafeLow = 1e-280, kSafeHigh = 1e280;
   const double square = v.squaredNorm();
-  return square > kSafeLow && square < kSafeHigh ? std::sqrt(square) : v.stableNorm();
+  if (square > kSafeLow && square < kSafeHigh) return std::sqrt(square);
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !std::isfinite(largest)) return largest;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto scaled = [exponent](double x) { return std::ldexp(x, -exponent); };
+  return std::ldexp(Vec3(scaled(v[0]), scaled(v[1]), scaled(v[2])).norm(), exponent);
 }
 
 /// Builds the intrinsic mesh of clean faces. Lengths are divided by `unit` (> 0), so that what
