@@ -26,7 +26,7 @@ LaplacianChoice auto_laplacian(const MeshReport& mesh) {
   return {kind, "every inner edge is Delaunay"};
 }
 
-std::string mesh_in_words(const MeshReport& mesh) {
+std::string mesh_in_words(const MeshSummary& mesh) {
   return counted(mesh.vertices, "vertex", "vertices") + ", " +
          counted(mesh.faces, "face", "faces") + ", " +
          counted(mesh.components, "component", "components") + ", " +

@@ -18,7 +18,7 @@ struct LaplacianChoice {
 LaplacianChoice auto_laplacian(const MeshReport& mesh);
 
 /// "2,002 vertices, 4,000 faces, 1 component, no boundary".
-std::string mesh_in_words(const MeshReport& mesh);
+std::string mesh_in_words(const MeshSummary& mesh);
 
 /// What closes the cracks. Precondition: there are some.
 std::string crack_note(const CrackReport& cracks);

@@ -5,6 +5,7 @@
 
 #include "app/mesh_words.h"
 #include "app/nearest_sources.h"
+#include "app/process_clock.h"
 #include "app/resolve_sources.h"
 #include "solver/core/parallel.h"
 #include "solver/heat/heat_method.h"
@@ -122,6 +123,15 @@ Json offsets_json(const SourceSet& sources) {
   return json;
 }
 
+/// What the operators took, step by step.
+Json stages_json(const SetupTiming::Operators& stages) {
+  return {{"clean", stages.clean},
+          {"intrinsic", stages.intrinsic},
+          {"flips", stages.flips},
+          {"pattern", stages.pattern},
+          {"renumber", stages.renumber}};
+}
+
 Json error_json(const ErrorReport& report) {
   const DistanceError& e = report.figures;
   Json json = {{"reference", to_text(report.reference)},
@@ -143,7 +153,7 @@ Json error_json(const ErrorReport& report) {
 
 }  // namespace
 
-Json model_json(const std::string& name, const MeshReport& mesh) {
+Json model_json(const std::string& name, const MeshSummary& mesh) {
   return {{"name", name},
           {"vertices", mesh.vertices},
           {"faces", mesh.faces},
@@ -234,7 +244,10 @@ Json solve_json(const SolveFigures& f) {
                  {"diffuse", of_heat(query.diffuse)},
                  {"gradient", of_heat(query.gradient)},
                  {"poisson", of_heat(query.poisson)},
-                 {"query", query.query}}},
+                 {"query", query.query},
+                 {"report", f.report_ms},
+                 {"process", process_milliseconds()},
+                 {"stages", heat ? stages_json(setup.stages) : Json(nullptr)}}},
                {"memory_mb",
                 {{"factor", f.method->memory_mb()},
                  {"factor_forecast", heat ? Json(f.method->heat()->forecast_mb()) : Json(nullptr)},

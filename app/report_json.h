@@ -12,7 +12,7 @@ namespace geotherm::app {
 using Json = nlohmann::ordered_json;
 
 /// The keys of `model` that every report has.
-Json model_json(const std::string& name, const MeshReport& mesh);
+Json model_json(const std::string& name, const MeshSummary& mesh);
 
 /// Those and all others of the mesh report.
 Json full_model_json(const std::string& name, const MeshReport& mesh);

@@ -22,7 +22,7 @@ std::string ms(double value) { return milliseconds(value) + " ms"; }
 std::string mb(double value) { return milliseconds(value) + " MB"; }
 
 /// `refined`: the method's faces are not those of the mesh.
-std::string time_in_words(const HeatMethod& method, const MeshReport& mesh, bool refined) {
+std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, bool refined) {
   const TimeStep& step = method.options().time_step;
   const std::string factor = significant(step.factor);
   const auto [least, most] = method.t_range();
@@ -93,7 +93,7 @@ std::string residuals_in_words(const Quality& q) {
 
 /// The rows that only the heat method has.
 void add_heat_rows(TextTable& table, const SolveFigures& figures, const HeatMethod& method) {
-  const MeshReport& mesh = figures.mesh;
+  const MeshSummary& mesh = figures.mesh;
   const HeatOptions& options = method.options();
   table.add_row({"backend", figures.result.backend + ", " +
                                 counted(thread_count(options.threads), "thread", "threads")});

@@ -23,7 +23,7 @@ DistanceSummary summarize(std::span<const double> distances);
 /// All there is to say about one solve.
 struct SolveFigures {
   Model model;
-  MeshReport mesh;
+  MeshSummary mesh;
   std::shared_ptr<const DistanceMethod> method;
   MethodOptions options;
   SourceSet sources;
@@ -32,6 +32,7 @@ struct SolveFigures {
   double peak_rss_mb = 0;
   std::vector<std::string> warnings;
   std::optional<ErrorReport> error = {};  ///< where it was asked for
+  double report_ms = 0;                   ///< of what is said about the mesh, where it was timed
 };
 
 }  // namespace geotherm::app

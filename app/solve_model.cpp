@@ -6,6 +6,8 @@
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
 
@@ -29,7 +31,8 @@ Result<SolveFigures> solve_model(Model model, const MethodOptions& options,
   }
 
   const double peak = peak_rss_mb();  // of the solve, not of the report
-  const MeshReport mesh = inspect_mesh(*model.mesh);
+  const Stopwatch watch;
+  const MeshSummary mesh = summarize_mesh(*model.mesh, thread_count(options.threads));
   SolveFigures figures{std::move(model),
                        mesh,
                        *std::move(method),
@@ -39,6 +42,7 @@ Result<SolveFigures> solve_model(Model model, const MethodOptions& options,
                        {},
                        peak,
                        {}};
+  figures.report_ms = watch.milliseconds();
   figures.distance = summarize(figures.result.distances);
   const auto add_warnings = [&figures](const std::vector<std::string>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());

@@ -21,7 +21,7 @@ Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
   return {};
 }
 
-std::vector<std::string> unreached_notes(const MeshReport& mesh, Index unreached) {
+std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached) {
   std::vector<std::string> notes;
   const Index loose = mesh.unreferenced_vertices;
   if (loose > 0) {

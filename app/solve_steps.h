@@ -19,6 +19,6 @@ Error about_model(const std::string& name, const Error& error);
 Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh);
 
 /// One sentence for each reason why `unreached` vertices have no distance.
-std::vector<std::string> unreached_notes(const MeshReport& mesh, Index unreached);
+std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached);
 
 }  // namespace geotherm::app

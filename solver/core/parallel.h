@@ -53,29 +53,81 @@ void run_both(int threads, First&& first, Second&& second) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// How many pieces a range is best cut into for `threads`: none shorter than `grain`.
+inline int piece_count(int threads, std::int64_t count, std::int64_t grain) {
+  return static_cast<int>(
+      std::clamp<std::int64_t>(count / std::max<std::int64_t>(grain, 1), 1, std::max(threads, 1)));
+}
+
 /// Calls body(begin, end) on contiguous pieces of [0, count), one a thread, none shorter than
-/// `grain`; what threads the system does not have is done by the caller's. The body must not throw
-/// and must give the same result however the range is cut. Throws std::bad_alloc.
+/// `grain`; what threads the system does not have is done by the caller's. The body must give the
+/// same result however the range is cut. An exception of the body's is rethrown after all pieces
+/// have ended, the first piece's where there are several. Throws std::bad_alloc.
 template <class Body>
 void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& body) {
-  const std::int64_t pieces =
-      std::clamp<std::int64_t>(count / std::max<std::int64_t>(grain, 1), 1, std::max(threads, 1));
+  const int pieces = piece_count(threads, count, grain);
   if (pieces == 1) {
     body(std::int64_t{0}, count);
     return;
   }
-  std::vector<std::jthread> helpers;
-  helpers.reserve(static_cast<std::size_t>(pieces - 1));
-  std::int64_t begun = 1;
-  for (; begun < pieces; ++begun) {
-    auto helper = try_thread([&body, begun, pieces, count] {
-      body(count * begun / pieces, count * (begun + 1) / pieces);
-    });
-    if (!helper.joinable()) break;
-    helpers.push_back(std::move(helper));
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(pieces));
+  const auto run = [&](int piece, std::int64_t end) noexcept {
+    try {
+      body(count * piece / pieces, end);
+    } catch (...) {
+      failures[static_cast<std::size_t>(piece)] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    helpers.reserve(static_cast<std::size_t>(pieces - 1));
+    int begun = 1;
+    for (; begun < pieces; ++begun) {
+      auto helper =
+          try_thread([&run, begun, end = count * (begun + 1) / pieces] { run(begun, end); });
+      if (!helper.joinable()) break;
+      helpers.push_back(std::move(helper));
+    }
+    run(0, count / pieces);
+    if (begun < pieces) run(begun, count);
   }
-  body(std::int64_t{0}, count / pieces);
-  if (begun < pieces) body(count * begun / pieces, count);
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+/// Calls body(piece, begin, end) on the pieces of [0, count) cut into `pieces`, one a thread: for
+/// work in several passes over the same pieces. As parallel_for() otherwise.
+template <class Body>
+void for_pieces(int pieces, std::int64_t count, Body&& body) {
+  parallel_for(pieces, pieces, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t p = first; p < last; ++p) {
+      body(static_cast<int>(p), count * p / pieces, count * (p + 1) / pieces);
+    }
+  });
+}
+
+/// part(begin, end) of each block of a fixed length that [0, count) is cut into, to be added in
+/// this order: the same bits with any number of threads. Exceptions as of parallel_for().
+template <class Sum, class Part>
+std::vector<Sum> sums_of_blocks(int threads, std::int64_t count, Part&& part) {
+  constexpr std::int64_t kBlock = 8192;
+  const std::int64_t blocks = (count + kBlock - 1) / kBlock;
+  std::vector<Sum> sums(static_cast<std::size_t>(blocks));
+  parallel_for(threads, blocks, 2, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t b = first; b < last; ++b) {
+      sums[static_cast<std::size_t>(b)] = part(b * kBlock, std::min(count, (b + 1) * kBlock));
+    }
+  });
+  return sums;
+}
+
+/// The sum of part(begin, end) over such blocks.
+template <class Part>
+double parallel_sum(int threads, std::int64_t count, Part&& part) {
+  double total = 0;
+  for (const double sum : sums_of_blocks<double>(threads, count, part)) total += sum;
+  return total;
 }
 
 }  // namespace geotherm

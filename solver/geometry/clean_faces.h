@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "solver/mesh/corner_table.h"
 #include "solver/mesh/edge_table.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -10,13 +11,15 @@ namespace geotherm {
 
 /// The faces that can carry an operator, and what was left out.
 struct CleanFaces {
-  std::vector<Face> faces;      ///< no repeated corner, no face twice; orientation as consistent
-                                ///< as the surface allows
-  std::vector<Index> original;  ///< number of each face in the mesh
-  EdgeTable edges;              ///< of `faces`
-  Index repeated_corner = 0;    ///< faces dropped: two corners are one vertex
-  Index duplicate = 0;          ///< faces dropped: the same three vertices as an earlier one
-  Index reoriented = 0;         ///< faces turned round to agree with their neighbours
+  std::vector<Face> faces;        ///< no repeated corner, no face twice; orientation as consistent
+                                  ///< as the surface allows
+  std::vector<Index> original;    ///< number of each face in the mesh
+  CornerTable corners;            ///< of `faces`
+  EdgeTable edges;                ///< of `faces`
+  Index repeated_corner = 0;      ///< faces dropped: two corners are one vertex
+  Index duplicate = 0;            ///< faces dropped: the same three vertices as an earlier one
+  bool oriented_manifold = true;  ///< every edge has one face, or two that agree in orientation
+  Index reoriented = 0;           ///< faces turned round to agree with their neighbours
 };
 
 /// Whether two faces agree in orientation where they share an edge: the sides run opposite ways.
@@ -25,6 +28,6 @@ inline bool sides_agree(const std::vector<Face>& faces, Side a, Side b) {
 }
 
 /// Cost: O(F).
-CleanFaces clean_faces(const TriangleMesh& mesh);
+CleanFaces clean_faces(const TriangleMesh& mesh, int threads = 1);
 
 }  // namespace geotherm

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "solver/core/parallel.h"
 #include "solver/geometry/flip_diamond.h"
 
 namespace geotherm {
@@ -78,21 +80,41 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
 
 }  // namespace
 
-std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh) {
-  std::vector<Side> sides;
-  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
-    if (mesh.twin[side] > side && weight(mesh, side) < -kTolerance) sides.push_back(side);
+std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
+  constexpr std::int64_t kGrain = 1 << 15;  // sides a thread must have to be worth starting
+  const auto count = static_cast<std::int64_t>(mesh.twin.size());
+  const int pieces = piece_count(threads, count, kGrain);
+  std::vector<std::vector<Side>> found(static_cast<std::size_t>(pieces));
+  for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
+    for (auto side = static_cast<Side>(begin); side < static_cast<Side>(end); ++side) {
+      const Side other = mesh.twin[side];
+      if (other <= side) continue;
+      // Two angles of at most 90 degrees, as at most edges: their cotangents need not be known.
+      const bool in_doubt = may_be_obtuse(mesh.lengths[face_of(side)], corner_of(side)) ||
+                            may_be_obtuse(mesh.lengths[face_of(other)], corner_of(other));
+      if (in_doubt && weight(mesh, side) < -kTolerance) {
+        found[static_cast<std::size_t>(piece)].push_back(side);
+      }
+    }
+  });
+  std::vector<Side> sides = std::move(found.front());
+  for (std::size_t p = 1; p < found.size(); ++p) {
+    sides.insert(sides.end(), found[p].begin(), found[p].end());
   }
   return sides;
 }
 
-Index count_non_delaunay(const IntrinsicMesh& mesh) {
-  return static_cast<Index>(non_delaunay_sides(mesh).size());
+Index count_non_delaunay(const IntrinsicMesh& mesh, int threads) {
+  return static_cast<Index>(non_delaunay_sides(mesh, threads).size());
 }
 
 Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress) {
+  return flip_to_delaunay(mesh, non_delaunay_sides(mesh), progress);
+}
+
+Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, std::vector<Side> queue,
+                                           const Progress& progress) {
   std::vector<Flip> flips;
-  std::vector<Side> queue = non_delaunay_sides(mesh);
   // Each flip lowers the Dirichlet energy, so the loop ends; the bound guards against round-off.
   const std::size_t most = 100 * mesh.twin.size() + 1000;
   while (!queue.empty() && flips.size() < most) {

@@ -22,10 +22,10 @@ struct Flip {
 
 /// Number of edges whose cotangent weight is negative, that is, which are not Delaunay
 /// (Bobenko, Springborn 2007). Edges without twins do not count. Cost: O(F).
-Index count_non_delaunay(const IntrinsicMesh& mesh);
+Index count_non_delaunay(const IntrinsicMesh& mesh, int threads = 1);
 
-/// One side of each of these edges, ascending.
-std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh);
+/// The lower side of each of these edges, ascending.
+std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads = 1);
 
 /// Flips edges until every edge with twins is Delaunay; lengths change, the surface does not.
 /// Faces may afterwards share two sides or visit a vertex twice; the operators allow it.
@@ -33,6 +33,10 @@ std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh);
 /// 2006. Precondition: triangle inequalities are strict. Error: kCancelled, with the mesh valid and
 /// some of the flips made.
 Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress = {});
+
+/// The same where its non_delaunay_sides() are known. Cost: O(flips).
+Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, std::vector<Side> sides,
+                                           const Progress& progress = {});
 
 /// Carries a point of the unflipped mesh (face numbers before the flips) to the face and weights
 /// it has after them. Cost: O(flips), a few nanoseconds each.

@@ -8,6 +8,9 @@
 namespace geotherm {
 namespace {
 
+/// Vertices a thread must have to be worth starting.
+constexpr std::int64_t kGrain = 1 << 12;
+
 /// Share of a face's stiffness coupling that its mass coupling may take away.
 constexpr double kMostOfStiffness = 0.5;
 
@@ -15,38 +18,56 @@ constexpr double kMostOfStiffness = 0.5;
 
 FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
                          PerComponent stiffness_factor, std::vector<Index> held,
-                         PerComponent consistent_share)
+                         PerComponent consistent_share, int threads)
     : mesh_(std::move(mesh)),
       mass_factor_(mass_factor),
       stiffness_factor_(std::move(stiffness_factor)),
       consistent_share_(std::move(consistent_share)),
+      threads_(threads),
       held_(std::move(held)) {
   diagonal_.resize(static_cast<std::size_t>(size()));
-  for (Index i = 0; i < size(); ++i) {
-    const double stiff = stiffness_factor_.of(mesh_->components.of[i]);
-    diagonal_[i] = mass_factor_ * mesh_->mass[i] + stiff * mesh_->stiffness_diagonal[i];
-  }
-  if (consistent_share_.most() > 0) {
-    for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
-      const auto coupled = weights(f);
-      const auto plain = stiffness(mesh_->layout[f]);
-      const double stiff = of_face(stiffness_factor_, f);
-      for (int k = 0; k < 3; ++k) {
-        const double moved = coupled[k] + stiff * plain[k];
-        const Index a = mesh_->faces[f][k];
-        const Index b = mesh_->faces[f][next_corner(k)];
-        if (a == b) continue;
-        diagonal_[a] += moved;
-        diagonal_[b] += moved;
-      }
-    }
-  }
+  set_diagonal();
   if (held_.empty()) return;
   is_held_.assign(static_cast<std::size_t>(size()), 0);
   for (const Index i : held_) {
     is_held_[i] = 1;
     diagonal_[i] = 1;
   }
+}
+
+RawVector<double> FemOperator::side_weights() const {
+  RawVector<double> weight(3 * mesh_->faces.size());
+  parallel_for(threads_, mesh_->face_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
+      const std::array<double, 3> w = weights(f);
+      std::ranges::copy(w, weight.data() + 3 * f);
+    }
+  });
+  return weight;
+}
+
+/// Row sums are the masses; what a consistent mass gives the pairs of corners is theirs no more.
+void FemOperator::set_diagonal() {
+  const bool lumped = !(consistent_share_.most() > 0);
+  const RawVector<double> weight = lumped ? RawVector<double>() : side_weights();
+  parallel_for(threads_, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
+      const double mass = mass_factor_ * mesh_->mass[i];
+      if (lumped) {
+        const double stiff = stiffness_factor_.of(mesh_->components.of[i]);
+        diagonal_[i] = mass + stiff * mesh_->stiffness_diagonal[i];
+        continue;
+      }
+      double sum = 0;
+      for (const Side corner : mesh_->corners.at(i)) {
+        const Face& face = mesh_->faces[face_of(corner)];
+        const int k = corner_of(corner), before = previous_corner(k);
+        if (face[next_corner(k)] != i) sum += weight[corner];
+        if (face[before] != i) sum += weight[corner - k + before];
+      }
+      diagonal_[i] = mass + sum;
+    }
+  });
 }
 
 std::array<double, 3> FemOperator::weights(std::size_t face) const {
@@ -130,23 +151,40 @@ const LowerMatrix& FemOperator::assembled() const {
   if (!assembled_.value.empty()) return assembled_;
   assembled_.start = mesh_->lower.start;
   assembled_.row = mesh_->lower.row;
-  std::vector<double>& value = assembled_.value;
-  value.assign(assembled_.row.size(), 0.0);
-  for (std::size_t f = 0; f < mesh_->faces.size(); ++f) {
-    const std::array<double, 3> weight = weights(f);
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t entry = mesh_->entry[f][k];
-      if (entry >= 0) value[entry] -= weight[k];
+  const RawVector<double> weight = side_weights();
+  assembled_.value.resize(assembled_.row.size());
+  parallel_for(threads_, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
+      assemble_column(j, weight);
     }
-  }
-  for (Index j = 0; j < size(); ++j) {
-    value[assembled_.start[j]] = diagonal_[j];
-    if (is_held_.empty()) continue;
-    for (std::int64_t e = assembled_.start[j] + 1; e < assembled_.start[j + 1]; ++e) {
-      if (is_held_[j] || is_held_[assembled_.row[e]]) value[e] = 0;
-    }
-  }
+  });
   return assembled_;
+}
+
+/// Adds up what the faces at vertex j give its pairs with later vertices, in their order.
+void FemOperator::assemble_column(Index j, const RawVector<double>& weight) const {
+  const std::int64_t begin = assembled_.start[j];
+  const Index* const rows = assembled_.row.data() + begin;
+  double* const values = assembled_.value.data() + begin;
+  const auto count = static_cast<std::size_t>(assembled_.start[j + 1] - begin);
+  // Where a row stands is counted, and what belongs to earlier columns falls on the diagonal, which
+  // is set in the end: a processor would guess comparisons wrong.
+  const auto subtract = [&](Index row, Side side) {
+    std::size_t entry = 1;
+    for (std::size_t e = 1; e < count; ++e) entry += rows[e] < row ? 1 : 0;
+    values[row > j ? entry : 0] -= weight[side];
+  };
+  for (const Side corner : mesh_->corners.at(j)) {
+    const Face& face = mesh_->faces[face_of(corner)];
+    const int k = corner_of(corner), before = previous_corner(k);
+    subtract(face[next_corner(k)], corner);
+    subtract(face[before], corner - k + before);
+  }
+  values[0] = diagonal_[j];
+  if (is_held_.empty()) return;
+  for (std::size_t e = 1; e < count; ++e) {
+    if (is_held_[j] || is_held_[rows[e]]) values[e] = 0;
+  }
 }
 
 }  // namespace geotherm

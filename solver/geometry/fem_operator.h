@@ -20,10 +20,11 @@ namespace geotherm {
 /// no entry.
 class FemOperator final : public SymmetricOperator {
  public:
-  /// `held`: vertices in elimination numbering, in any order; empty for none.
+  /// `held`: vertices in elimination numbering, in any order; empty for none. `threads`: those that
+  /// set it up and assemble it; they change no bit.
   FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
               PerComponent stiffness_factor, std::vector<Index> held = {},
-              PerComponent consistent_share = 0.0);
+              PerComponent consistent_share = 0.0, int threads = 1);
 
   Index size() const override { return mesh_->size(); }
   void apply(std::span<const double> x, std::span<double> y) const override;
@@ -48,6 +49,10 @@ class FemOperator final : public SymmetricOperator {
   /// Weights of a face's pairs of corners: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   std::array<double, 3> weights(std::size_t face) const;
+  /// Those of all sides, by Side.
+  RawVector<double> side_weights() const;
+  void set_diagonal();
+  void assemble_column(Index j, const RawVector<double>& weight) const;
   double of_face(const PerComponent& factor, std::size_t face) const {
     return factor.same() ? factor.of(0) : factor.of(mesh_->components.of[mesh_->faces[face][0]]);
   }
@@ -55,6 +60,7 @@ class FemOperator final : public SymmetricOperator {
   std::shared_ptr<const OperatorMesh> mesh_;
   double mass_factor_;
   PerComponent stiffness_factor_, consistent_share_;
+  int threads_;
   std::vector<Index> held_;
   std::vector<char> is_held_;  ///< n, or empty when nothing is held
   std::vector<double> diagonal_;

@@ -4,8 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/core/parallel.h"
+
 namespace geotherm {
 namespace {
+
+/// Edges a thread must have to be worth starting.
+constexpr std::int64_t kGrain = 1 << 14;
 
 /// Four times the area by Kahan's formula, which stays accurate for needles: a >= b >= c.
 double four_areas(double a, double b, double c) {
@@ -18,32 +23,39 @@ double four_areas(double a, double b, double c) {
 
 }  // namespace
 
-double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges) {
-  double sum = 0;
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    sum += (positions[edges.low(e)] - positions[edges.high(e)]).stableNorm();
-  }
-  return edges.edge_count() > 0 ? sum / edges.edge_count() : 0.0;
+double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges, int threads) {
+  const Index count = edges.edge_count();
+  const double sum = parallel_sum(threads, count, [&](std::int64_t begin, std::int64_t end) {
+    double part = 0;
+    for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+      part += safe_norm(positions[edges.low(e)] - positions[edges.high(e)]);
+    }
+    return part;
+  });
+  return count > 0 ? sum / count : 0.0;
 }
 
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
-                                   double unit) {
+                                   double unit, int threads) {
   IntrinsicMesh mesh;
   mesh.unit = unit;
   mesh.faces = clean.faces;
   mesh.lengths.resize(mesh.faces.size());
-  mesh.twin.assign(3 * mesh.faces.size(), kNoSide);
-  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
-    // One value for all sides of an edge: they must agree to the last bit.
-    const double length =
-        ((positions[clean.edges.low(e)] - positions[clean.edges.high(e)]) / unit).norm();
-    const auto sides = clean.edges.sides(e);
-    for (const Side side : sides) mesh.lengths[face_of(side)][corner_of(side)] = length;
-    if (sides.size() != 2 || !sides_agree(mesh.faces, sides[0], sides[1])) continue;
-    mesh.twin[sides[0]] = sides[1];
-    mesh.twin[sides[1]] = sides[0];
-  }
-  mesh.mollified = mollify(mesh.lengths, clean);
+  mesh.twin.resize(3 * mesh.faces.size());
+  const EdgeTable& edges = clean.edges;
+  parallel_for(threads, edges.edge_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+      // One value for all sides of an edge: they must agree to the last bit.
+      const double length = ((positions[edges.low(e)] - positions[edges.high(e)]) / unit).norm();
+      const auto sides = edges.sides(e);
+      const bool twins = sides.size() == 2 && sides_agree(mesh.faces, sides[0], sides[1]);
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        mesh.lengths[face_of(sides[i])][corner_of(sides[i])] = length;
+        mesh.twin[sides[i]] = twins ? sides[1 - i] : kNoSide;
+      }
+    }
+  });
+  mesh.mollified = mollify(mesh.lengths, clean, threads);
   return mesh;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,23 @@ struct IntrinsicMesh {
   Index face_count() const { return static_cast<Index>(faces.size()); }
 };
 
-/// Mean length over the edges (each counted once), model units.
-double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges);
+/// Mean length over the edges (each counted once), model units; 0 where there are none. The same
+/// bits with any number of threads.
+double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges, int threads = 1);
+
+/// |v|, also where its square is out of the doubles' range. A vector scaled by a power of two has
+/// the norm scaled by that, to the last bit.
+inline double safe_norm(const Vec3& v) {
+  constexpr double kSafeLow = 1e-280, kSafeHigh = 1e280;
+  const double square = v.squaredNorm();
+  if (square > kSafeLow && square < kSafeHigh) return std::sqrt(square);
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !std::isfinite(largest)) return largest;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto scaled = [exponent](double x) { return std::ldexp(x, -exponent); };
+  return std::ldexp(Vec3(scaled(v[0]), scaled(v[1]), scaled(v[2])).norm(), exponent);
+}
 
 /// Builds the intrinsic mesh of clean faces. Lengths are divided by `unit` (> 0), so that what
 /// follows sees numbers of order 1 at any scale. Faces that are degenerate or nearly so are
@@ -39,7 +55,7 @@ double mean_edge_length(std::span<const Vec3> positions, const EdgeTable& edges)
 /// orientation, get no twins.
 /// Cost: O(F).
 IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanFaces& clean,
-                                   double unit);
+                                   double unit, int threads = 1);
 
 /// A triangle laid out in its own plane: corner 0 at the origin, corner 1 at (base, 0), corner 2
 /// at (x, height), height > 0.
@@ -50,5 +66,12 @@ FaceLayout lay_out(const std::array<double, 3>& lengths);
 
 /// Twice the cotangent weight of a side's own face: the cotangent of the angle opposite to it.
 double opposite_cotangent(const std::array<double, 3>& lengths, int side);
+
+/// Whether that is negative beyond doubt or round-off: false only where the angle is at most a
+/// right one. Costs no root.
+inline bool may_be_obtuse(const std::array<double, 3>& l, int side) {
+  const double a = l[side], b = l[next_corner(side)], c = l[previous_corner(side)];
+  return !(b * b + (c - a) * (c + a) >= 0);
+}
 
 }  // namespace geotherm

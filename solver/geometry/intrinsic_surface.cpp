@@ -5,10 +5,15 @@
 #include <cmath>
 
 #include "solver/core/number_text.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
+
+/// Faces a thread must have to be worth starting.
+constexpr std::int64_t kGrain = 1 << 15;
 
 void note_mollification(const IntrinsicMesh& intrinsic, std::vector<std::string>& warnings) {
   const Mollification& mollified = intrinsic.mollified;
@@ -72,48 +77,63 @@ std::vector<std::string> cleaning_notes(const CleanFaces& clean) {
   return notes;
 }
 
-void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface) {
+void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface, int threads) {
   surface.clean_of_face.assign(static_cast<std::size_t>(surface.mesh->face_count()), kNoIndex);
-  for (std::size_t c = 0; c < clean.original.size(); ++c) {
-    surface.clean_of_face[clean.original[c]] = static_cast<Index>(c);
-  }
-  surface.on_surface.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), 0);
-  for (const Face& face : clean.faces) {
-    for (const Index corner : face) surface.on_surface[corner] = 1;
+  surface.on_surface.resize(static_cast<std::size_t>(surface.mesh->vertex_count()));
+  parallel_for(threads, static_cast<std::int64_t>(clean.original.size()), kGrain,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t c = begin; c < end; ++c) {
+                   const Index original = clean.original[static_cast<std::size_t>(c)];
+                   surface.clean_of_face[original] = static_cast<Index>(c);
+                 }
+               });
+  for (Index v = 0; v < surface.mesh->vertex_count(); ++v) {
+    surface.on_surface[v] = clean.corners.at(v).empty() ? 0 : 1;
   }
   surface.clean_faces = std::move(clean.faces);
   surface.clean_edges = std::move(clean.edges);
+  surface.corners = std::move(clean.corners);
 }
 
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                  FlipRule rule, const Progress& progress,
-                                                 CoverRule cover) {
+                                                 CoverRule cover, int threads) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
+  Stopwatch watch;
   IntrinsicSurface out;
   out.mesh = std::move(mesh);
-  CleanFaces clean = clean_faces(*out.mesh);
+  CleanFaces clean = clean_faces(*out.mesh, threads);
   const auto positions = out.mesh->positions();
-  out.mean_edge = mean_edge_length(positions, clean.edges);
+  out.times.clean = watch.lap();
+  out.mean_edge = mean_edge_length(positions, clean.edges, threads);
   if (const auto valid = check_mean_edge(*out.mesh, clean, out.mean_edge); !valid) {
     return valid.error();
   }
   if (!report(progress, "operators", 0.5)) return cancelled_error();
-  out.intrinsic = build_intrinsic_mesh(positions, clean, out.mean_edge);
+  out.intrinsic = build_intrinsic_mesh(positions, clean, out.mean_edge, threads);
   out.warnings = cleaning_notes(clean);
   note_mollification(out.intrinsic, out.warnings);
-  const std::vector<char> doubled = faces_to_double(clean, out.mesh->vertex_count(), cover);
+  const Index vertices = out.mesh->vertex_count();
+  const std::vector<char> doubled = faces_to_double(clean, vertices, cover);
   out.tufted = !doubled.empty();
   if (out.tufted) make_tufted_cover(out.intrinsic, positions, clean, doubled);
 
-  out.delaunay = rule == FlipRule::kAlways ||
-                 (rule == FlipRule::kWhereNeeded && count_non_delaunay(out.intrinsic) > 0);
   if (!report(progress, "operators", 0.75)) return cancelled_error();
-  if (out.delaunay) {
-    auto flips = flip_to_delaunay(out.intrinsic, part_of(progress, 0.75, 1.0));
+  out.times.intrinsic = watch.lap();
+  std::vector<Side> sides;
+  if (rule != FlipRule::kNever) sides = non_delaunay_sides(out.intrinsic, threads);
+  out.delaunay = rule == FlipRule::kAlways || !sides.empty();
+  if (!sides.empty()) {
+    auto flips = flip_to_delaunay(out.intrinsic, std::move(sides), part_of(progress, 0.75, 1.0));
     if (!flips) return flips.error();
     out.flips = std::move(*flips);
   }
-  keep_clean_faces(std::move(clean), out);
+  out.times.flips = watch.lap();
+  keep_clean_faces(std::move(clean), out, threads);
+  if (!out.flips.empty() || out.tufted) {
+    out.corners = CornerTable(vertices, out.intrinsic.faces, threads);
+  }
+  out.times.clean += watch.lap();
   return out;
 }
 

@@ -31,25 +31,34 @@ struct IntrinsicSurface {
   std::vector<Index> clean_of_face;  ///< F of the mesh: number in clean_faces, or kNoIndex
   std::vector<char> on_surface;      ///< V: the vertex is a corner of a clean face
   IntrinsicMesh intrinsic;           ///< after flips; its vertices are the mesh's
+  CornerTable corners;               ///< of intrinsic.faces; for the set-up, which may drop it
   std::vector<Flip> flips;
   bool delaunay = false;  ///< flips were asked for or needed
   bool tufted = false;    ///< some component is its tufted cover
   double mean_edge = 0;   ///< of the mesh, model units; also the unit of `intrinsic`
   std::vector<std::string> warnings;
+
+  struct Times {           ///< milliseconds
+    double clean = 0;      ///< faces, edges, orientation
+    double intrinsic = 0;  ///< lengths, mollification, cover
+    double flips = 0;      ///< looking for edges to flip, and flips
+  } times;
 };
 
 /// `progress` is asked as stage "operators". Errors: kBadInput (no face with area, edges that
-/// cannot be added up), kCancelled. Cost: O(F + flips).
+/// cannot be added up), kCancelled. The same bits with any number of threads. Cost: O(F + flips).
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                  FlipRule rule, const Progress& progress = {},
-                                                 CoverRule cover = CoverRule::kNever);
+                                                 CoverRule cover = CoverRule::kNever,
+                                                 int threads = 1);
 
 /// What was left out, one sentence each.
 std::vector<std::string> cleaning_notes(const CleanFaces& clean);
 
-/// Sets clean_faces, clean_edges, clean_of_face and on_surface; sources are checked and placed with
-/// these, `mesh` and `mean_edge` alone. Precondition: `clean` is of surface.mesh.
-void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface);
+/// Sets clean_faces, clean_edges, clean_of_face, on_surface and corners (of clean_faces); sources
+/// are checked and placed with these, `mesh` and `mean_edge` alone. Precondition: `clean` is of
+/// surface.mesh.
+void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface, int threads = 1);
 
 /// Whether every source lies on the surface. Errors (kBadInput, with the numbers): no source, a
 /// vertex or face out of range, a vertex in no face, bad weights, a face that was left out, an edge

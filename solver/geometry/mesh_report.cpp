@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/mesh_report.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,14 +9,13 @@
 #include "solver/core/disjoint_sets.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
+#include "solver/geometry/face_shape.h"
 #include "solver/geometry/intrinsic_mesh.h"
+#include "solver/geometry/mesh_summary.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
-
-/// Height over longest side below which a face has no usable area.
-constexpr double kFlat = 1e-10;
 
 /// Counts the different roots of the vertices that `marked` holds.
 Index count_sets(DisjointSets& sets, const std::vector<char>& marked) {
@@ -28,35 +26,29 @@ Index count_sets(DisjointSets& sets, const std::vector<char>& marked) {
   return count;
 }
 
-/// Fills in vertices in use, components and what follows from the edges.
+/// Fills in what follows from the edges.
 void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   const auto n = static_cast<std::size_t>(mesh.vertex_count());
   std::vector<char> used(n, 0), on_boundary(n, 0);
-  DisjointSets pieces(n), borders(n), patches(clean.faces.size());
+  DisjointSets borders(n), patches(clean.faces.size());
   for (const Face& face : clean.faces) {
     for (const Index corner : face) used[corner] = 1;
-    pieces.join(face[0], face[1]);
-    pieces.join(face[1], face[2]);
   }
   const EdgeTable& edges = clean.edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     const auto sides = edges.sides(e);
-    report.nonmanifold_edges += sides.size() > 2;
     for (const Side side : sides) patches.join(face_of(sides[0]), face_of(side));
     if (sides.size() == 2) report.orientable &= sides_agree(clean.faces, sides[0], sides[1]);
     if (sides.size() != 1) continue;
-    ++report.boundary_edges;
     borders.join(edges.low(e), edges.high(e));
     on_boundary[edges.low(e)] = on_boundary[edges.high(e)] = 1;
   }
   const auto in_use = static_cast<Index>(std::count(used.begin(), used.end(), 1));
   report.edges = edges.edge_count();
-  report.components = count_sets(pieces, used);
   report.edge_components = count_sets(patches, std::vector<char>(clean.faces.size(), 1));
   report.boundary_loops = count_sets(borders, on_boundary);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     report.merged_vertices += mesh.standing_for(v) != v;
-    report.unreferenced_vertices += !used[mesh.standing_for(v)];
   }
   report.euler_characteristic =
       std::int64_t{in_use} - edges.edge_count() + static_cast<std::int64_t>(clean.faces.size());
@@ -102,27 +94,7 @@ Index count_duplicate_positions(const TriangleMesh& mesh) {
   return count;
 }
 
-/// A triangle by its sides over the longest of them, which is 0 where all corners are one point.
-struct Shape {
-  std::array<Vec3, 3> side;  ///< from corner k to the next
-  double longest = 0;        ///< model units
-  double squares = 0;        ///< sum of the squared sides
-  double doubled = 0;        ///< area times two
-
-  explicit Shape(const std::array<Vec3, 3>& corners) {
-    for (int k = 0; k < 3; ++k) {
-      side[k] = corners[next_corner(k)] - corners[k];
-      longest = std::max(longest, side[k].stableNorm());
-    }
-    if (!(longest > 0)) return;
-    for (Vec3& s : side) squares += (s /= longest).squaredNorm();
-    doubled = side[0].cross(side[1]).norm();
-  }
-
-  double quality() const { return 2 * std::numbers::sqrt3 * doubled / squares; }
-};
-
-/// Lengths, areas and angles.
+/// Extent, qualities and angles.
 void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   double quality = 0, angle = std::numbers::pi;
   report.box_min.setConstant(std::numeric_limits<double>::infinity());
@@ -136,12 +108,9 @@ void inspect_shapes(const TriangleMesh& mesh, const CleanFaces& clean, MeshRepor
     }
     const Shape shape(corners);
     if (!(shape.longest > 0)) {
-      ++report.degenerate_faces;
       angle = 0;
       continue;
     }
-    report.degenerate_faces += shape.doubled < kFlat;
-    report.area += 0.5 * shape.doubled * shape.longest * shape.longest;
     quality += shape.quality();
     for (int k = 0; k < 3; ++k) {
       const double cosine = -shape.side[k].dot(shape.side[previous_corner(k)]);
@@ -162,11 +131,9 @@ Index count_flagged(const CleanFaces& clean, Index vertex_count, const std::vect
 }
 
 void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, MeshReport& report) {
-  report.mean_edge_length = mean_edge_length(positions, clean.edges);
   report.shortest_edge = std::numeric_limits<double>::infinity();
   for (Index e = 0; e < clean.edges.edge_count(); ++e) {
-    const double length =
-        (positions[clean.edges.low(e)] - positions[clean.edges.high(e)]).stableNorm();
+    const double length = safe_norm(positions[clean.edges.low(e)] - positions[clean.edges.high(e)]);
     report.shortest_edge = std::min(report.shortest_edge, length);
     report.longest_edge = std::max(report.longest_edge, length);
   }
@@ -189,9 +156,8 @@ double triangle_quality(const std::array<Vec3, 3>& corners) {
 MeshReport inspect_mesh(const TriangleMesh& mesh) {
   const CleanFaces clean = clean_faces(mesh);
   MeshReport report;
-  report.vertices = mesh.vertex_count();
-  report.faces = mesh.face_count();
-  report.repeated_corner_faces = report.degenerate_faces = clean.repeated_corner;
+  static_cast<MeshSummary&>(report) = summarize_clean_faces(mesh, clean, 1);
+  report.repeated_corner_faces = clean.repeated_corner;
   report.duplicate_faces = clean.duplicate;
   report.inconsistent_faces = clean.reoriented;
   report.duplicate_positions = count_duplicate_positions(mesh);

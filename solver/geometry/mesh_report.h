@@ -9,43 +9,50 @@
 
 namespace geotherm {
 
-/// What a mesh is and what is wrong with it. Edges, components and lengths are those of the faces
-/// the operators are built on (CleanFaces): no repeated corner, no face twice.
-struct MeshReport {
-  Index vertices = 0, faces = 0;  ///< as in the file
-  Index edges = 0;
-  Index components = 0;       ///< sets of faces connected through shared vertices
-  Index edge_components = 0;  ///< the same through shared edges
+/// What a mesh is, in a few numbers. Edges, components and lengths are those of the faces the
+/// operators are built on (CleanFaces): no repeated corner, no face twice.
+struct MeshSummary {
+  Index vertices = 0, faces = 0;    ///< as in the file
+  Index components = 0;             ///< sets of faces connected through shared vertices
+  Index boundary_edges = 0;         ///< edges with one face
+  Index nonmanifold_edges = 0;      ///< edges with three faces or more
+  Index degenerate_faces = 0;       ///< repeated corner, or height below 1e-10 of the longest side
+  Index unreferenced_vertices = 0;  ///< in none of the faces, nor is what stands for them
+  double mean_edge_length = 0;      ///< model units
+  double area = 0;                  ///< model units squared
+};
 
-  Index boundary_edges = 0;        ///< edges with one face
+/// What a mesh is and what is wrong with it.
+struct MeshReport : MeshSummary {
+  Index edges = 0;
+  Index edge_components = 0;       ///< sets of faces connected through shared edges
   Index boundary_loops = 0;        ///< connected pieces of the boundary; holes that touch are one
-  Index nonmanifold_edges = 0;     ///< edges with three faces or more
   Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan
 
-  Index degenerate_faces = 0;       ///< repeated corner, or height below 1e-10 of the longest side
-  Index repeated_corner_faces = 0;  ///< those of them with a repeated corner
-  Index duplicate_faces = 0;        ///< the same three vertices as an earlier face
-  Index unreferenced_vertices = 0;  ///< in none of the faces, nor is what stands for them
-  Index merged_vertices = 0;        ///< that another one stands for (TriangleMesh::same_as())
-  Index duplicate_positions = 0;    ///< vertices that lie exactly where an earlier one does
-  Index inconsistent_faces = 0;     ///< faces to be turned so that neighbours agree
-  bool orientable = true;           ///< after turning them, all neighbours agree
-  Index non_delaunay_edges = 0;     ///< edges with a negative cotangent weight
-  Index tufted_components = 0;      ///< that are no oriented manifold along all their edges
-  Mollification mollified;          ///< what will be added to edges, model units
+  Index repeated_corner_faces = 0;        ///< of the degenerate faces those with a repeated corner
+  Index duplicate_faces = 0;              ///< the same three vertices as an earlier face
+  Index merged_vertices = 0;              ///< that another one stands for (TriangleMesh::same_as())
+  Index duplicate_positions = 0;          ///< vertices that lie exactly where an earlier one does
+  Index inconsistent_faces = 0;           ///< faces to be turned so that neighbours agree
+  bool orientable = true;                 ///< after turning them, all neighbours agree
+  Index non_delaunay_edges = 0;           ///< edges with a negative cotangent weight
+  Index tufted_components = 0;            ///< that are no oriented manifold along all their edges
+  Mollification mollified;                ///< what will be added to edges, model units
   std::int64_t euler_characteristic = 0;  ///< V - E + F, of what the faces use
 
-  double mean_edge_length = 0, shortest_edge = 0, longest_edge = 0;  ///< model units
-  double area = 0;                                                   ///< model units squared
-  Vec3 box_min = Vec3::Zero(), box_max = Vec3::Zero();               ///< of the faces' vertices
-  double smallest_angle = 0;                                         ///< degrees
+  double shortest_edge = 0, longest_edge = 0;           ///< model units
+  Vec3 box_min = Vec3::Zero(), box_max = Vec3::Zero();  ///< of the faces' vertices
+  double smallest_angle = 0;                            ///< degrees
   double mean_quality = 0;  ///< mean of 4 sqrt(3) area / (sum of squared sides); 1: equilateral
 };
 
 /// 4 sqrt(3) area / (sum of squared sides): 1 for an equilateral triangle, 0 for one without area.
 double triangle_quality(const std::array<Vec3, 3>& corners);
 
-/// Cost: O(F), and sorting the positions.
+/// The same bits with any number of threads. Cost: O(F).
+MeshSummary summarize_mesh(const TriangleMesh& mesh, int threads = 1);
+
+/// Cost: O(F), several times that of the summary, and sorting the positions.
 MeshReport inspect_mesh(const TriangleMesh& mesh);
 
 }  // namespace geotherm

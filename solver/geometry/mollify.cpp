@@ -2,7 +2,9 @@
 #include "solver/geometry/mollify.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "solver/core/parallel.h"
 #include "solver/geometry/face_components.h"
 
 namespace geotherm {
@@ -35,10 +37,21 @@ double addition(const Lengths& l) {
   return std::max(0.0, most / (1 - kStrict));  // the longest side grows as well
 }
 
-std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths) {
-  std::vector<Index> out;
-  for (std::size_t f = 0; f < lengths.size(); ++f) {
-    if (addition(lengths[f]) > 0) out.push_back(static_cast<Index>(f));
+std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, int threads) {
+  constexpr std::int64_t kGrain = 1 << 15;  // faces a thread must have to be worth starting
+  const auto count = static_cast<std::int64_t>(lengths.size());
+  const int pieces = piece_count(threads, count, kGrain);
+  std::vector<std::vector<Index>> found(static_cast<std::size_t>(pieces));
+  for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f) {
+      if (addition(lengths[static_cast<std::size_t>(f)]) > 0) {
+        found[static_cast<std::size_t>(piece)].push_back(static_cast<Index>(f));
+      }
+    }
+  });
+  std::vector<Index> out = std::move(found.front());
+  for (std::size_t p = 1; p < found.size(); ++p) {
+    out.insert(out.end(), found[p].begin(), found[p].end());
   }
   return out;
 }
@@ -119,9 +132,9 @@ void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& comp
 
 }  // namespace
 
-Mollification mollify(std::vector<Lengths>& lengths, const CleanFaces& clean) {
+Mollification mollify(std::vector<Lengths>& lengths, const CleanFaces& clean, int threads) {
   Mollification out;
-  const std::vector<Index> failing = faces_that_fail(lengths);
+  const std::vector<Index> failing = faces_that_fail(lengths, threads);
   if (failing.empty()) return out;
   Index vertices = 0;
   for (const Face& face : clean.faces) {

@@ -25,6 +25,7 @@ struct Mollification {
 ///
 /// `lengths`: F x 3, the same for all sides of an edge, in units of about their mean.
 /// Cost: O(F), and a few visits of each failing face.
-Mollification mollify(std::vector<std::array<double, 3>>& lengths, const CleanFaces& clean);
+Mollification mollify(std::vector<std::array<double, 3>>& lengths, const CleanFaces& clean,
+                      int threads = 1);
 
 }  // namespace geotherm

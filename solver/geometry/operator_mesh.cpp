@@ -3,32 +3,15 @@
 
 #include <algorithm>
 
+#include "solver/core/counting_sort.h"
+#include "solver/core/parallel.h"
+#include "solver/core/raw_vector.h"
+
 namespace geotherm {
 namespace {
 
-/// Lower triangle of the permuted pattern, the diagonal first in each column.
-LowerMatrix lower_pattern(const SymmetricPattern& pattern) {
-  LowerMatrix lower;
-  lower.start.reserve(pattern.start.size());
-  lower.row.reserve(pattern.neighbor.size() / 2 + static_cast<std::size_t>(pattern.size()));
-  lower.start.push_back(0);
-  for (Index j = 0; j < pattern.size(); ++j) {
-    lower.row.push_back(j);
-    for (const Index i : pattern.neighbors(j)) {
-      if (i > j) lower.row.push_back(i);
-    }
-    lower.start.push_back(static_cast<std::int64_t>(lower.row.size()));
-  }
-  return lower;
-}
-
-std::int64_t find_entry(const LowerMatrix& lower, Index a, Index b) {
-  if (a == b) return -1;
-  const Index column = std::min(a, b);
-  const auto begin = lower.row.begin() + lower.start[column];
-  const auto end = lower.row.begin() + lower.start[column + 1];
-  return std::lower_bound(begin, end, std::max(a, b)) - lower.row.begin();
-}
+/// Faces or vertices a thread must have to be worth starting.
+constexpr std::int64_t kGrain = 1 << 13;
 
 /// Rows of a range: some 0.1 ms of work for a pass over its faces, several times what it takes to
 /// start a thread. Eliminated one after the other, they are a patch or a few: 2 to 5 % of the faces
@@ -41,11 +24,11 @@ Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1,
 
 /// Brings the faces that cross from one range of rows to another to the end; all stay in order
 /// otherwise. Gives the ranges.
-std::vector<FaceRange> part_by_ranges(const std::vector<Face>& faces, Index size,
-                                      std::vector<Index>& sorted) {
+std::vector<FaceRange> part_by_ranges(const RawVector<Face>& faces, Index size,
+                                      RawVector<Index>& sorted) {
   const Index count = range_count(size);
   std::vector<FaceRange> ranges;
-  std::vector<Index> parted, crossing;
+  RawVector<Index> parted, crossing;
   parted.reserve(sorted.size());
   std::size_t next = 0;
   for (Index r = 0; r < count; ++r) {
@@ -65,87 +48,111 @@ std::vector<FaceRange> part_by_ranges(const std::vector<Face>& faces, Index size
   return ranges;
 }
 
-/// Face numbers sorted by their earliest vertex: a walk over the faces then stays in a small
-/// window of vertices.
-std::vector<Index> faces_in_order(const std::vector<Face>& faces, Index size) {
-  std::vector<Index> start(static_cast<std::size_t>(size) + 1, 0);
-  const auto earliest = [](const Face& f) { return std::min({f[0], f[1], f[2]}); };
-  for (const Face& face : faces) ++start[earliest(face) + 1];
-  for (Index i = 0; i < size; ++i) start[i + 1] += start[i];
-  std::vector<Index> sorted(faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    sorted[start[earliest(faces[f])]++] = static_cast<Index>(f);
+/// Builds the parts of an OperatorMesh one after the other, each by all threads.
+class Builder {
+ public:
+  Builder(const IntrinsicMesh& mesh, std::span<const Index> local, std::span<const Index> order,
+          int threads, OperatorMesh& out)
+      : mesh_(mesh), threads_(threads), size_(order.size()), out_(out) {
+    const std::vector<Index> position = inverse_permutation(order, threads);
+    RawVector<Index> name(local.size());
+    for_each(name.size(), [&](std::size_t v) {
+      name[v] = local[v] == kNoIndex ? kNoIndex : position[local[v]];
+    });
+    renamed_.resize(mesh.faces.size());
+    for_each(renamed_.size(), [&](std::size_t f) {
+      for (int k = 0; k < 3; ++k) renamed_[f][k] = name[mesh.faces[f][k]];
+    });
   }
-  return sorted;
-}
 
-void list_incident_faces(OperatorMesh& mesh) {
-  mesh.incident_start.assign(static_cast<std::size_t>(mesh.size()) + 1, 0);
-  for (const Face& face : mesh.faces) {
-    for (const Index corner : face) ++mesh.incident_start[corner + 1];
+  /// Sorts the faces by their earliest vertex: a walk over them then stays in a small window of
+  /// vertices.
+  void sort_faces() {
+    out_.intrinsic_face = sorted_by_key(renamed_.size(), size_, threads_, [this](std::size_t f) {
+      return std::min({renamed_[f][0], renamed_[f][1], renamed_[f][2]});
+    });
+    out_.ranges = part_by_ranges(renamed_, static_cast<Index>(size_), out_.intrinsic_face);
+    out_.crossing = out_.ranges.back().end_face;
+    out_.faces.resize(renamed_.size());
+    out_.layout.resize(renamed_.size());
+    for_each(renamed_.size(), [&](std::size_t f) {
+      const Index source = out_.intrinsic_face[f];
+      out_.faces[f] = renamed_[source];
+      out_.layout[f] = lay_out(mesh_.lengths[source]);
+    });
+    out_.corners = CornerTable(static_cast<Index>(size_), out_.faces, threads_);
   }
-  for (Index i = 0; i < mesh.size(); ++i) mesh.incident_start[i + 1] += mesh.incident_start[i];
-  std::vector<Index> cursor(mesh.incident_start.begin(), mesh.incident_start.end() - 1);
-  mesh.incident.resize(3 * mesh.faces.size());
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    for (const Index corner : mesh.faces[f]) mesh.incident[cursor[corner]++] = f;
+
+  /// Every vertex adds up what its faces give it, in their order.
+  void add_up_faces() {
+    out_.mass.resize(size_);
+    out_.stiffness_diagonal.resize(size_);
+    for_each(size_, [&](std::size_t i) {
+      double mass = 0, diagonal = 0;
+      for (const Side corner : out_.corners.at(static_cast<Index>(i))) {
+        const Index f = face_of(corner);
+        const int k = corner_of(corner), before = previous_corner(k);
+        const FaceLayout& p = out_.layout[f];
+        const std::array<double, 3> weight = stiffness(p);
+        mass += p.base * p.height / 6;
+        // A side may join a vertex with itself.
+        if (out_.faces[f][next_corner(k)] != out_.faces[f][k]) diagonal -= weight[k];
+        if (out_.faces[f][before] != out_.faces[f][k]) diagonal -= weight[before];
+      }
+      out_.mass[i] = mass;
+      out_.stiffness_diagonal[i] = diagonal;
+    });
   }
-}
+
+  /// `parts`: components of the pattern, which the elimination order numbers anew.
+  void name_components(const Components& parts, std::span<const Index> order) {
+    out_.components.count = parts.count;
+    out_.components.of.assign(size_, 0);
+    if (parts.count > 1) {
+      std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+      Index named = 0;
+      for (std::size_t k = 0; k < size_; ++k) {
+        Index& here = name[parts.of[order[k]]];
+        if (here == kNoIndex) here = named++;
+        out_.components.of[k] = here;
+      }
+    }
+    out_.doubled.assign(static_cast<std::size_t>(parts.count), 0);
+    for (std::size_t f = 0; f < out_.faces.size() && !mesh_.back.empty(); ++f) {
+      const bool is_back = static_cast<std::size_t>(out_.intrinsic_face[f]) >= mesh_.back.size();
+      if (is_back) out_.doubled[out_.components.of[out_.faces[f][0]]] = 1;
+    }
+  }
+
+ private:
+  template <class Work>
+  void for_each(std::size_t count, const Work& work) const {
+    parallel_for(threads_, static_cast<std::int64_t>(count), kGrain,
+                 [&](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t i = begin; i < end; ++i) work(static_cast<std::size_t>(i));
+                 });
+  }
+
+  const IntrinsicMesh& mesh_;
+  int threads_;
+  std::size_t size_;
+  OperatorMesh& out_;
+  RawVector<Face> renamed_;  ///< the mesh's faces in elimination numbers
+};
 
 }  // namespace
-
-std::array<double, 3> stiffness(const FaceLayout& p) {
-  const double w12 = -p.x / (2 * p.height);
-  const double w20 = (p.x - p.base) / (2 * p.height);
-  const double w01 = (p.x * (p.base - p.x) / p.height - p.height) / (2 * p.base);
-  return {w01, w12, w20};
-}
 
 std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mesh,
                                                         const SymmetricPattern& pattern,
                                                         std::span<const Index> local,
-                                                        std::span<const Index> order) {
+                                                        std::span<const Index> order, int threads) {
   auto out = std::make_shared<OperatorMesh>();
-  const SymmetricPattern ordered = permuted(pattern, order);
-  const std::vector<Index> position = inverse_permutation(order);
-  out->pattern = pattern_hash(ordered);
-  out->components = connected_components(ordered);
-  out->lower = lower_pattern(ordered);
-
-  const auto count = mesh.faces.size();
-  std::vector<Face> renamed(count);
-  for (std::size_t f = 0; f < count; ++f) {
-    for (int k = 0; k < 3; ++k) renamed[f][k] = position[local[mesh.faces[f][k]]];
-  }
-  out->intrinsic_face = faces_in_order(renamed, pattern.size());
-  out->ranges = part_by_ranges(renamed, pattern.size(), out->intrinsic_face);
-  out->crossing = out->ranges.back().end_face;
-  out->faces.resize(count);
-  out->layout.resize(count);
-  out->entry.resize(count);
-  out->mass.assign(order.size(), 0.0);
-  out->stiffness_diagonal.assign(order.size(), 0.0);
-  for (std::size_t f = 0; f < count; ++f) {
-    const Index source = out->intrinsic_face[f];
-    const Face& face = out->faces[f] = renamed[source];
-    const FaceLayout& p = out->layout[f] = lay_out(mesh.lengths[source]);
-    const std::array<double, 3> weight = stiffness(p);
-    for (int k = 0; k < 3; ++k) {
-      out->mass[face[k]] += p.base * p.height / 6;
-      const Index a = face[k];
-      const Index b = face[next_corner(k)];
-      out->entry[f][k] = find_entry(out->lower, a, b);
-      if (a == b) continue;
-      out->stiffness_diagonal[a] -= weight[k];
-      out->stiffness_diagonal[b] -= weight[k];
-    }
-  }
-  list_incident_faces(*out);
-  out->doubled.assign(static_cast<std::size_t>(out->components.count), 0);
-  for (std::size_t f = 0; f < count && !mesh.back.empty(); ++f) {
-    const bool is_back = static_cast<std::size_t>(out->intrinsic_face[f]) >= mesh.back.size();
-    if (is_back) out->doubled[out->components.of[out->faces[f][0]]] = 1;
-  }
+  out->lower = permuted_lower(pattern, order, threads);
+  out->pattern = pattern_hash(out->lower, threads);
+  Builder builder(mesh, local, order, threads, *out);
+  builder.sort_faces();
+  builder.add_up_faces();
+  builder.name_components(connected_components(pattern), order);
   return out;
 }
 

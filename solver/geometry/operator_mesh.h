@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
+#include <ranges>
 #include <vector>
 
+#include "solver/core/raw_vector.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/linear/symmetric_operator.h"
 #include "solver/linear/symmetric_pattern.h"
+#include "solver/mesh/corner_table.h"
 
 namespace geotherm {
 
@@ -20,27 +24,24 @@ struct FaceRange {
 /// The surface as the solvers walk it: vertices in elimination order, faces sorted to follow them,
 /// each face laid out in its own plane. Lengths are in units of IntrinsicMesh::unit.
 struct OperatorMesh {
-  std::vector<Face> faces;                 ///< F x 3, elimination numbers
-  std::vector<FaceLayout> layout;          ///< F
-  std::vector<Index> intrinsic_face;       ///< F: number of the face in the IntrinsicMesh
-  std::vector<FaceRange> ranges;           ///< all rows, in order; the same for every thread count
-  Index crossing = 0;                      ///< faces from here on have corners in several ranges
-  std::vector<double> mass;                ///< n: a third of the incident areas, > 0
-  std::vector<double> stiffness_diagonal;  ///< n: diagonal of L
-  Components components;                   ///< of the vertices
+  RawVector<Face> faces;                 ///< F x 3, elimination numbers
+  RawVector<FaceLayout> layout;          ///< F
+  RawVector<Index> intrinsic_face;       ///< F: number of the face in the IntrinsicMesh
+  std::vector<FaceRange> ranges;         ///< all rows, in order; the same for every thread count
+  Index crossing = 0;                    ///< faces from here on have corners in several ranges
+  RawVector<double> mass;                ///< n: a third of the incident areas, > 0
+  RawVector<double> stiffness_diagonal;  ///< n: diagonal of L
+  Components components;                 ///< of the vertices
   std::vector<char> doubled;  ///< per component: it is a tufted cover, each face of it stands twice
   std::uint64_t pattern = 0;  ///< pattern_hash of the elimination-ordered graph
 
-  /// Pattern of the lower triangle (values empty), and for face f the entries of its pairs of
-  /// corners (0,1), (1,2), (2,0); -1 for a pair that is one vertex.
-  LowerMatrix lower;
-  std::vector<std::array<std::int64_t, 3>> entry;
+  LowerPattern lower;  ///< the lower triangle of that graph
 
-  /// Faces at each vertex: incident[incident_start[i] .. incident_start[i + 1]).
-  std::vector<Index> incident_start, incident;
+  CornerTable corners;  ///< of `faces`
 
-  std::span<const Index> faces_at(Index i) const {
-    return {incident.data() + incident_start[i], incident.data() + incident_start[i + 1]};
+  /// Faces at a vertex, ascending; one that visits it twice stands twice.
+  auto faces_at(Index i) const {
+    return corners.at(i) | std::views::transform([](Side corner) { return face_of(corner); });
   }
   bool is_doubled(Index component) const { return doubled[static_cast<std::size_t>(component)]; }
   Index size() const { return static_cast<Index>(mass.size()); }
@@ -48,15 +49,22 @@ struct OperatorMesh {
 };
 
 /// `local`: number of each mesh vertex in `pattern`, kNoIndex where it has none. `order`: the
-/// elimination order of `pattern`. Cost: O(F).
+/// elimination order of `pattern`. The same bits with any number of threads. Cost: O(F).
 std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mesh,
                                                         const SymmetricPattern& pattern,
                                                         std::span<const Index> local,
-                                                        std::span<const Index> order);
+                                                        std::span<const Index> order,
+                                                        int threads = 1);
 
 /// Off-diagonal entries of a face's stiffness matrix for its pairs of corners (0,1), (1,2), (2,0):
 /// minus half the cotangent of the angle opposite (Pinkall, Polthier 1993).
-std::array<double, 3> stiffness(const FaceLayout& layout);
+inline std::array<double, 3> stiffness(const FaceLayout& p) {
+  const double half_over_height = 0.5 / p.height;
+  const double w12 = -p.x * half_over_height;
+  const double w20 = (p.x - p.base) * half_over_height;
+  const double w01 = (2 * p.x * (p.base - p.x) * half_over_height - p.height) / (2 * p.base);
+  return {w01, w12, w20};
+}
 
 /// Gradient of the linear function with values u at the corners, in the face's own plane.
 inline std::array<double, 2> gradient(const FaceLayout& p, double u0, double u1, double u2) {

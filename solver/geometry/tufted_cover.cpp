@@ -72,17 +72,15 @@ bool is_oriented_manifold(const CleanFaces& clean, Index edge) {
 }
 
 std::vector<char> faces_that_need_cover(const CleanFaces& clean, Index vertex_count) {
-  std::vector<char> needed;
-  FaceComponents components;
-  std::vector<char> marked;
+  if (clean.oriented_manifold) return {};
+  const FaceComponents components = face_components(clean.faces, vertex_count);
+  std::vector<char> marked(static_cast<std::size_t>(components.count), 0);
   for (Index e = 0; e < clean.edges.edge_count(); ++e) {
     if (is_oriented_manifold(clean, e)) continue;
-    if (marked.empty()) {
-      components = face_components(clean.faces, vertex_count);
-      marked.assign(static_cast<std::size_t>(components.count), 0);
-    }
     marked[components.of[face_of(clean.edges.sides(e).front())]] = 1;
   }
+  std::vector<char> needed;
+  needed.reserve(clean.faces.size());
   for (const Index component : components.of) needed.push_back(marked[component]);
   return needed;
 }

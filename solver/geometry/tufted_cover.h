@@ -15,7 +15,7 @@ namespace geotherm {
 bool is_oriented_manifold(const CleanFaces& clean, Index edge);
 
 /// For each clean face 1 where its component has an edge that is_oriented_manifold() denies; empty
-/// where no component has. Cost: O(F).
+/// where no component has. Cost: O(F), nothing on an oriented manifold.
 std::vector<char> faces_that_need_cover(const CleanFaces& clean, Index vertex_count);
 
 /// Makes the tufted cover (Sharp, Crane 2020, section 3): every face with `doubled[face] != 0` gets

@@ -75,8 +75,9 @@ Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& 
   auto made = HeatMethod(state).factorised(options, failed, part_of(progress, kSurfaceShare, 1.0));
   if (!made.outcome) return made;
   auto timed = std::make_shared<State>(*made.outcome->state_);
-  timed->timing.operators = timed->surface->operators_ms;
-  timed->timing.analyze = timed->surface->analyze_ms;
+  timed->timing.operators = timed->surface->timing.operators;
+  timed->timing.stages = timed->surface->timing.stages;
+  timed->timing.analyze = timed->surface->timing.analyze;
   timed->timing.setup += timed->timing.operators + timed->timing.analyze;
   return {HeatMethod(std::move(timed))};
 } catch (const std::bad_alloc&) {

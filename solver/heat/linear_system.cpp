@@ -12,14 +12,14 @@ Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
     const PerComponent& consistent_share) {
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
-  auto factored = std::make_shared<const FemOperator>(mesh, mass_factor, stiffness_factor, held,
-                                                      consistent_share);
-  auto factor = analysis.factorize(factored, options);
-  if (!factor) return factor.error();
+  auto factored =
+      std::make_shared<const FemOperator>(std::move(mesh), mass_factor, stiffness_factor,
+                                          std::move(held), consistent_share, options.threads);
   std::shared_ptr<LinearSystem> out(new LinearSystem);
+  out->matrix_ = std::make_shared<const FemOperator>(*factored);
+  auto factor = analysis.factorize(std::move(factored), options);
+  if (!factor) return factor.error();
   out->factor_ = std::move(*factor);
-  out->matrix_ = std::make_shared<const FemOperator>(std::move(mesh), mass_factor, stiffness_factor,
-                                                     std::move(held), consistent_share);
   return std::shared_ptr<const LinearSystem>(std::move(out));
 }
 

@@ -2,7 +2,10 @@
 #include "solver/heat/quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "solver/core/parallel.h"
 
 namespace geotherm {
 
@@ -52,40 +55,68 @@ double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, c
   return norm > 0 ? std::sqrt(error / norm) : std::sqrt(error);
 }
 
+namespace {
+
+/// Sums over a range of faces.
+struct FaceSums {
+  double error = 0, area = 0;
+  Index in_reach = 0, without_direction = 0, lost = 0;  ///< in halves
+
+  void add(const FaceSums& other) {
+    error += other.error;
+    area += other.area;
+    in_reach += other.in_reach;
+    without_direction += other.without_direction;
+    lost += other.lost;
+  }
+};
+
+double length(const std::array<double, 2>& g) {
+  constexpr double kSafeLow = 1e-280, kSafeHigh = 1e280;
+  const double square = g[0] * g[0] + g[1] * g[1];
+  return square > kSafeLow && square < kSafeHigh ? std::sqrt(square) : std::hypot(g[0], g[1]);
+}
+
+}  // namespace
+
 FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
-                         Quality& quality) {
+                         int threads, Quality& quality) {
   std::vector<char> held(phi.size(), 0);
   std::ranges::copy(held_at_zero, held.begin());
   for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
   std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;
-  double error = 0, area = 0;
-  FaceCounts faces;
-  Index lost = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
+  const auto inspect = [&](Index f, FaceSums& sums) {
     const Face& face = mesh.faces[f];
-    if (!holds[mesh.components.of[face[0]]]) continue;
+    if (!holds[mesh.components.of[face[0]]]) return;
     // In halves, since a face of a tufted cover is half of one of the surface.
     const Index halves = mesh.is_doubled(mesh.components.of[face[0]]) ? 1 : 2;
-    faces.in_reach += halves;
+    sums.in_reach += halves;
     const auto x = field.of_face(f, column);
     const bool known = held[face[0]] && held[face[1]] && held[face[2]];
     if (x[0] == 0 && x[1] == 0) {
-      faces.without_direction += halves;
-      if (!known) lost += halves;
+      sums.without_direction += halves;
+      if (!known) sums.lost += halves;
     }
     const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
     const double face_area = mesh.layout[f].base * mesh.layout[f].height / 2;
-    error += face_area * std::abs(std::hypot(g[0], g[1]) - 1);
-    area += face_area;
+    sums.error += face_area * std::abs(length(g) - 1);
+    sums.area += face_area;
+  };
+  FaceSums sums;
+  for (const FaceSums& part : sums_of_blocks<FaceSums>(
+           threads, mesh.face_count(), [&](std::int64_t begin, std::int64_t end) {
+             FaceSums part;
+             for (auto f = static_cast<Index>(begin); f < end; ++f) inspect(f, part);
+             return part;
+           })) {
+    sums.add(part);
   }
-  faces.in_reach = (faces.in_reach + 1) / 2;
-  faces.without_direction = (faces.without_direction + 1) / 2;
-  quality.zero_gradient_faces = (lost + 1) / 2;
-  quality.eikonal_error_mean = area > 0 ? error / area : 0.0;
-  return faces;
+  quality.zero_gradient_faces = (sums.lost + 1) / 2;
+  quality.eikonal_error_mean = sums.area > 0 ? sums.error / sums.area : 0.0;
+  return {(sums.in_reach + 1) / 2, (sums.without_direction + 1) / 2};
 }
 
 }  // namespace geotherm

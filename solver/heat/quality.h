@@ -24,10 +24,11 @@ struct FaceCounts {
 
 /// What the faces say: mean of | |grad phi| - 1 | by area, and lost gradients of u, over the
 /// components that hold a source. `phi` in units of the intrinsic mesh. Faces whose corners are all
-/// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose.
+/// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose. The same bits
+/// with any number of threads.
 FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
-                         Quality& quality);
+                         int threads, Quality& quality);
 
 }  // namespace geotherm

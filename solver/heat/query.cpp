@@ -103,6 +103,7 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
   }
 }
 
+/// `threads`: of this group alone.
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, const Workspace& work,
                          std::span<DistanceResult> results, const Progress& progress) {
@@ -144,11 +145,21 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     if (query.quality) {
       const std::vector<double> phi = shifted_phi(p.surface, *answer, anchors[c], mode, column);
       result.quality.heat_residual = heat->residual[c];
-      result.quality.poisson_residual =
-          poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
-                           mode == ConstraintMode::kPinSources);
-      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
-                                             held_at_zero(p), result.quality);
+      FaceCounts faces;
+      Quality of_faces = result.quality;
+      run_both(
+          work.threads,
+          [&] {
+            result.quality.poisson_residual =
+                poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
+                                 mode == ConstraintMode::kPinSources);
+          },
+          [&] {
+            faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
+                                  held_at_zero(p), work.threads, of_faces);
+          });
+      result.quality.zero_gradient_faces = of_faces.zero_gradient_faces;
+      result.quality.eikonal_error_mean = of_faces.eikonal_error_mean;
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -227,6 +238,7 @@ class GroupRunner {
   const Progress watch_;
   int threads_of_group_ = 1;
   std::atomic<std::size_t> next_{0};
+  int threads_a_group_ = 1;
   std::mutex mutex_;
   std::atomic<bool> memory_ended_{false};
   std::optional<Error> failure_;

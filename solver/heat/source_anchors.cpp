@@ -154,8 +154,7 @@ class Placer {
     for (const auto& [row, anchor] : anchors_) {
       near_[row] = anchor.offset;
       if (anchor.offset > 0) continue;
-      const auto faces = mesh.faces_at(row);
-      touched_.insert(faces.begin(), faces.end());
+      for (const Index f : mesh.faces_at(row)) touched_.insert(f);
     }
     for (const Index f : touched_) {
       const Face& face = mesh.faces[f];

@@ -6,6 +6,7 @@
 
 #include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
+#include "solver/geometry/surface_pattern.h"
 
 namespace geotherm {
 namespace {
@@ -70,7 +71,7 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
     const Vec3& low = surface.mesh->positions()[edges.low(e)];
     const Vec3& high = surface.mesh->positions()[edges.high(e)];
     const Index c = mesh.components.of[surface.row_of_vertex[edges.low(e)]];
-    sum[c] += (low - high).stableNorm() / surface.mean_edge;
+    sum[c] += safe_norm(low - high) / surface.mean_edge;
     ++count[c];
   }
   for (std::size_t c = 0; c < sizes.size(); ++c) {
@@ -91,9 +92,10 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress) {
-  Stopwatch watch;
-  auto built = build_intrinsic_surface(std::move(mesh), flip_rule(laplacian),
-                                       part_of(progress, 0.0, kAnalyzeFrom), cover_rule(laplacian));
+  Stopwatch watch, stage;
+  auto built =
+      build_intrinsic_surface(std::move(mesh), flip_rule(laplacian),
+                              part_of(progress, 0.0, kAnalyzeFrom), cover_rule(laplacian), threads);
   if (!built) return built.error();
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
@@ -101,28 +103,27 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   const auto positions = out->mesh->positions();
   const EdgeTable& edges = out->clean_edges;
 
+  stage.lap();
   std::vector<Index> used;
   const std::vector<Index> local = number_used(out->on_surface, used);
-  const SymmetricPattern pattern = pattern_of_faces(static_cast<Index>(used.size()), [&] {
-    std::vector<Face> faces = out->intrinsic.faces;
-    for (Face& face : faces) {
-      for (Index& corner : face) corner = local[corner];
-    }
-    return faces;
-  }());
+  const SymmetricPattern pattern =
+      surface_pattern(out->intrinsic, out->corners, used, local, threads);
+  out->corners = {};
   std::vector<Vec3> used_positions(used.size());
   for (std::size_t i = 0; i < used.size(); ++i) used_positions[i] = positions[used[i]];
-  out->operators_ms = watch.lap();
+  SetupTiming& timing = out->timing;
+  timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, stage.lap(), 0};
+  timing.operators = watch.lap();
 
   if (!report(progress, "analyze", kAnalyzeFrom)) return cancelled_error();
   auto analysis = backend.analyze(pattern, used_positions, threads);
   if (!analysis) return analysis.error();
   out->analysis = std::move(*analysis);
-  out->analyze_ms = watch.lap();
+  timing.analyze = watch.lap();
 
   if (!report(progress, "operators", kAnalyzeTo)) return cancelled_error();
   const std::span<const Index> order = out->analysis->order();
-  out->operators = build_operator_mesh(out->intrinsic, pattern, local, order);
+  out->operators = build_operator_mesh(out->intrinsic, pattern, local, order, threads);
   out->vertex_of_row.resize(used.size());
   out->row_of_vertex.assign(local.size(), kNoIndex);
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -139,7 +140,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};
   }
-  out->operators_ms += watch.lap();
+  timing.stages.renumber = watch.lap();
+  timing.operators += timing.stages.renumber;
   return std::shared_ptr<const Surface>(std::move(out));
 }
 

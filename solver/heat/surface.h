@@ -9,6 +9,7 @@
 #include "solver/geometry/operator_mesh.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/backend.h"
+#include "solver/method/distance_result.h"
 
 namespace geotherm {
 
@@ -32,7 +33,7 @@ struct Surface : IntrinsicSurface {
   std::shared_ptr<const OperatorMesh> operators;
 
   std::vector<ComponentSize> components;
-  double operators_ms = 0, analyze_ms = 0;
+  SetupTiming timing;  ///< operators with their stages, and analyze
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".

@@ -3,7 +3,46 @@
 
 #include <algorithm>
 
+#include "solver/core/disjoint_sets.h"
+#include "solver/core/parallel.h"
+#include "solver/core/row_lists.h"
+#include "solver/core/short_sort.h"
+
 namespace geotherm {
+namespace {
+
+/// Rows a thread must have to be worth starting.
+constexpr std::int64_t kGrain = 1 << 15;
+
+void mix(std::uint64_t x, std::uint64_t& hash) {
+  hash = (hash ^ x) * 0xff51afd7ed558ccdULL;
+  hash ^= hash >> 32;
+}
+
+/// Of blocks of columns of a fixed length, so that any number of threads finds the same.
+/// rows_below(j): the rows of column j below the diagonal, ascending.
+template <class RowsBelow>
+std::uint64_t hash_of_columns(Index size, int threads, const RowsBelow& rows_below) {
+  constexpr std::int64_t kBlock = 8192;
+  const std::int64_t blocks = (size + kBlock - 1) / kBlock;
+  std::vector<std::uint64_t> parts(static_cast<std::size_t>(blocks), 0);
+  parallel_for(threads, blocks, kGrain / kBlock, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t b = first; b < last; ++b) {
+      std::uint64_t& hash = parts[static_cast<std::size_t>(b)];
+      const auto end = static_cast<Index>(std::min<std::int64_t>(size, (b + 1) * kBlock));
+      for (auto j = static_cast<Index>(b * kBlock); j < end; ++j) {
+        const auto rows = rows_below(j);
+        mix(rows.size(), hash);
+        for (const Index i : rows) mix(static_cast<std::uint64_t>(i), hash);
+      }
+    }
+  });
+  std::uint64_t hash = 0x9e3779b97f4a7c15ULL ^ static_cast<std::uint64_t>(size);
+  for (const std::uint64_t part : parts) mix(part, hash);
+  return hash;
+}
+
+}  // namespace
 
 SymmetricPattern pattern_of_faces(Index size, std::span<const Face> faces) {
   // Every side enters both its ends' lists; the second face of an edge doubles the entry.
@@ -35,58 +74,73 @@ SymmetricPattern pattern_of_faces(Index size, std::span<const Face> faces) {
   return pattern;
 }
 
-SymmetricPattern permuted(const SymmetricPattern& pattern, std::span<const Index> order) {
-  const std::vector<Index> position = inverse_permutation(order);
+SymmetricPattern permuted(const SymmetricPattern& pattern, std::span<const Index> order,
+                          int threads) {
+  const std::vector<Index> position = inverse_permutation(order, threads);
+  const auto add_row = [&](Index k, std::vector<Index>& list) {
+    const auto begin = static_cast<std::ptrdiff_t>(list.size());
+    for (const Index j : pattern.neighbors(order[k])) list.push_back(position[j]);
+    short_sort(list.data() + begin, list.data() + list.size());
+  };
   SymmetricPattern out;
-  out.start.resize(pattern.start.size());
-  out.neighbor.resize(pattern.neighbor.size());
-  std::int64_t filled = 0;
-  for (Index k = 0; k < pattern.size(); ++k) {
-    const std::int64_t begin = filled;
-    for (const Index j : pattern.neighbors(order[k])) out.neighbor[filled++] = position[j];
-    std::sort(out.neighbor.begin() + begin, out.neighbor.begin() + filled);
-    out.start[k + 1] = filled;
-  }
+  list_rows(pattern.size(), threads, add_row, out.start, out.neighbor);
   return out;
 }
 
-std::vector<Index> inverse_permutation(std::span<const Index> order) {
+LowerPattern permuted_lower(const SymmetricPattern& pattern, std::span<const Index> order,
+                            int threads) {
+  const std::vector<Index> position = inverse_permutation(order, threads);
+  const auto add_column = [&](Index k, std::vector<Index>& list) {
+    list.push_back(k);
+    const auto begin = static_cast<std::ptrdiff_t>(list.size());
+    for (const Index j : pattern.neighbors(order[k])) {
+      if (position[j] > k) list.push_back(position[j]);
+    }
+    short_sort(list.data() + begin, list.data() + list.size());
+  };
+  LowerPattern out;
+  list_rows(pattern.size(), threads, add_column, out.start, out.row);
+  return out;
+}
+
+std::vector<Index> inverse_permutation(std::span<const Index> order, int threads) {
   std::vector<Index> position(order.size());
-  for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<Index>(k);
+  const auto count = static_cast<std::int64_t>(order.size());
+  parallel_for(threads, count, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      position[order[static_cast<std::size_t>(k)]] = static_cast<Index>(k);
+    }
+  });
   return position;
 }
 
-std::uint64_t pattern_hash(const SymmetricPattern& pattern) {
-  std::uint64_t hash = 0x9e3779b97f4a7c15ULL ^ static_cast<std::uint64_t>(pattern.size());
-  const auto mix = [&hash](std::uint64_t x) {
-    hash = (hash ^ x) * 0xff51afd7ed558ccdULL;
-    hash ^= hash >> 32;
-  };
-  for (Index i = 0; i < pattern.size(); ++i) {
-    mix(static_cast<std::uint64_t>(pattern.start[i + 1]));
-    for (const Index j : pattern.neighbors(i)) mix(static_cast<std::uint64_t>(j));
-  }
-  return hash;
+std::uint64_t pattern_hash(const SymmetricPattern& pattern, int threads) {
+  return hash_of_columns(pattern.size(), threads, [&pattern](Index i) {
+    const auto all = pattern.neighbors(i);
+    return std::span(std::ranges::upper_bound(all, i), all.end());
+  });
+}
+
+std::uint64_t pattern_hash(const LowerPattern& lower, int threads) {
+  const auto size = static_cast<Index>(lower.start.size()) - 1;
+  return hash_of_columns(size, threads, [&lower](Index i) {
+    return std::span(lower.row.data() + lower.start[i] + 1, lower.row.data() + lower.start[i + 1]);
+  });
 }
 
 Components connected_components(const SymmetricPattern& pattern) {
-  Components out;
-  out.of.assign(static_cast<std::size_t>(pattern.size()), kNoIndex);
-  std::vector<Index> stack;
-  for (Index seed = 0; seed < pattern.size(); ++seed) {
-    if (out.of[seed] != kNoIndex) continue;
-    out.of[seed] = out.count;
-    stack.push_back(seed);
-    while (!stack.empty()) {
-      const Index i = stack.back();
-      stack.pop_back();
-      for (const Index j : pattern.neighbors(i)) {
-        if (out.of[j] != kNoIndex) continue;
-        out.of[j] = out.count;
-        stack.push_back(j);
-      }
+  DisjointSets sets(static_cast<std::size_t>(pattern.size()));
+  for (Index i = 0; i < pattern.size(); ++i) {
+    for (const Index j : pattern.neighbors(i)) {
+      if (j >= i) break;
+      sets.join(i, j);
     }
-    ++out.count;
+  }
+  Components out;
+  out.of.resize(static_cast<std::size_t>(pattern.size()));
+  for (Index i = 0; i < pattern.size(); ++i) {
+    const Index lowest = sets.root(i);
+    out.of[i] = lowest == i ? out.count++ : out.of[lowest];
   }
   return out;
 }

@@ -25,14 +25,27 @@ struct SymmetricPattern {
 /// corner + 1. Cost: O(F).
 SymmetricPattern pattern_of_faces(Index size, std::span<const Face> faces);
 
-/// The same graph with vertex order[k] renamed k. Precondition: order is a permutation. Cost: O(n).
-SymmetricPattern permuted(const SymmetricPattern& pattern, std::span<const Index> order);
+/// The same graph with vertex order[k] renamed k. Precondition: order is a permutation. Cost: O(n),
+/// by all threads.
+SymmetricPattern permuted(const SymmetricPattern& pattern, std::span<const Index> order,
+                          int threads = 1);
+
+/// The lower triangle of permuted(pattern, order), as LowerMatrix has it: by columns, the diagonal
+/// first, rows ascending.
+struct LowerPattern {
+  std::vector<std::int64_t> start;  ///< n + 1
+  std::vector<Index> row;
+};
+LowerPattern permuted_lower(const SymmetricPattern& pattern, std::span<const Index> order,
+                            int threads = 1);
 
 /// position[order[k]] = k.
-std::vector<Index> inverse_permutation(std::span<const Index> order);
+std::vector<Index> inverse_permutation(std::span<const Index> order, int threads = 1);
 
-/// A number that differs (but for bad luck) between different patterns.
-std::uint64_t pattern_hash(const SymmetricPattern& pattern);
+/// A number that differs (but for bad luck) between different patterns; the lower triangle of a
+/// pattern has that of the pattern.
+std::uint64_t pattern_hash(const SymmetricPattern& pattern, int threads = 1);
+std::uint64_t pattern_hash(const LowerPattern& lower, int threads = 1);
 
 /// Connected component of every vertex, numbered by first appearance.
 struct Components {

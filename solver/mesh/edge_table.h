@@ -3,30 +3,26 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "solver/core/raw_vector.h"
 #include "solver/core/types.h"
+#include "solver/mesh/corner_table.h"
+#include "solver/mesh/side.h"
 
 namespace geotherm {
-
-/// Side k of face f joins its corners k and (k + 1) % 3; it is numbered 3 f + k.
-using Side = std::int32_t;
-inline constexpr Side kNoSide = -1;
-
-inline Index face_of(Side side) { return side / 3; }
-inline int corner_of(Side side) { return side % 3; }
-inline int next_corner(int k) { return k == 2 ? 0 : k + 1; }
-inline int previous_corner(int k) { return k == 0 ? 2 : k - 1; }
 
 /// The sides of a face list grouped by the pair of vertices they join. An edge with one side is
 /// on the boundary, with two an inner one, with more it is non-manifold.
 ///
 /// Edges are sorted by (low vertex, high vertex); the sides of an edge by number.
-/// Precondition: no face repeats a corner. Cost: O(F), one counting sort.
+/// Precondition: no face repeats a corner. Cost: O(F), by all threads; a counting sort less where
+/// the corners at the vertices are known.
 class EdgeTable {
  public:
   EdgeTable() = default;
-  EdgeTable(Index vertex_count, std::span<const Face> faces);
+  EdgeTable(Index vertex_count, std::span<const Face> faces, int threads = 1)
+      : EdgeTable(CornerTable(vertex_count, faces, threads), faces, threads) {}
+  EdgeTable(const CornerTable& corners, std::span<const Face> faces, int threads);
 
   Index edge_count() const { return static_cast<Index>(low_.size()); }
   Index low(Index edge) const { return low_[static_cast<std::size_t>(edge)]; }
@@ -37,9 +33,9 @@ class EdgeTable {
   }
 
  private:
-  std::vector<Index> low_, high_;
-  std::vector<std::size_t> first_ = {0};
-  std::vector<Side> sides_;
+  RawVector<Index> low_, high_;
+  RawVector<std::uint32_t> first_ = {0};  ///< one more than there are edges
+  RawVector<Side> sides_;
 };
 
 }  // namespace geotherm

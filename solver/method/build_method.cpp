@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/core/parallel.h"
 #include "solver/exact/exact_method.h"
 #include "solver/heat/heat_method.h"
 #include "solver/method/mapped_method.h"
@@ -51,7 +52,8 @@ Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions&
         std::make_shared<const HeatMethod>(*std::move(built)));
   }
   if (!waves) {
-    auto made = build_wave_surface(mesh, part_of(progress, 0.0, 0.5));
+    auto made =
+        build_wave_surface(mesh, part_of(progress, 0.0, 0.5), thread_count(options.threads));
     if (!made) return made.error();
     waves = *std::move(made);
   }

@@ -36,6 +36,15 @@ struct SetupTiming {
   double analyze = 0;    ///< ordering and symbolic analysis
   double factorize = 0;  ///< both numeric factorisations
   double setup = 0;      ///< the whole
+
+  /// Of the heat method: what `operators` consists of.
+  struct Operators {
+    double clean = 0;      ///< faces, edges, orientation
+    double intrinsic = 0;  ///< lengths, mollification, cover
+    double flips = 0;      ///< looking for edges to flip, and flips
+    double pattern = 0;    ///< the pattern of the matrices
+    double renumber = 0;   ///< everything in elimination order
+  } stages;
 };
 
 /// Geodesic distance from one source set.

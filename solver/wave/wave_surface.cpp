@@ -81,15 +81,16 @@ Error wave_out_of_memory(const char* stage, Index faces) {
 }
 
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) {
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
   const Index faces = mesh->face_count();
   try {
-    auto base =
-        build_intrinsic_surface(std::move(mesh), FlipRule::kAlways, part_of(progress, 0.0, 0.9));
+    auto base = build_intrinsic_surface(std::move(mesh), FlipRule::kAlways,
+                                        part_of(progress, 0.0, 0.9), CoverRule::kNever, threads);
     if (!base) return base.error();
     if (!report(progress, "operators", 0.9)) return cancelled_error();
     auto surface = std::make_shared<WaveSurface>();
     surface->base = std::move(*base);
+    surface->base.corners = {};
     name_edges_by_first_side(*surface);
     list_sides(*surface);
     return std::shared_ptr<const WaveSurface>(std::move(surface));

@@ -28,7 +28,7 @@ struct WaveSurface {
 
 /// Errors: those of build_intrinsic_surface(), kOutOfMemory. Cost: O(F + flips).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {});
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
 
 /// `stage`: what the memory ended in.
 Error wave_out_of_memory(const char* stage, Index faces);

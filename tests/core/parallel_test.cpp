@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "tests/support/no_threads.h"
@@ -39,6 +40,33 @@ TEST_P(ParallelFor, BothFunctionsRunAndFailuresReachTheCaller) {
   EXPECT_THROW(run_both(
                    GetParam(), [] {}, [] { throw std::runtime_error("second"); }),
                std::runtime_error);
+}
+
+TEST_P(ParallelFor, FailuresReachTheCallerAfterAllPiecesHaveEnded) {
+  std::atomic<int> visits = 0;
+  const auto work = [&](std::int64_t begin, std::int64_t end) {
+    visits += static_cast<int>(end - begin);
+    throw std::runtime_error("from " + std::to_string(begin));
+  };
+  try {
+    parallel_for(GetParam(), 100, 1, work);
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& failure) {
+    EXPECT_STREQ(failure.what(), "from 0");
+  }
+  EXPECT_EQ(visits, 100);
+}
+
+TEST_P(ParallelFor, SumsHaveTheBitsOfOneThread) {
+  const auto part = [](std::int64_t begin, std::int64_t end) {
+    double sum = 0;
+    for (std::int64_t i = begin; i < end; ++i) sum += 1.0 / static_cast<double>(i + 1);
+    return sum;
+  };
+  for (const std::int64_t count : {0, 1, 8192, 300'000}) {
+    EXPECT_EQ(parallel_sum(GetParam(), count, part), parallel_sum(1, count, part));
+    EXPECT_NEAR(parallel_sum(GetParam(), count, part), part(0, count), 1e-12);
+  }
 }
 
 TEST(WorkWithoutThreads, IsDoneByTheCaller) {

@@ -60,6 +60,26 @@ TEST_P(Patterns, RenamedTwiceIsThePatternAgain) {
   EXPECT_EQ(pattern_hash(again), pattern_hash(pattern));
 }
 
+TEST_P(Patterns, TheLowerTriangleIsThatOfTheRenamedPatternAndHasItsHash) {
+  std::vector<Index> order(static_cast<std::size_t>(pattern.size()));
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Index>(k);
+  std::mt19937 random(7);
+  std::shuffle(order.begin(), order.end(), random);
+  const SymmetricPattern renamed = permuted(pattern, order);
+  const LowerPattern lower = permuted_lower(pattern, order);
+  ASSERT_EQ(lower.start.size(), renamed.start.size());
+  for (Index j = 0; j < renamed.size(); ++j) {
+    std::vector<Index> expected = {j};
+    for (const Index i : renamed.neighbors(j)) {
+      if (i > j) expected.push_back(i);
+    }
+    EXPECT_EQ(std::vector<Index>(lower.row.begin() + lower.start[j],
+                                 lower.row.begin() + lower.start[j + 1]),
+              expected);
+  }
+  EXPECT_EQ(pattern_hash(lower), pattern_hash(renamed));
+}
+
 INSTANTIATE_TEST_SUITE_P(Zoo, Patterns, testing::ValuesIn(zoo()), zoo_name);
 
 SymmetricPattern pattern_of(const Draft& draft) {
