@@ -54,7 +54,8 @@ TEST_P(QualityFigures, HeatIsConserved) {
   Block u = Block::Zero((*surface)->operators->size(), 1);
   u(3, 0) = 2;
   u(40, 0) = 5;
-  ASSERT_TRUE((*system)->solve(u));
+  BlockPool pool;
+  ASSERT_TRUE((*system)->solve(u, {}, {pool, 1}));
   const auto& mass = (*surface)->operators->mass;
   double total = 0;
   for (Eigen::Index i = 0; i < u.rows(); ++i) total += mass[i] * u(i, 0);
