@@ -88,13 +88,20 @@ TEST_P(Operators, DivergenceOfTheGradientIsTheStiffness) {
 
 class OperatorForms : public Operators {
  protected:
-  /// apply(), assembled(), diagonal() and pattern say the same.
+  /// apply(), assembled(), diagonal(), residual() and pattern say the same.
   static void expect_one_operator(const FemOperator& M) {
     const Eigen::MatrixXd applied = dense(M), stored = dense(M.assembled());
     EXPECT_LE(relative_difference(values(stored), values(applied)), kRoundOff);
     EXPECT_LE((applied - applied.transpose()).lpNorm<Eigen::Infinity>(),
               kRoundOff * applied.lpNorm<Eigen::Infinity>());
     EXPECT_LE(relative_difference(M.diagonal(), values(stored.diagonal())), 0);
+    constexpr int kColumns = 3;
+    const Block x = random_vector(kColumns * M.size()).reshaped(M.size(), kColumns);
+    const Block b = x.rowwise().reverse();
+    Block residual(x.rows(), x.cols());
+    M.residual(b, x, residual, 1);
+    EXPECT_LE((residual - (b - stored * x)).lpNorm<Eigen::Infinity>(),
+              kRoundOff * (stored.lpNorm<Eigen::Infinity>() + 1) * x.lpNorm<Eigen::Infinity>());
   }
   /// Every fifth vertex.
   static std::vector<Index> some_held(Index n) {

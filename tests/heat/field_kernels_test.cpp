@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// The pass over the faces, compiled for each instruction set, against the definition of what it
+// computes.
+#include "solver/heat/field_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "tests/support/compare.h"
+#include "tests/support/operators.h"
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+// Roots by iteration to some units of the last digit, sums of a few terms in another order.
+constexpr double kRoundOff = 1e-12;
+constexpr double kRootT = 1.2;
+
+using KernelCase = std::tuple<int, InstructionSet, bool>;
+
+class FieldKernels : public testing::TestWithParam<KernelCase> {
+ public:
+  FieldKernels() {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> exponent(-200, 0);
+    const auto count = static_cast<std::size_t>(mesh->size() * group);
+    for (std::size_t e = 0; e < count; ++e) {
+      u.push_back(std::exp(exponent(random)));
+      log_u.push_back(std::log(u.back()));
+    }
+    for (Index f = 0; f < mesh->face_count(); ++f) root_t_of_face.push_back(1 + 0.001 * (f % 7));
+  }
+
+  /// X of a face.
+  std::array<double, 2> field(Index f, int column) const {
+    const FaceLayout& p = mesh->layout[f];
+    std::array<double, 3> at{}, log_at{};
+    for (int k = 0; k < 3; ++k) {
+      const auto e = static_cast<std::size_t>(mesh->faces[f][k] * group + column);
+      at[k] = u[e];
+      log_at[k] = log_u[e];
+    }
+    const double largest = std::max(std::abs(at[1] - at[0]), std::abs(at[2] - at[0]));
+    const auto g = gradient(p, 0, (at[1] - at[0]) / largest, (at[2] - at[0]) / largest);
+    const double norm = std::hypot(g[0], g[1]);
+    const auto h = gradient(p, log_at[0], log_at[1], log_at[2]);
+    const double slope = std::hypot(h[0], h[1]);
+    const double length = field_length(p.base, p.x, p.height, h[0] / slope, h[1] / slope, slope,
+                                       each_its_own ? root_t_of_face[f] : kRootT);
+    return {-length * g[0] / norm, -length * g[1] / norm};
+  }
+
+  const int group = std::get<0>(GetParam());
+  const bool each_its_own = std::get<2>(GetParam());
+  MeshPtr surface = finish(torus(33, 20, 0.4));  // faces that fill no register to the end
+  std::shared_ptr<const OperatorMesh> mesh = operators_of(*surface, intrinsic_of(*surface, true));
+  std::vector<double> u, log_u, root_t_of_face;
+};
+
+TEST_P(FieldKernels, ComputeTheDivergenceOfTheField) {
+  // From a face on that begins no register.
+  const Index first = 5;
+  std::vector<double> expected(u.size(), 0.0), b(u.size(), 0.0);
+  for (Index f = first; f < mesh->face_count(); ++f) {
+    for (int c = 0; c < group; ++c) {
+      const auto x = field(f, c);
+      const auto d = divergence(mesh->layout[f], x[0], x[1]);
+      for (int k = 0; k < 3; ++k) {
+        expected[static_cast<std::size_t>(mesh->faces[f][k] * group + c)] += d[k];
+      }
+    }
+  }
+  FieldPass pass{};
+  pass.mesh = mesh.get();
+  pass.first_face = first;
+  pass.end_face = mesh->face_count();
+  pass.u = u.data();
+  pass.log_u = log_u.data();
+  pass.b = b.data();
+  pass.stride = group;
+  pass.root_t = kRootT;
+  if (each_its_own) pass.root_t_of_face = root_t_of_face.data();
+  pass.context = this;
+  pass.careful = [](const void* context, Index face, int column) {
+    return static_cast<const FieldKernels*>(context)->field(face, column);
+  };
+  add_unit_divergence(pass, group, std::get<1>(GetParam()));
+  EXPECT_LE(relative_difference(b, expected), kRoundOff);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, FieldKernels,
+                         testing::Combine(testing::Values(1, 2, 4, 8, 16),
+                                          testing::Values(InstructionSet::kPlain,
+                                                          InstructionSet::kAvx2,
+                                                          InstructionSet::kAvx512),
+                                          testing::Bool()));
+
+}  // namespace
+}  // namespace geotherm::test
