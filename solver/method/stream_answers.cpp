@@ -78,7 +78,6 @@ std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> 
   if (!free_bytes) return chunk;
   const std::int64_t most = *free_bytes / 2;
   while (chunk > kBlock && chunk_bytes(vertices, chunk) > most) chunk -= kBlock;
-  while (chunk > 1 && chunk_bytes(vertices, chunk) > most) --chunk;
   return chunk;
 }
 

@@ -23,7 +23,8 @@ using AnswerSink = std::function<Result<void>(std::size_t set, DistanceResult&& 
 /// How a stream of answers is cut into chunks.
 struct StreamOptions {
   /// Source sets solved by one call of solve_each(); >= 1. Two chunks of answers are in memory: one
-  /// that is solved, one that is taken.
+  /// that is solved, one that is taken. In multiples of eight the answers of the heat method have
+  /// the bits of one call for all sets, in other chunks they agree to round-off.
   std::size_t chunk = 16;
   /// What each query computes beside the distances; the quality figures in the first chunk alone,
   /// where they tell whether mesh and options suit each other. They would cost every answer a pass
@@ -32,8 +33,8 @@ struct StreamOptions {
 };
 
 /// One answer for each source set, each handed to `sink` as soon as its chunk is there and then let
-/// go: any number of sets in the memory of two chunks of answers. Answers have the bits that
-/// solve_each() gives them, whatever the threads. `sink` works beside the next chunk, where the
+/// go: any number of sets in the memory of two chunks of answers. They do not depend on the number
+/// of threads. `sink` works beside the next chunk, where the
 /// system has a thread for it. Shares of `progress` are those of the sets.
 /// Errors: those of solve_each() and of the sink; after one, the sink is not called again.
 Result<void> stream_answers(const DistanceMethod& method, std::span<const SourceSet> sets,
@@ -41,9 +42,9 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
                             const Progress& progress = {});
 
 /// A good chunk: eight sets for each thread, which is what the heat method solves as one block, up
-/// to four times as many on small meshes, so that threads seldom wait for each other; never so many
-/// that two chunks of answers take more than half of `free_bytes` (empty: unknown). A multiple of
-/// eight where it is more.
+/// to four times as many on small meshes, so that threads seldom wait for each other; fewer, but
+/// eight at least, where two chunks of answers would take more than half of `free_bytes` (empty:
+/// unknown). A multiple of eight.
 /// `threads`: 0 for all cores.
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes);
 
