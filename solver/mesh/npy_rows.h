@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "solver/core/result.h"
 #include "solver/mesh/growing_file.h"

@@ -2,13 +2,14 @@
 // Many sources: rows, pairs, samples.
 #include <unistd.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <sstream>
 
-#include "app/cmd_solve.h"
+#include "app/many/many_work.h"
 #include "solver/mesh/write_distances.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
@@ -154,6 +155,37 @@ TEST(CancelledEach, LeavesNothing) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
   EXPECT_EQ(folder.names(), std::vector<std::string>{});
+}
+
+TEST(RoomForMany, IsAskedBeforeTheWork) {
+  constexpr double kMoreThanAnyDisk = 1e24;
+  const TemporaryDirectory folder;
+  EXPECT_TRUE(app::check_room(folder.path("a.npy"), 1));
+  EXPECT_TRUE(app::check_room("-", kMoreThanAnyDisk));
+  const auto refused = app::check_room(folder.path("a.npy"), kMoreThanAnyDisk);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadFile);
+  for (const char* part : {"a.npy: the file would take 1e+12 TB", "are free there; take fewer"}) {
+    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+  }
+}
+
+TEST(Estimate, IsToldOnceWhereMoreThanASecondIsLeft) {
+  std::vector<std::string> told;
+  const auto progress = app::with_estimate(
+      {}, [&](const std::string& text) { told.push_back(text); }, "rows", "9 sources", "a file");
+  EXPECT_TRUE(progress("solve", 0.9));  // the guess of a method
+  EXPECT_TRUE(told.empty());
+  EXPECT_TRUE(progress("rows", 1e-9));
+  EXPECT_TRUE(progress("rows", 1e-9));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("9 sources: about ") && told[0].ends_with(", a file")) << told[0];
+  EXPECT_EQ(app::bytes_in_words(999'600'000), "1 GB");
+  EXPECT_EQ(app::bytes_in_words(3.2e9), "3.2 GB");
+  EXPECT_EQ(app::bytes_in_words(1), "1 byte");
+  EXPECT_EQ(app::seconds_in_words(12.4), "12 s");
+  EXPECT_EQ(app::seconds_in_words(200), "3 min 20 s");
+  EXPECT_EQ(app::seconds_in_words(7500), "2 h 5 min");
 }
 
 /// On the unit sphere.
