@@ -74,6 +74,30 @@ INSTANTIATE_TEST_SUITE_P(Of, StreamOfAnswers,
                                          MethodKind::kExact),
                          [](const auto& test) { return to_text(test.param); });
 
+// A source on a Dirichlet border changes the matrix and is solved alone; the blocks of the others
+// must not move because of it.
+TEST(StreamAnswers, HaveTheBitsOfOneCallBesideASourceThatIsSolvedAlone) {
+  constexpr Index kCells = 24;
+  MethodOptions options;
+  options.boundary = BoundaryRule::kDirichlet;
+  options.threads = 1;
+  const auto method = build_method(finish(jittered_plane(kCells, 0.3, 2)), options);
+  ASSERT_TRUE(method) << method.error().message;
+  std::vector<SourceSet> sets;
+  for (Index i = 0; i < 20; ++i) {
+    sets.push_back(SourceSet::of_vertices({grid_vertex(kCells, 2 + i, 9)}));
+  }
+  sets[2] = SourceSet::of_vertices({grid_vertex(kCells, 5, 0)});  // on the border
+  const auto all = (*method)->solve_each(sets);
+  ASSERT_TRUE(all) << all.error().message;
+  const auto done = stream_answers(**method, sets, {8, {}},
+                                   [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
+                                     EXPECT_EQ(answer.distances, (*all)[set].distances) << set;
+                                     return {};
+                                   });
+  EXPECT_TRUE(done);
+}
+
 TEST(StreamAnswers, NeedsNoThreadBesideTheCallers) {
   const auto method = method_of(MethodKind::kWavefront, 1);
   const NoThreads none;
