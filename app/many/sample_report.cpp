@@ -2,6 +2,7 @@
 #include "app/many/sample_report.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/text.h"
 #include "app/text_table.h"
@@ -63,12 +64,15 @@ std::string sample_table(const SampleFigures& f) {
       counted(static_cast<std::int64_t>(points.samples.size()), "sample", "samples");
   figures.add_row(
       {"model", one_line(f.model.name) + ", " + counted(f.mesh.vertices, "vertex", "vertices")});
-  figures.add_row({"radius", significant(points.radius()) +
-                                 ": every vertex in reach lies that "
-                                 "near to one of " +
-                                 count});
-  figures.add_row(
-      {"separation", significant(points.separation()) + " between two samples at least"});
+  figures.add_row({"radius", std::isfinite(points.radius())
+                                 ? significant(points.radius()) +
+                                       ": every vertex of a face lies that near to one of " + count
+                                 : "infinite: " + count + " for " +
+                                       counted(f.mesh.components, "component", "components")});
+  if (std::isfinite(points.separation())) {
+    figures.add_row(
+        {"separation", significant(points.separation()) + " between two samples at least"});
+  }
   figures.add_row({"method", to_text(f.method->kind()) + ", " +
                                  counted(thread_count(f.options.threads), "thread", "threads")});
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
