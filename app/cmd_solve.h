@@ -18,9 +18,9 @@ struct SolveArguments {
   MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
-  bool check = false;   ///< against a more accurate method
-  std::string fields;   ///< quality fields beside the distances, empty: none
-  bool labels = false;  ///< nearest sources in .csv and .npy, too
+  bool check = false;      ///< against a more accurate method
+  std::string fields;      ///< quality fields beside the distances, empty: none
+  bool labels = false;     ///< nearest sources in .csv and .npy, too
   bool each = false;       ///< a row of distances for each source
   bool pairs = false;      ///< distances between the sources alone
   bool symmetric = false;  ///< of pairs: the mean of both directions
