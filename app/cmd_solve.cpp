@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "app/error_cause.h"
+#include "app/many/each.h"
+#include "app/many/pairs.h"
 #include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/progress_bar.h"
@@ -66,7 +68,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command
       .add_option("-o,--output", arguments.outputs,
                   "where the distances go: .csv .npy .ply .vtp, or - for CSV on standard output; "
-                  "may be repeated")
+                  "may be repeated; with --each .npy, with --pairs .npy and .csv")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -84,6 +86,29 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
+  command
+      .add_flag(
+          "--each", arguments.each,
+          "solves for each source point by itself: one row of distances a point, in the order "
+          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
+          "curve and the boundary are one row each")
+      ->group("Many sources");
+  command
+      .add_flag("--pairs", arguments.pairs,
+                "distances between each two of the source vertices alone: a square matrix, from "
+                "the row's vertex to the column's")
+      ->group("Many sources");
+  command
+      .add_flag("--symmetric", arguments.symmetric,
+                "with --pairs: both directions become their mean; otherwise they differ by the "
+                "error of the method, which the report says")
+      ->group("Many sources");
+  command
+      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
+      ->type_name("TYPE")
+      ->group("Many sources");
+  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
+      ->group("Many sources");
   add_quiet_option(command, arguments.quiet);
   add_backend_option(command, arguments.method);
   add_method_options(command, arguments.method);
@@ -93,10 +118,34 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve terrain -s boundary --time-factor 2 -o - | head\n"
       "  geotherm solve bunny -s 0 --check\n"
       "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
-      "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv");
+      "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv\n"
+      "  geotherm solve bunny -s random:500 --each --float32 -o rows.npy\n"
+      "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv");
 }
 
-Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress) {
+namespace {
+
+/// Options of many sources, where one set is solved for.
+Result<void> refuse_options_of_many(const SolveArguments& arguments) {
+  const bool typed = arguments.float32 || !arguments.dtype.empty();
+  if (!typed && !arguments.symmetric) return {};
+  return Error{ErrorCode::kBadInput,
+               typed ? "--dtype and --float32 are about --each and --pairs; leave them out"
+                     : "--symmetric is about --pairs; leave it out"};
+}
+
+}  // namespace
+
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress,
+                                const Announce& announce) {
+  if (arguments.each && arguments.pairs) {
+    return Error{ErrorCode::kBadInput,
+                 "--each and --pairs were both given; --each writes whole rows, --pairs those of "
+                 "the sources' vertices; leave one of them out"};
+  }
+  if (arguments.each) return run_each(arguments, progress, announce);
+  if (arguments.pairs) return run_pairs(arguments, progress, announce);
+  if (auto fits = refuse_options_of_many(arguments); !fits) return fits.error();
   const auto options = method_options(arguments.method);
   if (!options) return options.error();
   Outputs outputs;

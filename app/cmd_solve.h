@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/announce.h"
 #include "app/command_output.h"
 #include "app/options.h"
 #include "solver/core/progress.h"
@@ -17,13 +18,20 @@ struct SolveArguments {
   MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
-  bool check = false;   ///< against a more accurate method
-  std::string fields;   ///< quality fields beside the distances, empty: none
-  bool labels = false;  ///< nearest sources in .csv and .npy, too
+  bool check = false;      ///< against a more accurate method
+  std::string fields;      ///< quality fields beside the distances, empty: none
+  bool labels = false;     ///< nearest sources in .csv and .npy, too
+  bool each = false;       ///< a row of distances for each source
+  bool pairs = false;      ///< distances between the sources alone
+  bool symmetric = false;  ///< of pairs: the mean of both directions
+  std::string dtype;       ///< of .npy rows; empty: float64
+  bool float32 = false;    ///< the same as --dtype float32
   bool quiet = false;
 };
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
-Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {});
+/// `announce`: for what --each and --pairs say before their work.
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {},
+                                const Announce& announce = {});
 
 }  // namespace geotherm::app

@@ -23,6 +23,7 @@
 #include "app/lines/cmd_isolines.h"
 #include "app/lines/cmd_path.h"
 #include "app/load_model.h"
+#include "app/many/cmd_sample.h"
 #include "app/progress_bar.h"
 #include "app/shell_command.h"
 #include "app/study/cmd_study.h"
@@ -31,9 +32,9 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::array kCommands = {"view",     "solve", "info",     "compare",  "render",  "path",
-                                  "isolines", "study", "generate", "backends", "devices", "models"};
-constexpr std::array kCommandsToCome = {"sample"};
+constexpr std::array kCommands = {"view",     "solve",    "info",   "compare", "render",
+                                  "path",     "isolines", "sample", "study",   "generate",
+                                  "backends", "devices",  "models"};
 
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
@@ -72,6 +73,16 @@ bool is_in(const auto& list, const std::string& word) {
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
+/// The same for a command that says more than its bar shows.
+template <class Arguments, class Run>
+int run_with_words(const Arguments& arguments, Run&& run) {
+  ProgressBar bar(!arguments.quiet && error_is_terminal());
+  const Result<CommandOutput> result =
+      run(arguments, bar.progress(), arguments.quiet ? Announce() : bar.announce());
+  bar.clear();
+  return finish(result);
+}
+
 /// `geotherm MODEL` is `geotherm view MODEL`.
 bool is_model(const std::string& word) {
   std::error_code unknown;
@@ -89,9 +100,6 @@ std::string first_word_problem(const std::vector<std::string>& arguments) {
   }
   const std::string& word = arguments.front();
   if (word.starts_with('-') || is_in(kCommands, word)) return {};
-  if (is_in(kCommandsToCome, word)) {
-    return "this version has no command '" + word + "'; " + there_are;
-  }
   return "there is no command and no model '" + word + "'; " + there_are;
 }
 
@@ -132,8 +140,7 @@ int exit_code(ErrorCode code) {
 int run_command_line(std::vector<std::string> arguments, Drawing& drawing, ViewerWindow& window) {
   const std::vector<std::string> words = arguments;
   if (!arguments.empty() && !arguments.front().starts_with('-') &&
-      !is_in(kCommands, arguments.front()) && !is_in(kCommandsToCome, arguments.front()) &&
-      is_model(arguments.front())) {
+      !is_in(kCommands, arguments.front()) && is_model(arguments.front())) {
     arguments.insert(arguments.begin(), "view");
   }
   if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
@@ -153,6 +160,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   RenderArguments render;
   PathArguments path;
   IsolinesArguments isolines;
+  SampleArguments sample;
   StudyArguments study;
   GenerateArguments generate;
   DevicesArguments devices;
@@ -170,6 +178,8 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   CLI::App* const path_app = root.add_subcommand("path", "Geodesic paths and streamlines.");
   CLI::App* const isolines_app =
       root.add_subcommand("isolines", "Lines of equal distance, closed or open.");
+  CLI::App* const sample_app = root.add_subcommand(
+      "sample", "Farthest-point samples, and the nearest of them to every vertex.");
   CLI::App* const study_app = root.add_subcommand(
       "study", "The error of the heat method over time factors, rules and modes.");
   CLI::App* const generate_app = root.add_subcommand("generate", "Writes a bundled model.");
@@ -185,6 +195,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   add_render_options(*render_app, render);
   add_path_options(*path_app, path);
   add_isolines_options(*isolines_app, isolines);
+  add_sample_options(*sample_app, sample);
   add_study_options(*study_app, study);
   add_generate_options(*generate_app, generate);
   add_devices_options(*devices_app, devices);
@@ -217,7 +228,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
       return run_view(a, drawing, window, progress);
     });
   }
-  if (solve_app->parsed()) return run_with_bar(solve, run_solve);
+  if (solve_app->parsed()) return run_with_words(solve, run_solve);
   if (info_app->parsed()) return run_with_bar(info, run_info);
   if (compare_app->parsed()) return run_with_bar(compare, run_compare);
   if (render_app->parsed()) {
@@ -227,6 +238,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   }
   if (path_app->parsed()) return run_with_bar(path, run_path);
   if (isolines_app->parsed()) return run_with_bar(isolines, run_isolines);
+  if (sample_app->parsed()) return run_with_words(sample, run_sample);
   if (study_app->parsed()) return run_with_bar(study, run_study);
   if (devices_app->parsed()) return finish(run_devices(devices, drawing));
   if (generate_app->parsed()) return run_with_bar(generate, run_generate);

@@ -91,7 +91,7 @@ void add_threads_option(CLI::App& command, std::string& threads) {
 }
 
 void add_quiet_option(CLI::App& command, bool& quiet) {
-  command.add_flag("--quiet", quiet, "no progress bar");
+  command.add_flag("--quiet", quiet, "no progress bar, no estimate of time");
 }
 
 void add_source_options(CLI::App& command, SourceArguments& arguments) {

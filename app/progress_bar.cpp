@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/text.h"
+
 namespace geotherm::app {
 namespace {
 
@@ -21,6 +23,14 @@ Progress ProgressBar::progress() {
   return [this](std::string_view stage, double share) {
     draw(stage, share);
     return true;
+  };
+}
+
+Announce ProgressBar::announce() {
+  return [this](const std::string& text) {
+    clear();
+    std::fprintf(stderr, "geotherm: %s\n", one_line(text).c_str());
+    std::fflush(stderr);
   };
 }
 

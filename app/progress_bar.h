@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "app/announce.h"
 #include "solver/core/progress.h"
 
 namespace geotherm::app {
@@ -19,6 +20,10 @@ class ProgressBar {
 
   /// For the library; the bar must outlive it.
   Progress progress();
+
+  /// Writes a line of its own to standard error, whether or not the bar is shown. Not at the same
+  /// time as a call of the progress.
+  Announce announce();
 
   void clear();
 

@@ -56,42 +56,6 @@ Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
   return json;
 }
 
-/// Null where another method than heat has no such thing.
-Json options_json(const SolveFigures& figures) {
-  const HeatMethod* heat = figures.method->heat();
-  if (heat == nullptr) {
-    Json json = {{"method", to_text(figures.method->kind())}};
-    for (const char* key :
-         {"backend", "time_step", "time_factor", "t", "constraint", "heat", "boundary"}) {
-      json[key] = nullptr;
-    }
-    json["laplacian"] = to_text(LaplacianKind::kIntrinsicDelaunay);
-    json["threads"] = thread_count(figures.options.threads);
-    json["refine"] = figures.options.refine;
-    return json;
-  }
-  const HeatMethod& method = *heat;
-  const HeatOptions& options = method.options();
-  const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
-  return {{"method", "heat"},
-          {"backend", figures.result.backend},
-          {"backend_asked", figures.options.backend},
-          {"fallbacks", fallbacks_json(method, figures.result)},
-          {"time_step", to_text(options.time_step)},
-          {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
-          {"t", method.t()},
-          {"t_of_components", method.t_range()},
-          {"constraint", to_text(options.constraint)},
-          {"heat", to_text(options.heat)},
-          {"boundary", to_text(options.boundary)},
-          {"laplacian", to_text(method.laplacian())},
-          {"threads", thread_count(options.threads)},
-          {"refine", figures.options.refine},
-          {"variant", to_text(options.variant)},
-          {"precision", to_text(options.precision)},
-          {"flips", method.flips()}};
-}
-
 Json quality_json(const Quality& q, bool heat) {
   const auto of_heat = [heat](auto value) { return heat ? Json(value) : Json(nullptr); };
   return {{"heat_residual", of_heat(q.heat_residual)},
@@ -220,13 +184,48 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
   return json;
 }
 
+Json options_json(const DistanceMethod& method, const MethodOptions& asked,
+                  const DistanceResult& answer) {
+  const HeatMethod* const heat = method.heat();
+  if (heat == nullptr) {  // which has most of these
+    Json json = {{"method", to_text(method.kind())}};
+    for (const char* key :
+         {"backend", "time_step", "time_factor", "t", "constraint", "heat", "boundary"}) {
+      json[key] = nullptr;
+    }
+    json["laplacian"] = to_text(LaplacianKind::kIntrinsicDelaunay);
+    json["threads"] = thread_count(asked.threads);
+    json["refine"] = asked.refine;
+    return json;
+  }
+  const HeatOptions& options = heat->options();
+  const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
+  return {{"method", "heat"},
+          {"backend", answer.backend},
+          {"backend_asked", asked.backend},
+          {"fallbacks", fallbacks_json(*heat, answer)},
+          {"time_step", to_text(options.time_step)},
+          {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
+          {"t", heat->t()},
+          {"t_of_components", heat->t_range()},
+          {"constraint", to_text(options.constraint)},
+          {"heat", to_text(options.heat)},
+          {"boundary", to_text(options.boundary)},
+          {"laplacian", to_text(heat->laplacian())},
+          {"threads", thread_count(options.threads)},
+          {"refine", asked.refine},
+          {"variant", to_text(options.variant)},
+          {"precision", to_text(options.precision)},
+          {"flips", heat->flips()}};
+}
+
 Json solve_json(const SolveFigures& f) {
   const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
   const bool heat = f.method->heat() != nullptr;
   const auto of_heat = [heat](double ms) { return heat ? Json(ms) : Json(nullptr); };
   Json json = {{"model", model_json(f.model.name, f.mesh)},
-               {"options", options_json(f)},
+               {"options", options_json(*f.method, f.options, f.result)},
                {"sources", sources_json(f.sources)}};
   if (!f.sources.edges.empty()) json["source_edges"] = f.sources.edges;
   if (!f.sources.offsets.empty()) json["source_offsets"] = offsets_json(f.sources);

@@ -23,6 +23,11 @@ Json point_json(const SurfacePoint& point);
 /// Vertices as ids (ascending, ends of edges included), points in faces as {"face", "weights"}.
 Json sources_json(const SourceSet& sources);
 
+/// The key `options` of every report of a solve: the method as it is, `options` as they were asked
+/// for. `answer`: one of its answers, for the backend that gave it and those that failed.
+Json options_json(const DistanceMethod& method, const MethodOptions& options,
+                  const DistanceResult& answer);
+
 Json solve_json(const SolveFigures& figures);
 
 /// Text with a line end. Objects are indented down to the second level, what is deeper stands on

@@ -139,11 +139,14 @@ class Resolver {
     return Error{source.blame, where_ + ": " + placed.error().message};
   }
 
+  /// What was added since the last call.
   ResolvedSources finish() {
     out_.set.edges.assign(edges_.begin(), edges_.end());
     const auto is_zero = [](double offset) { return offset == 0; };
     if (std::ranges::all_of(out_.set.offsets, is_zero)) out_.set.offsets.clear();
-    return std::move(out_);
+    vertices_.clear();
+    edges_.clear();
+    return std::exchange(out_, {});
   }
 
  private:
@@ -225,6 +228,36 @@ Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const T
     if (auto added = resolver.add(source); !added) return added.error();
   }
   return resolver.finish();
+}
+
+Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleMesh& mesh) {
+  Resolver resolver(mesh);
+  EachSource each;
+  const auto place = [&](const Source& one) -> Result<void> {
+    if (auto added = resolver.add(one); !added) return added;
+    ResolvedSources placed = resolver.finish();
+    each.sets.push_back(std::move(placed.set));
+    each.warnings.insert(each.warnings.end(), placed.warnings.begin(), placed.warnings.end());
+    return {};
+  };
+  for (const Source& source : sources) {
+    VertexList list;
+    if (const auto* named = std::get_if<VertexList>(&source.spec)) list = *named;
+    if (const auto* random = std::get_if<RandomVertices>(&source.spec)) {
+      auto vertices = random_vertices(mesh, random->count, random->seed);
+      if (!vertices) return Error{source.blame, source.where + ": " + vertices.error().message};
+      list = {*std::move(vertices), random->offset};
+    }
+    Source one{source.spec, source.where, source.blame};
+    if (list.vertices.empty()) {
+      if (auto placed = place(one); !placed) return placed.error();
+    }
+    for (const Index v : list.vertices) {
+      one.spec = VertexList{{v}, list.offset};
+      if (auto placed = place(one); !placed) return placed.error();
+    }
+  }
+  return each;
 }
 
 Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,

@@ -32,7 +32,9 @@ struct Group {
   std::vector<SourceAnchors> anchors;
 };
 
-/// Cuts the source sets into blocks; a set that changes the matrix is alone in its block.
+/// Cuts the source sets into blocks; a set that changes the matrix is alone in its block. A
+/// column's last bits depend on the width of its block, so that every eighth set begins one
+/// whatever went before: sets that come in chunks of a multiple of eight get the same blocks.
 Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
                                            std::span<const SourceSet> sets) {
   std::vector<Group> groups;
@@ -41,7 +43,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
     auto placed = place_sources(p.surface, sets[i]);
     if (!placed) return placed.error();
     const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
-    if (!open || alone || groups.back().anchors.size() == kSetsAtOnce) groups.push_back({i, {}});
+    if (!open || alone || i % kSetsAtOnce == 0) groups.push_back({i, {}});
     groups.back().anchors.push_back(std::move(*placed));
     open = !alone;
   }
@@ -238,7 +240,6 @@ class GroupRunner {
   const Progress watch_;
   int threads_of_group_ = 1;
   std::atomic<std::size_t> next_{0};
-  int threads_a_group_ = 1;
   std::mutex mutex_;
   std::atomic<bool> memory_ended_{false};
   std::optional<Error> failure_;

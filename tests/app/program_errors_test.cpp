@@ -50,7 +50,6 @@ const std::vector<Failure>& failures() {
       {"ViewScale", {"view", "bunny", "--scale", "9"}, 2, {"--scale", "0.5 to 4"}},
       {"ViewOutput", {"view", "bunny", "-o", "a.jpg"}, 2, {".png"}},
       {"ViewMissingScript", {"view", "--replay", "none.log"}, 1, {"none.log", "No such file"}},
-      {"CommandToCome", {"sample", "bunny"}, 2, {"no command 'sample'", "there are view, solve"}},
       {"UnknownCommand", {"frobnicate"}, 2, {"'frobnicate'", "there are view, solve"}},
       {"UnknownFlag", {"--frob"}, 2, {"--frob", "--help"}},
       {"UnknownOption", {"solve", "bunny", "--frob"}, 2, {"--frob", "geotherm solve --help"}},

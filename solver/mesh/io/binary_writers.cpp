@@ -59,17 +59,25 @@ void append_array(std::string& bytes, const DataField& field) {
 
 }  // namespace
 
-std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest) {
+std::string npy_header(const std::string& type, std::span<const std::uint64_t> shape) {
   constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
   constexpr std::size_t kAlignment = 64;
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (" +
-                       std::to_string(distances.size()) + (nearest.empty() ? ",), }" : ", 2), }");
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    header += (i > 0 ? ", " : "") + std::to_string(shape[i]);
+  }
+  header += shape.size() == 1 ? ",), }" : "), }";
   while ((kPreamble + header.size() + 1) % kAlignment != 0) header += ' ';
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);
-  bytes.reserve(kPreamble + header.size() + sizeof(double) * (distances.size() + nearest.size()));
   append_little(bytes, static_cast<std::uint16_t>(header.size()));
-  bytes += header;
+  return bytes + header;
+}
+
+std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest) {
+  const std::uint64_t shape[] = {distances.size(), 2};
+  std::string bytes = npy_header("<f8", std::span(shape).first(nearest.empty() ? 1 : 2));
+  bytes.reserve(bytes.size() + sizeof(double) * (distances.size() + nearest.size()));
   for (std::size_t v = 0; v < distances.size(); ++v) {
     append_little(bytes, distances[v]);
     if (!nearest.empty()) append_little(bytes, static_cast<double>(nearest[v]));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -16,6 +17,9 @@ namespace geotherm::io {
 // `fields`: what follows it under its own name, faces' values where the format holds faces.
 std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest = {},
                       std::span<const DataField> fields = {});
+
+/// What stands before the values of a .npy file, version 1.0; `type`: such as "<f8".
+std::string npy_header(const std::string& type, std::span<const std::uint64_t> shape);
 
 /// Shape V, or V x 2 with `nearest`.
 std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest = {});

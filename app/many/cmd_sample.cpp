@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "app/many/cmd_sample.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
+
+#include "app/machine.h"
+#include "app/many/sample_report.h"
+#include "app/outputs.h"
+#include "app/solve_steps.h"
+#include "app/text.h"
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/io/file_extension.h"
+#include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/npy_rows.h"
+#include "solver/mesh/write_distances.h"
+#include "solver/mesh/write_file.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr double kSetupShare = 0.1;
+
+Result<Index> number_in_option(const std::string& text, const char* option, Index least,
+                               const char* what) {
+  const auto number = number_in<Index>(text);
+  if (number && *number >= least) return *number;
+  return Error{ErrorCode::kBadInput, std::string(option) + ": '" + one_line(text) + "' is no " +
+                                         what + "; give a whole number from " +
+                                         std::to_string(least)};
+}
+
+bool is_json(const std::string& path) { return io::file_extension(path) == ".json"; }
+
+Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) {
+  protect_inputs(arguments.model, {}, outputs);
+  for (const std::string& path : arguments.outputs) {
+    if (!is_json(path)) {
+      if (auto known = check_distance_path(path); !known) return known;
+    }
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  const std::string& samples = arguments.samples;
+  if (!samples.empty()) {
+    const std::string extension = io::file_extension(samples);
+    if (samples != "-" && extension != ".csv" && extension != ".npy") {
+      return Error{ErrorCode::kNotAvailable,
+                   "--samples: " + one_line(samples) +
+                       ": the list of samples is written as .csv or .npy; choose another name"};
+    }
+    if (auto expected = outputs.expect(samples, "--samples"); !expected) return expected;
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json");
+}
+
+/// Without the model, which has to be loaded first.
+Result<SampleFigures> sample(Model model, const SampleArguments& arguments,
+                             const MethodOptions& options, Index count, Index first,
+                             const Progress& progress, const Announce& announce) {
+  if (auto pin = check_pin(options.constraint, *model.mesh); !pin) return pin.error();
+  // What cannot be asked for is said before the set-up.
+  if (auto fits = check_sampling(*model.mesh, count, {first}); !fits) {
+    return Error{fits.error().code, one_line(model.name) + ": " + fits.error().message};
+  }
+  auto method = build_method(model.mesh, options, part_of(progress, 0.0, kSetupShare));
+  if (!method) return about_model(model.name, method.error());
+  const Stopwatch watch;
+  auto points = farthest_points(**method, *model.mesh, count, {first},
+                                with_estimate(part_of(progress, kSetupShare, 1.0), announce,
+                                              kSamplesStage, counted(count, "sample", "samples")));
+  if (!points) return about_model(model.name, points.error());
+  const double sampling_ms = watch.milliseconds();
+  const double peak = peak_rss_mb();
+  const MeshReport mesh = inspect_mesh(*model.mesh);
+  SampleFigures figures{std::move(model),
+                        mesh,
+                        *std::move(method),
+                        options,
+                        *std::move(points),
+                        sampling_ms,
+                        peak,
+                        {}};
+  const auto add_warnings = [&figures](const std::vector<std::string>& more) {
+    figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
+  };
+  add_warnings(figures.model.notes);
+  add_warnings(figures.method->warnings());
+  add_warnings(figures.points.warnings);
+  const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
+  add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
+  note_unused_options(arguments.method, options, figures.warnings);
+  return figures;
+}
+
+Result<void> write_labels(const std::string& path, const SampleFigures& figures,
+                          std::string& standard_output) {
+  const FarthestPoints& points = figures.points;
+  if (is_json(path)) return write_file(path, to_text(sample_json(figures)));
+  if (path != "-") {
+    return write_distances(path, *figures.model.mesh, points.distances, points.nearest);
+  }
+  standard_output = io::csv_bytes(points.distances, points.nearest);
+  return {};
+}
+
+Result<void> write_samples(const std::string& path, const SampleFigures& figures,
+                           std::string& standard_output) {
+  if (path == "-") {
+    standard_output = samples_csv(figures);
+    return {};
+  }
+  if (io::file_extension(path) == ".csv") return write_file(path, samples_csv(figures));
+  const std::size_t count = figures.points.samples.size();
+  auto file = NpyRows::open(path, count, kSampleColumns, NpyType::kFloat64);
+  if (!file) return file.error();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (auto written = file->append(sample_row(figures, i)); !written) return written;
+  }
+  return file->finish();
+}
+
+}  // namespace
+
+void add_sample_options(CLI::App& command, SampleArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.reading)->required();
+  command.add_option("-n,--count", arguments.count, "how many samples")->type_name("K")->required();
+  command
+      .add_option("--first", arguments.first,
+                  "the vertex to begin with; default: the one farthest from the first vertex")
+      ->type_name("V");
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "distance to the nearest sample and its number, for every vertex: .csv .npy .ply "
+                  ".vtp, or - for CSV on standard output; .json is the report; may be repeated")
+      ->type_name("FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--samples", arguments.samples,
+                  "the samples in their order: vertex, position, distance to those before, radius "
+                  "covered with it; .csv .npy, or - for CSV on standard output")
+      ->type_name("FILE");
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  add_backend_option(command, arguments.method);
+  add_method_options(command, arguments.method);
+  command.footer(
+      "Each sample is the vertex farthest from all before it; parts of the surface that none of "
+      "them reaches come first.\n"
+      "Examples:\n"
+      "  geotherm sample bunny -n 100 -o cells.ply --samples samples.csv\n"
+      "  geotherm sample bunny -n 5 --first 0 --method wavefront --json -");
+}
+
+Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progress& progress,
+                                 const Announce& announce) {
+  const auto options = method_options(arguments.method);
+  if (!options) return options.error();
+  const auto count = number_in_option(arguments.count, "--count", 1, "number of samples");
+  if (!count) return count.error();
+  Index first = kNoIndex;
+  if (!arguments.first.empty()) {
+    const auto vertex = number_in_option(arguments.first, "--first", 0, "vertex id");
+    if (!vertex) return vertex.error();
+    first = *vertex;
+  }
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  auto model = load_model(arguments.model, arguments.reading, progress);
+  if (!model) return model.error();
+  const auto figures =
+      sample(*std::move(model), arguments, *options, *count, first, progress, announce);
+  if (!figures) return figures.error();
+
+  CommandOutput out{"", figures->warnings, {}};
+  for (const std::string& path : arguments.outputs) {
+    const auto written =
+        outputs.write(path, [&] { return write_labels(path, *figures, out.text); });
+    if (!written) return written.error();
+  }
+  if (!arguments.samples.empty()) {
+    const auto written = outputs.write(
+        arguments.samples, [&] { return write_samples(arguments.samples, *figures, out.text); });
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    const auto written =
+        outputs.write_text(arguments.json, to_text(sample_json(*figures)), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = sample_table(*figures);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

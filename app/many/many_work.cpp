@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "app/many/many_work.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "app/machine.h"
+#include "app/solve_steps.h"
+#include "app/text.h"
+#include "app/text_table.h"
+#include "solver/core/free_memory.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/heat/heat_method.h"
+#include "solver/mesh/growing_file.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Set-up's share of the bar.
+constexpr double kSetupShare = 0.1;
+/// Warnings of answers that are shown; they are alike from source to source.
+constexpr std::size_t kMostWarnings = 5;
+
+void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  for (const std::string& text : more) {
+    if (std::ranges::find(all, text) == all.end()) all.push_back(text);
+  }
+}
+
+}  // namespace
+
+Result<NpyType> number_type(const SolveArguments& arguments) {
+  if (arguments.dtype.empty()) {
+    return arguments.float32 ? NpyType::kFloat32 : NpyType::kFloat64;
+  }
+  const auto type = parse_npy_type(arguments.dtype);
+  if (!type) return Error{type.error().code, "--dtype: " + type.error().message};
+  if (arguments.float32 && *type != NpyType::kFloat32) {
+    return Error{ErrorCode::kBadInput,
+                 "--dtype " + arguments.dtype + " and --float32 disagree; leave one of them out"};
+  }
+  return *type;
+}
+
+Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option) {
+  const auto refuse = [&option](const std::string& other) {
+    return Error{ErrorCode::kBadInput,
+                 other + " is about one source set, and " + option +
+                     " solves for each source by itself; leave one of them out"};
+  };
+  if (arguments.check) return refuse("--check");
+  if (!arguments.fields.empty()) return refuse("--fields");
+  if (arguments.labels) return refuse("--labels");
+  return {};
+}
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
+  const auto options = method_options(arguments.method);
+  if (!options) return options.error();
+  const auto named = some_sources_of(arguments.sources);
+  if (!named) return named.error();
+  auto model = load_model(arguments.model, arguments.reading, progress);
+  if (!model) return model.error();
+  if (auto pin = check_pin(options->constraint, *model->mesh); !pin) return pin.error();
+  auto sources = resolve_each(*named, *model->mesh);
+  if (!sources) return sources.error();
+  const std::size_t chunk =
+      std::min(good_chunk(model->mesh->vertex_count(), options->threads, free_memory()),
+               sources->sets.size());
+  const MeshReport mesh = inspect_mesh(*model->mesh);
+  return ManySources{*std::move(model), mesh, *options, *std::move(sources), chunk};
+}
+
+Result<void> check_room(const std::string& path, double bytes) {
+  const auto room = room_for(path);
+  if (!room || bytes <= static_cast<double>(*room)) return {};
+  return Error{ErrorCode::kBadFile,
+               one_line(path) + ": the file would take " + bytes_in_words(bytes) + ", and " +
+                   bytes_in_words(static_cast<double>(*room)) +
+                   " are free there; take fewer sources, --dtype float32 or another place"};
+}
+
+Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
+                               const TakeRow& take, const std::string& output,
+                               const Progress& progress, const Announce& announce) {
+  auto method = build_method(work.model.mesh, work.options, part_of(progress, 0.0, kSetupShare));
+  if (!method) return about_model(work.model.name, method.error());
+  ManyFigures figures;
+  figures.method = *std::move(method);
+  add_warnings(figures.warnings, work.model.notes);
+  add_warnings(figures.warnings, figures.method->warnings());
+  add_warnings(figures.warnings, work.sources.warnings);
+
+  const std::size_t rows = work.sources.sets.size();
+  StreamOptions stream;
+  stream.chunk = work.chunk;
+  std::vector<std::string> of_answers;
+  std::optional<Error> not_taken;
+  const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
+    auto taken = take(row, answer.distances);
+    if (!taken) {
+      not_taken = taken.error();
+      return taken;
+    }
+    add_warnings(of_answers, answer.warnings);
+    answer.distances = {};
+    if (row == 0) figures.first = std::move(answer);
+    return {};
+  };
+  const Stopwatch watch;
+  const std::string details =
+      output + ", up to " +
+      bytes_in_words(static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk))) +
+      " of memory for answers";
+  const auto done = stream_answers(
+      *figures.method, work.sources.sets, stream, sink,
+      with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,
+                    counted(static_cast<std::int64_t>(rows), "source", "sources"), details));
+  if (!done) return not_taken ? *not_taken : about_model(work.model.name, done.error());
+  figures.queries_ms = watch.milliseconds();
+  figures.peak_rss_mb = peak_rss_mb();
+
+  if (of_answers.size() > kMostWarnings) {
+    const auto more = static_cast<std::int64_t>(of_answers.size() - kMostWarnings);
+    of_answers.resize(kMostWarnings);
+    of_answers.push_back("and " + counted(more, "more such warning", "more such warnings") +
+                         " about the first " +
+                         counted(static_cast<std::int64_t>(work.chunk), "source", "sources"));
+  }
+  add_warnings(figures.warnings, of_answers);
+  note_unused_options(arguments.method, work.options, figures.warnings);
+  return figures;
+}
+
+std::string unreached_note(const ManySources& work, std::int64_t unreached) {
+  return counted(unreached, "distance is", "distances are") +
+         " infinite: no way leads there from the source (" +
+         counted(work.mesh.components, "component", "components") + ", " +
+         counted(work.mesh.unreferenced_vertices, "vertex", "vertices") + " in no face)";
+}
+
+Json many_json(const ManySources& work, const ManyFigures& figures) {
+  Json sources = Json::array();
+  for (const SourceSet& set : work.sources.sets) {
+    if (set.edges.empty()) {
+      sources.push_back(point_json(set.points.front()));
+    } else {
+      sources.push_back({{"edges", set.edges.size()}});
+    }
+  }
+  const SetupTiming& setup = figures.method->timing();
+  const auto rows = static_cast<double>(work.sources.sets.size());
+  return {{"model", model_json(work.model.name, work.mesh)},
+          {"options", options_json(*figures.method, work.options, figures.first)},
+          {"sources", std::move(sources)},
+          {"timing_ms",
+           {{"load", work.model.load_ms},
+            {"setup", setup.setup},
+            {"queries", figures.queries_ms},
+            {"query", figures.queries_ms / rows}}},
+          {"memory_mb",
+           {{"factor", figures.method->memory_mb()},
+            {"answers",
+             static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / (1024.0 * 1024.0)},
+            {"peak_rss", figures.peak_rss_mb}}},
+          {"warnings", figures.warnings}};
+}
+
+std::string many_table(const ManySources& work, const ManyFigures& figures,
+                       std::vector<std::array<std::string, 2>> first_rows) {
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  for (auto& [name, value] : first_rows) table.add_row({std::move(name), std::move(value)});
+  const HeatMethod* const heat = figures.method->heat();
+  table.add_row({"method", to_text(figures.method->kind()) +
+                               (heat ? ", " + figures.first.backend : std::string()) + ", " +
+                               counted(thread_count(work.options.threads), "thread", "threads")});
+  const auto rows = static_cast<double>(work.sources.sets.size());
+  table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
+  table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
+                                milliseconds(figures.queries_ms / rows) + " ms each"});
+  return table.text();
+}
+
+}  // namespace geotherm::app

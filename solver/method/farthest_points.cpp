@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "solver/method/farthest_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "solver/core/number_text.h"
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/repeats_corner.h"
+
+namespace geotherm {
+namespace {
+
+/// V: whether a vertex can be a source.
+std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
+  std::vector<char> used(mesh.positions().size(), 0);
+  for (const Face& face : mesh.faces()) {
+    if (repeats_corner(face)) continue;
+    for (const Index corner : face) used[corner] = 1;
+  }
+  return used;
+}
+
+class Sampler {
+ public:
+  Sampler(const DistanceMethod& method, const TriangleMesh& mesh, const Progress& progress)
+      : method_(method), progress_(progress), open_(vertices_in_faces(mesh)) {
+    out_.distances.assign(open_.size(), kUnreached);
+    out_.nearest.assign(open_.size(), kNoIndex);
+  }
+
+  Result<FarthestPoints> run(Index count, Index first) {
+    queries_ = count + (first == kNoIndex ? 1 : 0);
+    Index next = first;
+    if (first == kNoIndex) {
+      const auto lowest = static_cast<Index>(std::ranges::find(open_, 1) - open_.begin());
+      const auto from = distances_from(lowest);
+      if (!from) return from.error();
+      next = farthest(*from, true);
+      if (next == kNoIndex) next = lowest;  // nothing was reached
+    }
+    for (Index i = 0; i < count; ++i) {
+      const double before = out_.distances[next];
+      const auto from = distances_from(next);
+      if (!from) return from.error();
+      take(i, next, *from);
+      const Index chosen = std::exchange(next, farthest(out_.distances, false));
+      out_.samples.push_back({chosen, before, next == kNoIndex ? 0.0 : out_.distances[next]});
+    }
+    out_.query_ms = watch_.milliseconds() / done_;
+    return std::move(out_);
+  }
+
+ private:
+  Result<std::vector<double>> distances_from(Index v) {
+    const double begun = static_cast<double>(done_) / queries_;
+    const double ended = static_cast<double>(done_ + 1) / queries_;
+    const bool is_first = done_ == 0;
+    auto answer = method_.solve(SourceSet::of_vertices({v}), {.quality = is_first},
+                                part_of(progress_, begun, ended));
+    if (!answer) return answer.error();
+    if (is_first) out_.warnings = std::move(answer->warnings);
+    ++done_;
+    if (!report(progress_, kSamplesStage, ended)) return cancelled_error();
+    return std::move(answer->distances);
+  }
+
+  /// Every vertex that is nearer to the new sample becomes its own.
+  void take(Index sample, Index vertex, const std::vector<double>& from) {
+    open_[vertex] = 0;
+    for (std::size_t v = 0; v < from.size(); ++v) {
+      if (!(from[v] < out_.distances[v])) continue;
+      out_.distances[v] = from[v];
+      out_.nearest[v] = sample;
+    }
+    out_.distances[vertex] = 0;
+    out_.nearest[vertex] = sample;
+  }
+
+  /// The lowest of the open vertices with the largest value; kNoIndex where none is open.
+  Index farthest(const std::vector<double>& values, bool finite) const {
+    Index best = kNoIndex;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (!open_[v] || (finite && !std::isfinite(values[v]))) continue;
+      if (best == kNoIndex || values[v] > values[best]) best = static_cast<Index>(v);
+    }
+    return best;
+  }
+
+  const DistanceMethod& method_;
+  const Progress& progress_;
+  std::vector<char> open_;  ///< in a face, and no sample yet
+  FarthestPoints out_;
+  Index queries_ = 0, done_ = 0;
+  Stopwatch watch_;
+};
+
+}  // namespace
+
+double FarthestPoints::separation() const {
+  double least = kUnreached;
+  for (const FarthestSample& sample : samples) least = std::min(least, sample.distance);
+  return least;
+}
+
+Result<void> check_sampling(const TriangleMesh& mesh, Index count, const FarthestOptions& options) {
+  const std::vector<char> used = vertices_in_faces(mesh);
+  const auto vertices = static_cast<Index>(std::ranges::count(used, 1));
+  if (count < 1 || count > vertices) {
+    return Error{
+        ErrorCode::kBadInput,
+        counted_text(static_cast<std::size_t>(std::max(count, Index{0})), "sample was",
+                     "samples were") +
+            " asked for, and " +
+            counted_text(static_cast<std::size_t>(vertices), "vertex belongs", "vertices belong") +
+            " to a face; ask for 1 to " + std::to_string(vertices)};
+  }
+  const Index first = options.first;
+  if (first == kNoIndex) return {};
+  if (first < 0 || first >= mesh.vertex_count()) {
+    return Error{ErrorCode::kBadInput, "there is no vertex " + std::to_string(first) +
+                                           " to begin with; vertices are 0 to " +
+                                           std::to_string(mesh.vertex_count() - 1)};
+  }
+  if (!used[mesh.standing_for(first)]) {
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(first) +
+                     " belongs to no face and cannot be the first sample; choose another"};
+  }
+  return {};
+}
+
+Result<FarthestPoints> farthest_points(const DistanceMethod& method, const TriangleMesh& mesh,
+                                       Index count, const FarthestOptions& options,
+                                       const Progress& progress) try {
+  if (auto valid = check_sampling(mesh, count, options); !valid) return valid.error();
+  const Index first = options.first;
+  return Sampler(method, mesh, progress)
+      .run(count, first == kNoIndex ? first : mesh.standing_for(first));
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended between queries; take a mesh with fewer faces"};
+}
+
+}  // namespace geotherm

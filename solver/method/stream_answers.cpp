@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "solver/method/stream_answers.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/core/parallel.h"
+
+namespace geotherm {
+namespace {
+
+/// Sets that the heat method solves as one block.
+constexpr std::size_t kBlock = 8;
+/// Blocks of a thread in a chunk, at most.
+constexpr std::size_t kMostBlocks = 4;
+/// Beyond this, more blocks would cost memory for little: a block takes long enough by itself.
+constexpr std::int64_t kAmpleBytes = std::int64_t{256} << 20;
+
+using Answers = std::vector<DistanceResult>;
+
+/// Hands a chunk over and lets it go.
+Result<void> hand_over(Answers answers, std::size_t first, const AnswerSink& sink) try {
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (auto taken = sink(first + i, std::move(answers[i])); !taken) return taken;
+    answers[i] = {};
+  }
+  return {};
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended where answers are taken; solve fewer "
+               "sources at once"};
+}
+
+}  // namespace
+
+Result<void> stream_answers(const DistanceMethod& method, std::span<const SourceSet> sets,
+                            const StreamOptions& options, const AnswerSink& sink,
+                            const Progress& progress) try {
+  const std::size_t chunk = std::max<std::size_t>(options.chunk, 1);
+  const auto count = static_cast<double>(std::max<std::size_t>(sets.size(), 1));
+  QueryOptions query = options.query;
+  Answers waiting;
+  std::size_t first_waiting = 0;
+  for (std::size_t first = 0; first < sets.size(); first += chunk) {
+    const std::size_t size = std::min(chunk, sets.size() - first);
+    const Progress part = part_of(progress, static_cast<double>(first) / count,
+                                  static_cast<double>(first + size) / count);
+    Result<void> taken;
+    Result<Answers> solved = Answers();
+    {
+      const auto take = [&] { taken = hand_over(std::move(waiting), first_waiting, sink); };
+      const std::jthread taker = waiting.empty() ? std::jthread() : try_thread(take);
+      if (!waiting.empty() && !taker.joinable()) take();
+      if (taker.joinable() || taken) {
+        solved = method.solve_each(sets.subspan(first, size), query, part);
+      }
+    }
+    if (!taken) return taken;
+    if (!solved) return solved.error();
+    if (!report(part, kSourcesStage, 1.0)) return cancelled_error();
+    waiting = *std::move(solved);
+    first_waiting = first;
+    query.quality = false;
+  }
+  return hand_over(std::move(waiting), first_waiting, sink);
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended between queries; solve fewer sources at once"};
+}
+
+std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes) {
+  const std::size_t least = kBlock * static_cast<std::size_t>(thread_count(threads));
+  std::size_t chunk = least * kMostBlocks;
+  while (chunk > least && chunk_bytes(vertices, chunk) > kAmpleBytes) chunk -= least;
+  if (!free_bytes) return chunk;
+  const std::int64_t most = *free_bytes / 2;
+  while (chunk > kBlock && chunk_bytes(vertices, chunk) > most) chunk -= kBlock;
+  return chunk;
+}
+
+std::int64_t chunk_bytes(Index vertices, std::size_t chunk) {
+  return 2 * static_cast<std::int64_t>(chunk) * vertices *
+         static_cast<std::int64_t>(sizeof(double));
+}
+
+}  // namespace geotherm

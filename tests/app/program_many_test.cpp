@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// Rows of distances from many sources.
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+#include "app/many/many_work.h"
+#include "tests/app/npy_file.h"
+#include "tests/app/program_fixture.h"
+#include "tests/support/compare.h"
+
+namespace geotherm::test {
+namespace {
+
+/// Of the largest distance: several sources are solved as one block, which rounds otherwise.
+constexpr double kRoundOff = 1e-12;
+
+TEST_F(Program, EachWritesTheRowsOfSingleSolvesInTheOrderOfTheSources) {
+  const Json report = json({"solve", "bunny", "-s", "900,3", "-s", "random:2:5", "-s", "900", "-s",
+                            "face:7:0.2:0.3:0.5", "--each", "-o", "rows.npy", "--json", "-"});
+  ASSERT_EQ(report["sources"].size(), 6U);
+  EXPECT_EQ(report["sources"][0], 900);
+  EXPECT_EQ(report["sources"][1], 3);
+  EXPECT_EQ(report["sources"][4], 900);
+  const std::string bytes = bytes_of(folder.path("rows.npy"));
+  const std::size_t vertices = report["model"]["vertices"];
+  EXPECT_TRUE(has_shape(bytes, 6, vertices));
+  const auto rows = npy_values<double>(bytes);
+  ASSERT_EQ(rows.size(), 6 * vertices);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Json& source = report["sources"][i];
+    const std::string text = source.is_number() ? source.dump() : "face:7:0.2:0.3:0.5";
+    run({"solve", "bunny", "-s", text, "-o", "one.npy"});
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i * vertices);
+    EXPECT_LE(relative_difference({begin, begin + static_cast<std::ptrdiff_t>(vertices)},
+                                  npy_values<double>(bytes_of(folder.path("one.npy")))),
+              kRoundOff)
+        << text;
+  }
+  expect_keys(report,
+              {{"model", keys({"name", "vertices", "faces"})},
+               {"options", keys({"method", "backend", "t", "threads"})},
+               {"rows", nullptr},
+               {"columns", nullptr},
+               {"dtype", nullptr},
+               {"distance", keys({"min", "max", "mean", "unreached"})},
+               {"timing_ms", keys({"load", "setup", "queries", "query"})},
+               {"memory_mb", keys({"factor", "answers", "peak_rss"})},
+               {"warnings", nullptr}},
+              "");
+}
+
+TEST_F(Program, EachHasTheBitsOfSingleSolvesByMethodsWithoutBlocks) {
+  run({"solve", "bunny", "-s", "5,900", "--each", "-o", "a.npy", "--method", "wavefront"});
+  const auto rows = npy_values<double>(bytes_of(folder.path("a.npy")));
+  run({"solve", "bunny", "-s", "900", "-o", "b.npy", "--method", "wavefront"});
+  const auto single = npy_values<double>(bytes_of(folder.path("b.npy")));
+  ASSERT_EQ(rows.size(), 2 * single.size());
+  EXPECT_TRUE(std::equal(single.begin(), single.end(),
+                         rows.begin() + static_cast<std::ptrdiff_t>(single.size())));
+}
+
+TEST_F(Program, EachIsTheSameOnStandardOutputAndForAnyThreads) {
+  run({"solve", "bunny", "-s", "random:40", "--each", "-o", "rows.npy", "--threads", "1"});
+  const ProgramRun streamed =
+      run({"solve", "bunny", "-s", "random:40", "--each", "-o", "-", "--threads", "3"});
+  EXPECT_EQ(streamed.out, bytes_of(folder.path("rows.npy")));
+}
+
+TEST_F(Program, EachRoundsToFloatsWhereAsked) {
+  run({"solve", "bunny", "-s", "1,2", "--each", "-o", "a.npy"});
+  run({"solve", "bunny", "-s", "1,2", "--each", "-o", "b.npy", "--float32"});
+  run({"solve", "bunny", "-s", "1,2", "--each", "-o", "c.npy", "--dtype", "float32"});
+  const auto exact = npy_values<double>(bytes_of(folder.path("a.npy")));
+  const std::string rounded = bytes_of(folder.path("b.npy"));
+  EXPECT_NE(rounded.find("'<f4'"), std::string::npos);
+  EXPECT_EQ(rounded, bytes_of(folder.path("c.npy")));
+  const auto floats = npy_values<float>(rounded);
+  ASSERT_EQ(floats.size(), exact.size());
+  for (std::size_t i = 0; i < floats.size(); ++i) {
+    EXPECT_EQ(floats[i], static_cast<float>(exact[i])) << i;
+  }
+}
+
+TEST_F(Program, EachKeepsTheUnreachedInfiniteAndSaysWhy) {
+  folder.write("two.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n");
+  const ProgramRun done = run({"solve", "two.obj", "-s", "0,4", "--each", "-o", "a.npy"});
+  EXPECT_NE(done.err.find("6 distances are infinite"), std::string::npos) << done.err;
+  const auto rows = npy_values<double>(bytes_of(folder.path("a.npy")));
+  ASSERT_EQ(rows.size(), 12U);
+  for (std::size_t v = 0; v < 6; ++v) {
+    EXPECT_EQ(std::isinf(rows[v]), v >= 3);
+    EXPECT_EQ(std::isinf(rows[6 + v]), v < 3);
+  }
+}
+
+TEST_F(Program, EachThatIsInterruptedLeavesNothing) {
+  constexpr int kMostLooks = 20'000, kBetweenLooks = 1000;  // microseconds
+  folder.write("rows.npy", "old");
+  const RunningProgram program(
+      folder.path("."), {"solve", "terrain", "-s", "random:5000", "--each", "-o", "rows.npy"});
+  const auto begun = [&] {
+    const auto names = folder.names();
+    return std::ranges::any_of(
+        names, [](const std::string& name) { return name.find(".tmp-") != name.npos; });
+  };
+  for (int look = 0; look < kMostLooks && !begun(); ++look) ::usleep(kBetweenLooks);
+  ASSERT_TRUE(begun());
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().code, 128 + SIGINT);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"rows.npy"});
+  EXPECT_EQ(bytes_of(folder.path("rows.npy")), "old");
+}
+
+TEST(CancelledEach, LeavesNothing) {
+  const TemporaryDirectory folder;
+  app::SolveArguments arguments;
+  arguments.model = "bunny";
+  arguments.sources.sources = {"random:500"};
+  arguments.outputs = {folder.path("a.npy")};
+  arguments.each = true;
+  int calls = 0;
+  const auto result = app::run_solve(arguments, [&](std::string_view stage, double) {
+    return stage.find("500 sources") == std::string_view::npos || ++calls < 3;
+  });
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
+  EXPECT_EQ(folder.names(), std::vector<std::string>{});
+}
+
+TEST(RoomForMany, IsAskedBeforeTheWork) {
+  constexpr double kMoreThanAnyDisk = 1e24;
+  const TemporaryDirectory folder;
+  EXPECT_TRUE(app::check_room(folder.path("a.npy"), 1));
+  EXPECT_TRUE(app::check_room("-", kMoreThanAnyDisk));
+  const auto refused = app::check_room(folder.path("a.npy"), kMoreThanAnyDisk);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kBadFile);
+  for (const char* part : {"a.npy: the file would take 1e+12 TB", "are free there; take fewer"}) {
+    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+  }
+}
+
+TEST(Estimate, IsToldOnceWhereMoreThanASecondIsLeft) {
+  std::vector<std::string> told;
+  const auto progress = app::with_estimate(
+      {}, [&](const std::string& text) { told.push_back(text); }, "rows", "9 sources", "a file");
+  EXPECT_TRUE(progress("solve", 0.9));  // the guess of a method
+  EXPECT_TRUE(told.empty());
+  EXPECT_TRUE(progress("rows", 1e-9));
+  EXPECT_TRUE(progress("rows", 1e-9));
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_TRUE(told[0].starts_with("9 sources: about ") && told[0].ends_with(", a file")) << told[0];
+  EXPECT_EQ(app::bytes_in_words(999'600'000), "1 GB");
+  EXPECT_EQ(app::bytes_in_words(3.2e9), "3.2 GB");
+  EXPECT_EQ(app::bytes_in_words(1), "1 byte");
+  EXPECT_EQ(app::seconds_in_words(12.4), "12 s");
+  EXPECT_EQ(app::seconds_in_words(200), "3 min 20 s");
+  EXPECT_EQ(app::seconds_in_words(7500), "2 h 5 min");
+}
+
+}  // namespace
+}  // namespace geotherm::test
