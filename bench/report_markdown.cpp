@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "bench/number_text.h"
 #include "bench/report.h"
@@ -86,14 +87,16 @@ std::string figures_table(const BenchRun& run, const Quantity& quantity) {
 /// Why there are no figures, one line each.
 std::string reasons(const BenchRun& run) {
   std::string out;
+  constexpr std::string_view kHeading = "not run: ";
   for (const SolveGroup& group : run.groups) {
     if (!group.failure.empty()) out += "- " + group.mesh + ": " + group.failure + "\n";
     for (const Figures& f : group.figures) {
-      const std::string reason = f.failure.empty() ? f.not_run : "failed: " + f.failure;
+      std::string reason = f.failure.empty() ? f.not_run : "failed: " + f.failure;
+      if (reason.starts_with(kHeading)) reason.erase(0, kHeading.size());
       if (!reason.empty()) out += "- " + mesh_text(group) + ", `" + f.name + "`: " + reason + "\n";
     }
   }
-  return out;
+  return out.empty() ? out : "Left out:\n\n" + out;
 }
 
 std::string rates_table(const BenchRun& run) {
@@ -147,12 +150,18 @@ std::string growth_table(const std::vector<Growth>& growth) {
   return out;
 }
 
+/// "OpenBLAS 0.3.21", without how it was configured.
+std::string short_blas(const std::string& name) {
+  const std::size_t version = name.find(' ');
+  return version == std::string::npos ? name : name.substr(0, name.find(' ', version + 1));
+}
+
 }  // namespace
 
 std::string to_markdown(const BenchRun& run) {
   std::string out = run.machine.cpu + format(", %d threads, the baseline 1", run.threads) +
                     (run.quick ? " (a quick run)" : "") + "; " + run.machine.compiler + "; BLAS " +
-                    run.machine.blas + ".\n";
+                    short_blas(run.machine.blas) + ".\n";
   std::vector<std::string> parts;
   for (const Quantity& quantity : kQuantities) parts.push_back(figures_table(run, quantity));
   parts.insert(parts.end(), {reasons(run), limits_table(run.limits), rates_table(run),
