@@ -159,7 +159,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
   set_face_values(data, *mesh, view, &solved->result);
   if (shows_arrows(view)) {
     add_fields(data, *mesh, solved->result);
-    data.solid = is_solid(*mesh, solved->mesh);
+    data.solid = is_solid(*mesh, inspect_mesh(*mesh));
   }
   figures.solve = *std::move(solved);
   return data;
