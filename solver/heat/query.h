@@ -22,7 +22,8 @@ struct QueryPipeline {
 };
 
 /// Solves every source set, in blocks of up to eight that threads share out: a block streams each
-/// factor once. The cut into blocks does not depend on the number of threads, nor do the results.
+/// factor once. Where there are fewer blocks than threads, the steps of each share theirs. The cut
+/// into blocks does not depend on the number of threads, nor do the results.
 /// `progress` is called by one thread at a time, with shares that do not fall.
 /// A query that makes a factor of its own is held against the memory limit before; threads that
 /// would have one more each are fewer then. Throws std::bad_alloc.
