@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#if defined(__x86_64__)
-#include <xmmintrin.h>
-#endif
-
 namespace geotherm {
 
 /// While this lives, results of this thread that are too small for a normal double become 0, and
@@ -13,10 +9,10 @@ namespace geotherm {
 class FlushDenormals {
  public:
 #if defined(__x86_64__)
-  FlushDenormals() : before_(_mm_getcsr()) {
-    _mm_setcsr(before_ | kFlushResults | kOperandsAreZero);
+  FlushDenormals() : before_(__builtin_ia32_stmxcsr()) {
+    __builtin_ia32_ldmxcsr(before_ | kFlushResults | kOperandsAreZero);
   }
-  ~FlushDenormals() { _mm_setcsr(before_); }
+  ~FlushDenormals() { __builtin_ia32_ldmxcsr(before_); }
 #else
   FlushDenormals() = default;
   ~FlushDenormals() = default;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <mutex>
-#include <numeric>
 
 namespace geotherm {
 namespace {
@@ -29,21 +29,11 @@ class FarField {
 
   /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
   Result<void> extend(double floor) {
-    std::vector<Index> far = below(floor, largest(every_row()), 0);
-    std::vector<double> w(n()), r(n());
+    std::vector<Index> far = below(floor, 0);
     for (int level = 1; !far.empty() && level <= kMostLevels; ++level) {
       if (field_.level.empty()) field_.level.assign(n() * static_cast<std::size_t>(columns_), 0);
-      restrict_to(far, level - 1, w);
-      system_.matrix().apply(w, r);
-      Block right = Block::Zero(static_cast<Eigen::Index>(n()), 1);
-      std::vector<char> is_far(n(), 0);
-      for (const Index i : far) is_far[i] = 1;
-      std::vector<Index> interface;
-      for (std::size_t i = 0; i < n(); ++i) {
-        if (is_far[i] || r[i] == 0 || !std::isfinite(r[i])) continue;
-        right(static_cast<Eigen::Index>(i), 0) = r[i] / floor;
-        interface.push_back(static_cast<Index>(i));
-      }
+      Block right = work_.take_zero(field_.u.rows(), 1);
+      const std::vector<Index> interface = restart(far, level - 1, floor, right);
       if (interface.empty()) break;
       // How many levels there will be is not known: each has half of the rest.
       const double rest = std::pow(0.5, level);
@@ -59,7 +49,8 @@ class FarField {
         field_.u(i, column_) = right(i, 0);
         level_at(i) = static_cast<std::uint8_t>(level);
       }
-      std::vector<Index> next = below(floor, largest(far), level);
+      work_.pool.give(std::move(right));
+      std::vector<Index> next = below(floor, level);
       if (next.size() >= far.size()) break;
       far = std::move(next);
     }
@@ -74,27 +65,18 @@ class FarField {
   }
   int level_of(Index i) { return field_.level.empty() ? 0 : level_at(i); }
 
-  std::vector<Index> every_row() const {
-    std::vector<Index> rows(n());
-    std::iota(rows.begin(), rows.end(), 0);
-    return rows;
-  }
-
-  /// Of each component: sizes of components differ, and with them the heat in them.
-  std::vector<double> largest(const std::vector<Index>& rows) const {
-    std::vector<double> out(static_cast<std::size_t>(components_.count), 0.0);
-    for (const Index i : rows) {
-      double& most = out[components_.of[i]];
+  /// Reached, free entries of this level whose value is below the floor times the largest of this
+  /// level in their component: sizes of components differ, and with them the heat in them.
+  std::vector<Index> below(double floor, int level) {
+    std::vector<double> largest(static_cast<std::size_t>(components_.count), 0.0);
+    const auto size = static_cast<Index>(n());
+    for (Index i = 0; i < size; ++i) {
+      if (level_of(i) != level) continue;
+      double& most = largest[components_.of[i]];
       most = std::max(most, std::abs(field_.u(i, column_)));
     }
-    return out;
-  }
-
-  /// Reached, free entries of this level whose value is below the floor times their component's
-  /// largest.
-  std::vector<Index> below(double floor, const std::vector<double>& largest, int level) {
     std::vector<Index> out;
-    for (Index i = 0; i < static_cast<Index>(n()); ++i) {
+    for (Index i = 0; i < size; ++i) {
       if (std::abs(field_.u(i, column_)) >= floor * largest[components_.of[i]]) continue;
       if (!reached_[components_.of[i]] || system_.matrix().is_held(i)) continue;
       if (level_of(i) == level) out.push_back(i);
@@ -102,18 +84,43 @@ class FarField {
     return out;
   }
 
-  /// w = u on the far entries and on the layer of vertices that touch them, 0 elsewhere.
-  void restrict_to(const std::vector<Index>& far, int level, std::vector<double>& w) {
-    std::fill(w.begin(), w.end(), 0.0);
+  /// Entries that share a face with one of these and are not far, ascending.
+  std::vector<Index> around(const std::vector<Index>& rows, const std::vector<char>& is_far) const {
     const OperatorMesh& mesh = system_.matrix().mesh();
-    for (const Index i : far) {
+    std::vector<Index> out;
+    for (const Index i : rows) {
       for (const Index f : mesh.faces_at(i)) {
         for (const Index j : mesh.faces[f]) {
-          const double scale = level_of(j) == level ? 1.0 : 1.0 / field_.step;
-          w[j] = field_.u(j, column_) * scale;
+          if (is_far[j] == 0) out.push_back(j);
         }
       }
     }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  /// What the heat on the far entries and on the layer of vertices that touch them asks of all
+  /// others, over the floor: the right side whose answer goes on from there. Gives its rows.
+  std::vector<Index> restart(const std::vector<Index>& far, int level, double floor, Block& right) {
+    std::vector<char> is_far(n(), 0);
+    for (const Index i : far) is_far[i] = 1;
+    Block heat = work_.take_zero(field_.u.rows(), 1);
+    const std::vector<Index> layer = around(far, is_far);
+    for (const auto& rows : {std::cref(far), std::cref(layer)}) {
+      for (const Index j : rows.get()) {
+        heat(j, 0) = field_.u(j, column_) * (level_of(j) == level ? 1.0 : 1.0 / field_.step);
+      }
+    }
+    std::vector<Index> rows;
+    for (const Index i : around(layer, is_far)) {
+      const double asked = system_.matrix().product_at(i, {heat.data(), n()});
+      if (asked == 0 || !std::isfinite(asked)) continue;
+      right(i, 0) = asked / floor;
+      rows.push_back(i);
+    }
+    work_.pool.give(std::move(heat));
+    return rows;
   }
 
   const LinearSystem& system_;

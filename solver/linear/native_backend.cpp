@@ -149,12 +149,12 @@ class NativeBackend final : public Backend {
                                                   std::span<const Vec3> positions,
                                                   int threads) const override try {
     std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
-    SymmetricPattern eliminated = permuted(pattern, order);
+    SymmetricPattern eliminated = permuted(pattern, order, threads);
     // Subtrees of the elimination tree must be contiguous.
     const std::vector<Index> post = postorder(elimination_parents(eliminated));
     std::vector<Index> final_order(order.size());
     for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];
-    eliminated = permuted(eliminated, post);
+    eliminated = permuted(eliminated, post, threads);
     auto tree = std::make_shared<const FrontTree>(
         build_front_tree(eliminated, count_columns(eliminated), threads));
     if (tree->largest_panel > std::numeric_limits<Index>::max()) {
@@ -163,7 +163,7 @@ class NativeBackend final : public Backend {
           pattern.size());
     }
     return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
-        std::move(final_order), pattern_hash(eliminated), std::move(tree), threads));
+        std::move(final_order), pattern_hash(eliminated, threads), std::move(tree), threads));
   } catch (const std::bad_alloc&) {
     return out_of_memory("ran out of memory in the analysis", pattern.size());
   }

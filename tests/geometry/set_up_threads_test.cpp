@@ -113,10 +113,10 @@ TEST_P(SetUpByThreads, HasTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(Meshes, SetUpByThreads,
                          testing::Combine(testing::Values(large_mesh, large_spoilt_mesh),
                                           testing::Values(2, 3, 7)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           const bool spoilt = std::get<0>(info.param) == large_spoilt_mesh;
+                         [](const testing::TestParamInfo<Case>& each) {
+                           const bool spoilt = std::get<0>(each.param) == large_spoilt_mesh;
                            return std::string(spoilt ? "Spoilt" : "Large") +
-                                  std::to_string(std::get<1>(info.param));
+                                  std::to_string(std::get<1>(each.param));
                          });
 
 class SurfacePatterns : public testing::TestWithParam<ZooMesh> {};

@@ -10,9 +10,10 @@
 namespace geotherm::test {
 
 /// The graph of a lower triangle.
-inline SymmetricPattern pattern_of_lower(const LowerMatrix& lower) {
-  std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(lower.size()));
-  for (Index j = 0; j < lower.size(); ++j) {
+inline SymmetricPattern pattern_of_lower(const LowerPattern& lower) {
+  const auto size = static_cast<Index>(lower.start.size()) - 1;
+  std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(size));
+  for (Index j = 0; j < size; ++j) {
     for (std::int64_t e = lower.start[j] + 1; e < lower.start[j + 1]; ++e) {
       neighbors[lower.row[e]].push_back(j);
       neighbors[j].push_back(lower.row[e]);
