@@ -6,92 +6,126 @@
 namespace geotherm {
 namespace {
 
-/// How readily supernodes are merged: up to so many columns together, this share of all entries
-/// may be zeros. Every solve reads the zeros, every front saves the passing on of an update;
-/// measured at 100k to 4M faces.
-struct Relaxation {
-  Index columns;
-  double zeros;
-};
-constexpr Relaxation kRelaxation[] = {{8, 0.5}, {24, 0.25}, {64, 0.06}};
-constexpr double kZerosOfWide = 0.02;
-
-double zeros_allowed(Index columns) {
-  for (const Relaxation& step : kRelaxation) {
-    if (columns <= step.columns) return step.zeros;
-  }
-  return kZerosOfWide;
-}
-
-struct Draft {
-  std::vector<Index> width, height;  ///< height: of the first column, the diagonal included
-  std::vector<std::int64_t> zeros;
-};
+/// What a front costs in every solve beside its entries, in entries: so many zeros may be stored to
+/// have one front less. Measured at 30k to 4M faces.
+constexpr double kFrontCost = 128;
 
 /// Entries of a trapezoid of this height.
 double entries(std::int64_t width, std::int64_t height) {
   return static_cast<double>(width * height - width * (width - 1) / 2);
 }
 
-}  // namespace
+/// Runs of columns with their parents, children before parents.
+struct Draft {
+  std::vector<Index> width, below, parent;
 
-Supernodes find_supernodes(const ColumnCounts& counts) {
+  Index count() const { return static_cast<Index>(width.size()); }
+  void add(Index columns, Index rows_below, Index above) {
+    width.push_back(columns);
+    below.push_back(rows_below);
+    parent.push_back(above);
+  }
+};
+
+/// Columns whose patterns are the same but for their own rows.
+Draft strict_supernodes(const ColumnCounts& counts) {
   const auto size = static_cast<Index>(counts.parent.size());
-  // Strict supernodes first.
-  std::vector<Index> first, of(counts.parent.size());
+  std::vector<Index> last, of(counts.parent.size());
   for (Index j = 0; j < size; ++j) {
     const bool joins =
         j > 0 && counts.parent[j - 1] == j && counts.below[j - 1] == counts.below[j] + 1;
-    if (!joins) first.push_back(j);
-    of[j] = static_cast<Index>(first.size()) - 1;
+    if (!joins) last.push_back(j);
+    last.back() = j;
+    of[j] = static_cast<Index>(last.size()) - 1;
   }
-  const auto strict = static_cast<Index>(first.size());
-  first.push_back(size);
-  std::vector<Index> parent(static_cast<std::size_t>(strict));
-  Draft draft;
-  for (Index s = 0; s < strict; ++s) {
-    const Index above = counts.parent[first[s + 1] - 1];
-    parent[s] = above == kNoIndex ? kNoIndex : of[above];
-    draft.width.push_back(first[s + 1] - first[s]);
-    draft.height.push_back(counts.below[first[s]] + 1);
-    draft.zeros.push_back(0);
+  Draft out;
+  Index begin = 0;
+  for (const Index j : last) {
+    const Index above = counts.parent[j];
+    out.add(j + 1 - begin, counts.below[j], above == kNoIndex ? kNoIndex : of[above]);
+    begin = j + 1;
   }
-  // From the roots down: each takes the supernode behind it in, where that is its parent.
-  std::vector<Index> taken_by(static_cast<std::size_t>(strict), kNoIndex);
+  return out;
+}
+
+/// Whole subtrees become one supernode where that costs less: they are contiguous, and no row below
+/// is outside of what their root has.
+Draft merge_subtrees(const Draft& strict) {
+  const auto count = static_cast<std::size_t>(strict.count());
+  std::vector<Index> columns(strict.width);
+  std::vector<double> cost(count, 0.0);  // of the subtree, as cheap as can be
+  std::vector<char> merges(count, 0);
+  for (Index s = 0; s < strict.count(); ++s) {
+    const Index p = strict.parent[s];
+    const double separate =
+        cost[s] + kFrontCost + entries(strict.width[s], strict.width[s] + strict.below[s]);
+    const double merged = kFrontCost + entries(columns[s], columns[s] + strict.below[s]);
+    merges[s] = merged <= separate;
+    cost[s] = merges[s] != 0 ? merged : separate;
+    if (p == kNoIndex) continue;
+    columns[p] += columns[s];
+    cost[p] += cost[s];
+  }
+  // From the roots down: who is within a merged subtree.
+  std::vector<char> within(count, 0);
+  for (Index s = strict.count(); s-- > 0;) {
+    const Index p = strict.parent[s];
+    within[s] = p != kNoIndex && (merges[p] != 0 || within[p] != 0);
+  }
+  std::vector<Index> number(count, kNoIndex);
+  Index kept = 0;
+  for (Index s = 0; s < strict.count(); ++s) {
+    if (within[s] == 0) number[s] = kept++;
+  }
+  Draft out;
+  for (Index s = 0; s < strict.count(); ++s) {
+    if (within[s] != 0) continue;
+    const Index p = strict.parent[s];
+    out.add(merges[s] != 0 ? columns[s] : strict.width[s], strict.below[s],
+            p == kNoIndex ? kNoIndex : number[p]);
+  }
+  return out;
+}
+
+/// From the roots down: each takes in the supernode before it where that is a child and few zeros
+/// are stored for it.
+Supernodes merge_last_children(Draft draft) {
+  std::vector<Index> taken_by(static_cast<std::size_t>(draft.count()), kNoIndex);
   const auto living = [&](Index s) {
     while (s != kNoIndex && taken_by[s] != kNoIndex) s = taken_by[s];
     return s;
   };
-  for (Index s = strict - 1; s-- > 0;) {
-    if (parent[s] == kNoIndex || parent[s] != s + 1) continue;
-    const std::int64_t width = draft.width[s], above = draft.width[s + 1];
-    const std::int64_t height = width + draft.height[s + 1];
-    const std::int64_t zeros =
-        draft.zeros[s] + draft.zeros[s + 1] + width * (height - draft.height[s]);
-    const auto columns = static_cast<Index>(width + above);
-    if (static_cast<double>(zeros) > zeros_allowed(columns) * entries(columns, height)) {
-      continue;
-    }
+  std::vector<Index> parent = draft.parent;
+  for (Index s = draft.count() - 1; s-- > 0;) {
+    if (draft.parent[s] != s + 1) continue;
+    const std::int64_t height = std::int64_t{draft.width[s + 1]} + draft.below[s + 1];
+    const std::int64_t zeros = draft.width[s] * (height - draft.below[s]);
+    if (static_cast<double>(zeros) > kFrontCost) continue;
     taken_by[s + 1] = s;
-    draft.width[s] = columns;
-    draft.height[s] = static_cast<Index>(height);
-    draft.zeros[s] = zeros;
+    draft.width[s] += draft.width[s + 1];
+    draft.below[s] = draft.below[s + 1];
+    parent[s] = parent[s + 1];
   }
   Supernodes out;
-  std::vector<Index> number(static_cast<std::size_t>(strict), kNoIndex);
-  Index columns = 0;
-  for (Index s = 0; s < strict; ++s) {
+  std::vector<Index> number(taken_by.size(), kNoIndex);
+  for (Index s = 0; s < draft.count(); ++s) {
     if (taken_by[s] != kNoIndex) continue;
     number[s] = out.count();
-    columns += draft.width[s];
-    out.first.push_back(columns);
-    out.below.push_back(draft.height[s] - draft.width[s]);
+    out.first.push_back(out.first.back() + draft.width[s]);
+    out.below.push_back(draft.below[s]);
   }
-  for (Index s = 0; s < out.count(); ++s) {
-    const Index above = counts.parent[out.first[s + 1] - 1];
-    out.parent.push_back(above == kNoIndex ? kNoIndex : number[living(of[above])]);
+  for (Index s = 0; s < draft.count(); ++s) {
+    if (taken_by[s] != kNoIndex) continue;
+    const Index above = living(parent[s]);
+    out.parent.push_back(above == kNoIndex ? kNoIndex : number[above]);
   }
   return out;
+}
+
+}  // namespace
+
+Supernodes find_supernodes(const ColumnCounts& counts) {
+  return merge_last_children(merge_subtrees(strict_supernodes(counts)));
 }
 
 }  // namespace geotherm
