@@ -20,6 +20,9 @@ using Announce = std::function<void(const std::string&)>;
 Progress with_estimate(Progress progress, const Announce& announce, std::string_view stage,
                        std::string title, std::string details = {});
 
+/// Of what is counted in 2^20 bytes.
+inline constexpr double kMegabyte = 1024.0 * 1024.0;
+
 /// "3.2 GB", "264 MB", "512 bytes": of 10^3 bytes each, as disks are sold.
 std::string bytes_in_words(double bytes);
 

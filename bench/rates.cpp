@@ -33,15 +33,10 @@ Result<double> least_time(double budget, Attempt&& attempt) {
   return least;
 }
 
-/// The first row of each component: without them L is singular.
+/// The last row of each component, as the heat method holds them: without them L is singular.
 std::vector<Index> pins(const OperatorMesh& mesh) {
-  std::vector<char> seen(static_cast<std::size_t>(mesh.components.count), 0);
-  std::vector<Index> out;
-  for (Index row = 0; row < mesh.size(); ++row) {
-    char& pinned = seen[static_cast<std::size_t>(mesh.components.of[row])];
-    if (pinned == 0) out.push_back(row);
-    pinned = 1;
-  }
+  std::vector<Index> out(static_cast<std::size_t>(mesh.components.count));
+  for (Index row = 0; row < mesh.size(); ++row) out[mesh.components.of[row]] = row;
   return out;
 }
 

@@ -69,7 +69,9 @@ Result<SampleFigures> sample(Model model, const SampleArguments& arguments,
   const Stopwatch watch;
   auto points = farthest_points(**method, *model.mesh, count, {first},
                                 with_estimate(part_of(progress, kSetupShare, 1.0), announce,
-                                              kSamplesStage, counted(count, "sample", "samples")));
+                                              kSamplesStage, counted(count, "sample", "samples"),
+                                              bytes_in_words((*method)->memory_mb() * kMegabyte) +
+                                                  " of memory for the method"));
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
   const double peak = peak_rss_mb();

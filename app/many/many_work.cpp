@@ -113,7 +113,8 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   const std::string details =
       output + ", up to " +
       bytes_in_words(static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk))) +
-      " of memory for answers";
+      " of memory for answers and " + bytes_in_words(figures.method->memory_mb() * kMegabyte) +
+      " for the method";
   const auto done = stream_answers(
       *figures.method, work.sources.sets, stream, sink,
       with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,

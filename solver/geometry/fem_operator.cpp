@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "solver/core/flush_denormals.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm {
@@ -149,6 +150,7 @@ void FemOperator::subtract_faces(Index first_face, Index end_face, const Block& 
 
 void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads) const {
   parallel_for(threads, std::ssize(mesh_->ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+    const FlushDenormals flush;
     for (std::int64_t at = begin; at < end; ++at) {
       const FaceRange& range = mesh_->ranges[static_cast<std::size_t>(at)];
       for (Index i = range.first_row; i < range.end_row; ++i) {
@@ -157,6 +159,7 @@ void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads
       subtract_faces(range.first_face, range.end_face, x, r);
     }
   });
+  const FlushDenormals flush;
   subtract_faces(mesh_->crossing, mesh_->face_count(), x, r);
   for (const Index i : held_) r.row(i) = b.row(i) - x.row(i);
 }

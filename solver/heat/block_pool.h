@@ -16,6 +16,8 @@ namespace geotherm {
 /// several threads; grows to what one query of each thread holds.
 class BlockPool {
  public:
+  BlockPool() { free_.reserve(kMost); }  // so that give() never fails, destructors call it
+
   /// A block with any content.
   Block take(Eigen::Index rows, Eigen::Index columns) {
     {

@@ -115,14 +115,15 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
     return {fits.error(), Successor::kAny};
   }
   Result<void> heat_done, poisson_done;
+  const int of_heat = next->poisson ? threads : std::max(1, threads / 2);
+  const int of_poisson = plan.missing == 1 ? threads : std::max(1, threads - threads / 2);
   run_both(
       threads,
       [&] {
-        auto built =
-            HeatStep::build(next->surface, next->times.t, options.boundary,
-                            consistent_share(options.variant, next->times.relative), iterative,
-                            options.precision, state_->heat.get(), std::max(1, threads / 2),
-                            part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
+        auto built = HeatStep::build(next->surface, next->times.t, options.boundary,
+                                     consistent_share(options.variant, next->times.relative),
+                                     iterative, options.precision, state_->heat.get(), of_heat,
+                                     part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {
           next->heat = std::move(*built);
         } else {
@@ -131,9 +132,9 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
       },
       [&] {
         if (next->poisson) return;
-        auto built = PoissonSolver::build(next->surface, options.constraint, iterative,
-                                          options.precision, std::max(1, threads - threads / 2),
-                                          part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
+        auto built =
+            PoissonSolver::build(next->surface, options.constraint, iterative, options.precision,
+                                 of_poisson, part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
         if (built) {
           next->poisson = std::move(*built);
         } else {
@@ -149,6 +150,25 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   }
   if (!poisson_done) return {poisson_done.error(), successor_of(poisson_done.error())};
   next->warnings = next->surface->warnings;
+  const double held = HeatMethod(next).memory_mb(), foreseen = HeatMethod(next).forecast_mb();
+  constexpr double kMore = 1.01;
+  if (held > kMore * foreseen) {
+    // A backend that keeps numbers wider than was asked of it, where narrow ones would show.
+    if (options.memory_limit_mb > 0 && held > options.memory_limit_mb) {
+      return {
+          Error{ErrorCode::kOutOfMemory,
+                options.backend + " needs " + rounded_text(held) +
+                    " MB for factors in doubles, "
+                    "since numbers of the matrix differ by too many orders for narrow ones, and "
+                    "the limit is " +
+                    rounded_text(options.memory_limit_mb) +
+                    " MB; raise --memory-limit or try --backend cg, which holds no factor"},
+          Successor::kAny};
+    }
+    next->warnings.push_back("the factors are kept in doubles (" + rounded_text(held) +
+                             " MB, foreseen " + rounded_text(foreseen) +
+                             " MB): numbers of the matrix differ by too many orders");
+  }
   if (!failed.empty()) next->warnings.push_back(takeover_text(failed, options.backend));
   next->timing.factorize = next->timing.setup = watch.milliseconds();
   if (!report(progress, "factorize", 1.0)) return {cancelled_error()};

@@ -42,7 +42,6 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Su
   out->boundary_ = boundary;
   out->iterative_ = iterative;
   out->precision_ = precision;
-  out->threads_ = threads;
   if (previous != nullptr && previous->t_ == out->t_ &&
       previous->consistent_share_ == out->consistent_share_ &&
       (iterative || same_factors(previous->precision_, precision))) {
@@ -98,7 +97,8 @@ double HeatStep::held_value(const SourceAnchors::Anchor& anchor) const {
 
 Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
                                                                  const SourceAnchors& anchors,
-                                                                 HeatMode mode, Block& b) const {
+                                                                 HeatMode mode, int threads,
+                                                                 Block& b) const {
   std::vector<Index> held;
   if (dirichlet) held = border_without(&anchors);
   if (mode == HeatMode::kHold) {
@@ -108,7 +108,7 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
   }
   const auto built =
       LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
-                          {threads_, heat_storage(precision_)}, consistent_share_);
+                          {threads, heat_storage(precision_)}, consistent_share_);
   if (!built) return built;
   return (*built)->refined(refines());
 }
@@ -173,7 +173,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                    (mode == HeatMode::kHold && needs_own_system(anchors.front(), mode));
   if (own) {
     if (!report(progress, "solve", 0.0)) return cancelled_error();
-    auto built = own_system(dirichlet, anchors.front(), mode, b);
+    auto built = own_system(dirichlet, anchors.front(), mode, work.threads, b);
     if (!built) return built.error();
     system = std::move(*built);
   } else if (mode == HeatMode::kHold) {
@@ -234,6 +234,7 @@ FactorStats HeatStep::stats() const {
     if (!system) continue;
     sum.nonzeros += system->factor().stats().nonzeros;
     sum.bytes += system->factor().stats().bytes;
+    sum.operations += system->factor().stats().operations;
   }
   return sum;
 }

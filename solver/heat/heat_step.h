@@ -56,7 +56,8 @@ class HeatStep {
   /// The system of this rule for one source set, and its right side with held values in place.
   Result<std::shared_ptr<const LinearSystem>> own_system(bool dirichlet,
                                                          const SourceAnchors& anchors,
-                                                         HeatMode mode, Block& b) const;
+                                                         HeatMode mode, int threads,
+                                                         Block& b) const;
   Result<void> hold_by_schur(const LinearSystem& system, std::span<const SourceAnchors> anchors,
                              const Workspace& work, Block& b) const;
   bool refines() const { return precision_ == Precision::kRefined && !iterative_; }
@@ -68,7 +69,6 @@ class HeatStep {
   BoundaryRule boundary_ = BoundaryRule::kNeumann;
   bool iterative_ = false;
   Precision precision_ = Precision::kCompact;
-  int threads_ = 1;
 };
 
 }  // namespace geotherm

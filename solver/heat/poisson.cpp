@@ -75,7 +75,6 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
   out->surface_ = std::move(surface);
   out->constraint_ = constraint;
   out->iterative_ = iterative;
-  out->threads_ = threads;
   return std::shared_ptr<const PoissonSolver>(std::move(out));
 }
 
@@ -189,7 +188,7 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
     if (!report(part, "solve", 0.0)) return cancelled_error();
     const auto system =
         LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0, std::move(held),
-                            {threads_, poisson_storage(precision_)});
+                            {work.threads, poisson_storage(precision_)});
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;

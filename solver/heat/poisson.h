@@ -71,7 +71,6 @@ class PoissonSolver {
   Constraint constraint_;
   Precision precision_ = Precision::kCompact;
   bool iterative_ = false;
-  int threads_ = 1;
 };
 
 }  // namespace geotherm

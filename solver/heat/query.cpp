@@ -21,7 +21,7 @@ namespace geotherm {
 namespace {
 
 /// Source sets solved together. Eight fill the widest registers; more would leave threads idle.
-constexpr std::size_t kSetsAtOnce = 8;
+constexpr std::size_t kSetsAtOnce = 16;
 
 /// What an iterative query has behind it after the heat step and after the Poisson step.
 constexpr double kHeatShare = 0.3;
@@ -33,8 +33,8 @@ struct Group {
 };
 
 /// Cuts the source sets into blocks; a set that changes the matrix is alone in its block. A
-/// column's last bits depend on the width of its block, so that every eighth set begins one
-/// whatever went before: sets that come in chunks of a multiple of eight get the same blocks.
+/// column's last bits depend on the width of its block, so that every sixteenth set begins one
+/// whatever went before: sets that come in chunks of a multiple of sixteen get the same blocks.
 Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
                                            std::span<const SourceSet> sets) {
   std::vector<Group> groups;
@@ -195,7 +195,10 @@ class GroupRunner {
                                         static_cast<int>(std::max<std::size_t>(workers, 1)));
     {
       std::vector<std::jthread> helpers;
-      for (std::size_t w = 1; w < workers; ++w) helpers.emplace_back([this] { work(); });
+      for (std::size_t w = 1; w < workers; ++w) {
+        helpers.push_back(try_thread([this] { work(); }));
+        if (!helpers.back().joinable()) break;
+      }
       work();
     }
     if (memory_ended_) throw std::bad_alloc();

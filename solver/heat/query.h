@@ -21,7 +21,7 @@ struct QueryPipeline {
   BlockPool& pool;
 };
 
-/// Solves every source set, in blocks of up to eight that threads share out: a block streams each
+/// Solves every source set, in blocks of up to sixteen that threads share out: a block streams each
 /// factor once. Where there are fewer blocks than threads, the steps of each share theirs. The cut
 /// into blocks does not depend on the number of threads, nor do the results.
 /// `progress` is called by one thread at a time, with shares that do not fall.

@@ -39,7 +39,9 @@ class Factorizer {
     run_tasks(
         tree_, TaskQueue::Direction::kUp, threads_, [this] { return Worker(tree_); },
         [&](const FrontTask& task, Index number, Worker& worker) {
+          ++active_;
           const FactorFailure ended = run_task(task, number, worker);
+          --active_;
           const std::lock_guard lock(mutex);
           out_.cancellation = std::max(out_.cancellation, worker.cancellation);
           if (!ended.failed()) return true;
@@ -168,7 +170,9 @@ class Factorizer {
     if (failed != kNoIndex) return {.column = tree_.nodes.first[s] + failed};
     worker.cancellation = std::max(worker.cancellation, cancellation(front, s));
     const double height = front.width + front.below;
-    const int threads = front.width * height * height > kLargeFront ? threads_ : 1;
+    // No more threads in all than were given: those that have nothing else to do.
+    const int idle = std::max(1, threads_ / std::max(1, active_.load()));
+    const int threads = front.width * height * height > kLargeFront ? idle : 1;
     const Index below = slabs(front.below);
     parallel_for(threads, below, kSlabsAPiece, [&](std::int64_t begin, std::int64_t end) {
       const FlushDenormals flush;
@@ -194,6 +198,7 @@ class Factorizer {
   const LowerMatrix& matrix_;
   const FrontKernels& kernels_;
   int threads_;
+  std::atomic<int> active_{0};  ///< tasks in hand
   FrontFactor& out_;
   std::vector<Doubles> waiting_;  ///< per task: the update of its last front
 };

@@ -210,19 +210,18 @@ class Writer {
     for (Index c = 0; c < columns; ++c) {
       for (Index r = 0; r < rows; ++r) {
         const double value = values[c * kSlab + r];
-        largest_ = std::max(largest_, std::abs(value));
+        if (!(std::abs(value) < kLimit)) fits_ = false;  // also what is no number
         narrow(value, *to_++);
       }
     }
   }
-  bool fits() const {
-    if constexpr (std::is_same_v<T, float>) return largest_ < std::numeric_limits<float>::max();
-    return largest_ < std::numeric_limits<double>::max() / 2;
-  }
+  bool fits() const { return fits_; }
 
  private:
+  static constexpr double kLimit = std::is_same_v<T, float> ? std::numeric_limits<float>::max()
+                                                            : std::numeric_limits<double>::max() / 2;
   T* to_;
-  double largest_ = 0;
+  bool fits_ = true;
 };
 
 template <class T>

@@ -70,7 +70,8 @@ void measure_stacks(FrontTree& tree) {
     StackDepth updates, vectors;
     for (Index s = task.begin; s < task.end; ++s) {
       const int stack = tree.stack[s];
-      updates.push(s, stack, triangle_size(slabs(tree.below(s))));
+      const bool leaves = s + 1 == task.end && task.parent != kNoIndex;  // waits elsewhere
+      updates.push(s, stack, leaves ? 0 : triangle_size(slabs(tree.below(s))));
       vectors.push(s, stack, tree.places(s));
       updates.pop_children(tree.tree.parent, s, 1 - stack);
       vectors.pop_children(tree.tree.parent, s, 1 - stack);

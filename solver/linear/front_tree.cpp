@@ -2,6 +2,7 @@
 #include "solver/linear/front_tree.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "solver/core/parallel.h"
 #include "solver/linear/front_tasks.h"
@@ -108,6 +109,7 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
     const double height = counts.below[column] + 1.0;
     out.operations += height * height;
   }
+  if (out.largest_panel > std::numeric_limits<Index>::max()) return out;
   out.entry_start.assign(1, 0);
   out.entry_start.reserve(pattern.start.size());
   for (Index column = 0; column < pattern.size(); ++column) {

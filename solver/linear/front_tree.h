@@ -60,6 +60,7 @@ struct FrontTree {
   std::int64_t bytes() const;
 };
 
+/// Where largest_panel is beyond what an Index counts, the rest is not filled.
 /// `pattern`: in elimination order, which must be a postorder; counts of it. The result does not
 /// depend on `threads`. Cost: O(entries of the pattern + rows of all fronts).
 FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,

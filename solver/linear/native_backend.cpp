@@ -88,7 +88,7 @@ class NativeAnalysis final : public Analysis {
   }
   std::int64_t work_bytes() const override {
     constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Index);
-    return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, threads_);
+    return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, (threads_ + 1) / 2);
   }
 
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
@@ -107,6 +107,11 @@ class NativeAnalysis final : public Analysis {
       storage = FactorStorage::kFull;
       factor = {};
       failure = factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
+    }
+    if (failure.narrow) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "native: numbers of the factor are beyond what a double holds; scale the model, "
+                   "or try another backend"};
     }
     if (failure.failed()) {
       return Error{ErrorCode::kNumericalFailure,

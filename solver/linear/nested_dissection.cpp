@@ -112,10 +112,11 @@ std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double size = n > 0 ? (high - low).maxCoeff() : 1.0;
+  // Halved, since the extent of a model may be more than a double holds.
+  const double size = n > 0 ? (high / 2 - low / 2).maxCoeff() : 1.0;
   whole.position.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3 p = size > 0 ? Vec3((positions[i] - low) / size) : Vec3::Zero();
+    const Vec3 p = size > 0 ? Vec3((positions[i] / 2 - low / 2) / size) : Vec3::Zero();
     whole.position[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()),
                          static_cast<float>(p.z())};
   }

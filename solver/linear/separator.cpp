@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "solver/core/parallel.h"
 
@@ -129,8 +128,37 @@ bool touches(const GraphPart& part, const std::vector<std::int8_t>& half, Index 
   return false;
 }
 
-/// Left, right and separator of the best plane, or of the median along the longest axis when no
-/// plane keeps the balance (many vertices in one bin).
+/// All vertices by breadth-first search from one far from vertex 0, component after component.
+std::vector<Index> breadth_first(const GraphPart& part) {
+  std::vector<Index> order;
+  order.reserve(part.vertex.size());
+  const auto search = [&](Index root, std::vector<char>& seen) {
+    std::size_t next = order.size();
+    order.push_back(root);
+    seen[root] = 1;
+    for (; next < order.size(); ++next) {
+      for (Index k = part.start[order[next]]; k < part.start[order[next] + 1]; ++k) {
+        const Index j = part.neighbor[k];
+        if (seen[j] != 0) continue;
+        seen[j] = 1;
+        order.push_back(j);
+      }
+    }
+  };
+  std::vector<char> seen(part.vertex.size(), 0);
+  search(0, seen);
+  const Index far = order.back();
+  order.clear();
+  std::fill(seen.begin(), seen.end(), 0);
+  search(far, seen);
+  for (Index i = 0; i < part.size(); ++i) {
+    if (seen[i] == 0) search(i, seen);
+  }
+  return order;
+}
+
+/// Left, right and separator of the best plane, or of half a breadth-first search where no plane
+/// keeps the balance: many vertices are in one bin.
 std::vector<std::int8_t> split(const GraphPart& part, int threads) {
   const Box box = box_of(part);
   const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMostBins);
@@ -147,19 +175,8 @@ std::vector<std::int8_t> split(const GraphPart& part, int threads) {
     }
     return half;
   }
-  int axis = 0;
-  for (const int other : {1, 2}) {
-    if (box.extent(other) > box.extent(axis)) axis = other;
-  }
-  std::vector<Index> by_place(static_cast<std::size_t>(part.size()));
-  std::iota(by_place.begin(), by_place.end(), 0);
-  std::nth_element(by_place.begin(), by_place.begin() + part.size() / 2, by_place.end(),
-                   [&](Index a, Index b) {
-                     const float pa = part.position[a][axis];
-                     const float pb = part.position[b][axis];
-                     return pa != pb ? pa < pb : a < b;
-                   });
-  for (Index i = 0; i < part.size(); ++i) half[by_place[i]] = i < part.size() / 2 ? kLeft : kRight;
+  const std::vector<Index> by_layer = breadth_first(part);
+  for (Index i = 0; i < part.size(); ++i) half[by_layer[i]] = i < part.size() / 2 ? kLeft : kRight;
   for (Index i = 0; i < part.size(); ++i) {
     if (half[i] == kLeft && touches(part, half, i, kRight)) half[i] = kSeparator;
   }

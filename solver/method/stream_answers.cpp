@@ -2,6 +2,8 @@
 #include "solver/method/stream_answers.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
 #include <new>
 #include <string>
 #include <utility>
@@ -13,9 +15,9 @@ namespace geotherm {
 namespace {
 
 /// Sets that the heat method solves as one block.
-constexpr std::size_t kBlock = 8;
+constexpr std::size_t kBlock = 16;
 /// Blocks of a thread in a chunk, at most.
-constexpr std::size_t kMostBlocks = 4;
+constexpr std::size_t kMostBlocks = 2;
 /// Beyond this, more blocks would cost memory for little: a block takes long enough by itself.
 constexpr std::int64_t kAmpleBytes = std::int64_t{256} << 20;
 
@@ -50,14 +52,27 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
                                   static_cast<double>(first + size) / count);
     Result<void> taken;
     Result<Answers> solved = Answers();
+    std::exception_ptr thrown;
+    std::atomic<bool> refused{false};
     {
-      const auto take = [&] { taken = hand_over(std::move(waiting), first_waiting, sink); };
+      const auto take = [&] {
+        try {
+          taken = hand_over(std::move(waiting), first_waiting, sink);
+        } catch (...) {
+          thrown = std::current_exception();
+        }
+        refused = thrown || !taken;
+      };
+      const Progress unless_refused = [&](std::string_view stage, double share) {
+        return !refused && report(part, stage, share);
+      };
       const std::jthread taker = waiting.empty() ? std::jthread() : try_thread(take);
       if (!waiting.empty() && !taker.joinable()) take();
-      if (taker.joinable() || taken) {
-        solved = method.solve_each(sets.subspan(first, size), query, part);
+      if (taker.joinable() || !refused) {
+        solved = method.solve_each(sets.subspan(first, size), query, unless_refused);
       }
     }
+    if (thrown) std::rethrow_exception(thrown);
     if (!taken) return taken;
     if (!solved) return solved.error();
     if (!report(part, kSourcesStage, 1.0)) return cancelled_error();

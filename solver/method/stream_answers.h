@@ -23,7 +23,7 @@ using AnswerSink = std::function<Result<void>(std::size_t set, DistanceResult&& 
 /// How a stream of answers is cut into chunks.
 struct StreamOptions {
   /// Source sets solved by one call of solve_each(); >= 1. Two chunks of answers are in memory: one
-  /// that is solved, one that is taken. In multiples of eight the answers of the heat method have
+  /// that is solved, one that is taken. In multiples of sixteen the answers of the heat method have
   /// the bits of one call for all sets, in other chunks they agree to round-off.
   std::size_t chunk = 16;
   /// What each query computes beside the distances; the quality figures in the first chunk alone,
@@ -41,10 +41,10 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
                             const StreamOptions& options, const AnswerSink& sink,
                             const Progress& progress = {});
 
-/// A good chunk: eight sets for each thread, which is what the heat method solves as one block, up
-/// to four times as many on small meshes, so that threads seldom wait for each other; fewer, but
-/// eight at least, where two chunks of answers would take more than half of `free_bytes` (empty:
-/// unknown). A multiple of eight.
+/// A good chunk: sixteen sets for each thread, which is what the heat method solves as one block,
+/// twice as many on small meshes, so that threads seldom wait for each other; fewer, but sixteen at
+/// least, where two chunks of answers would take more than half of `free_bytes` (empty:
+/// unknown). A multiple of sixteen.
 /// `threads`: 0 for all cores.
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes);
 

@@ -24,6 +24,7 @@ const Shape kShapes[] = {
     {"plane", [] { return jittered_plane(90, 0.35, 3); }},
     {"sphere", [] { return sphere(5); }},
     {"band", [] { return moebius(200, 9); }},
+    {"large", [] { return torus(200, 110, 0.4); }},  // where narrow factors are narrow
 };
 
 using Case = std::tuple<std::string, Shape>;
