@@ -218,8 +218,9 @@ class Writer {
   bool fits() const { return fits_; }
 
  private:
-  static constexpr double kLimit = std::is_same_v<T, float> ? std::numeric_limits<float>::max()
-                                                            : std::numeric_limits<double>::max() / 2;
+  static constexpr double kLimit = std::is_same_v<T, float>
+                                       ? std::numeric_limits<float>::max()
+                                       : std::numeric_limits<double>::max() / 2;
   T* to_;
   bool fits_ = true;
 };
