@@ -28,7 +28,7 @@ std::string case_name(const Case& c) {
 
 std::vector<std::string> backends_for(const Case& c, const SolvePlan& plan) {
   std::vector<std::string> out;
-  if (plan.quick && !c.quick) return out;
+  if (plan.quick && !c.quick && !plan.chosen) return out;
   for (const std::string& backend : plan.backends) {
     if (std::regex_search(case_name(c) + "/" + backend, plan.only)) out.push_back(backend);
   }

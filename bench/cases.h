@@ -23,6 +23,7 @@ struct SolvePlan {
   int threads = 0;                    ///< 0: all cores
   std::vector<std::string> backends;  ///< that this build has, and other methods
   std::regex only = {};               ///< rows "MESH-THOUSANDSk/BACKEND" in which it is found
+  bool chosen = false;                ///< `only` was given: it alone says which meshes
 };
 
 /// All there are, by ascending size: each can be estimated from those before.

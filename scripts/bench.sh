@@ -9,7 +9,8 @@ case ${1:-} in
   -h | --help)
     echo "usage: scripts/bench.sh [--quick] [--only REGEX] [--threads N]"
     echo "                        [--json FILE] [--markdown FILE] [--svg FILE]"
-    echo "  --quick: under ten minutes on 2 cores; all of it takes about an hour and 16 GB"
+    echo "  --quick: under ten minutes on 2 cores, unless --only names other meshes; all of it takes
+  about an hour and 16 GB"
     exit 0
     ;;
 esac

@@ -55,6 +55,14 @@ TEST(BenchCases, OfAQuickRunAreSomeOfTheOthers) {
   EXPECT_TRUE(std::ranges::includes(full, quick));
 }
 
+TEST(BenchCases, OfAQuickRunAreThoseThatAreNamed) {
+  const SolvePlan plan{
+      .quick = true, .backends = {"one"}, .only = std::regex("4400k"), .chosen = true};
+  int found = 0;
+  for (const Case& c : all_cases()) found += static_cast<int>(backends_for(c, plan).size());
+  EXPECT_EQ(found, 2);
+}
+
 TEST(BenchCases, AreThoseInWhichTheExpressionIsFound) {
   EXPECT_EQ(rows(false, "^torus-1100k/two$"), std::set<std::string>{"torus-1100k/two"});
   EXPECT_TRUE(rows(false, "no such row").empty());

@@ -110,14 +110,18 @@ TEST_P(SetUpByThreads, HasTheSameBits) {
   EXPECT_TRUE(same_bits(one.matrix.value, many.matrix.value));
 }
 
+std::string case_name(const testing::TestParamInfo<Case>& info) {
+  const bool spoilt = std::get<0>(info.param) == large_spoilt_mesh;
+  return std::string(spoilt ? "Spoilt" : "Large") + std::to_string(std::get<1>(info.param));
+}
 INSTANTIATE_TEST_SUITE_P(Meshes, SetUpByThreads,
                          testing::Combine(testing::Values(large_mesh, large_spoilt_mesh),
-                                          testing::Values(2, 3, 7)),
-                         [](const testing::TestParamInfo<Case>& each) {
-                           const bool spoilt = std::get<0>(each.param) == large_spoilt_mesh;
-                           return std::string(spoilt ? "Spoilt" : "Large") +
-                                  std::to_string(std::get<1>(each.param));
-                         });
+                                          testing::Values(3)),
+                         case_name);
+INSTANTIATE_TEST_SUITE_P(MeshesSlow, SetUpByThreads,
+                         testing::Combine(testing::Values(large_mesh, large_spoilt_mesh),
+                                          testing::Values(2, 7)),
+                         case_name);
 
 class SurfacePatterns : public testing::TestWithParam<ZooMesh> {};
 

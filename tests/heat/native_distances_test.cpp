@@ -35,8 +35,10 @@ struct Setting {
 };
 const Setting kSettings[] = {
     {"default", [](HeatOptions&) {}},
-    {"classic", [](HeatOptions& o) { o.variant = Variant::kClassic; }},
     {"hold", [](HeatOptions& o) { o.heat = HeatMode::kHold; }},
+};
+const Setting kMoreSettings[] = {
+    {"classic", [](HeatOptions& o) { o.variant = Variant::kClassic; }},
     {"diffuse", [](HeatOptions& o) { o.heat = HeatMode::kDiffuse; }},
     {"pin_vertex", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPinVertex; }},
     {"penalty", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPenalty; }},
@@ -76,8 +78,10 @@ TEST_P(NativeDistances, HaveTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Settings, NativeDistances, testing::ValuesIn(kSettings),
-                         [](const auto& each) { return std::string(each.param.name); });
+std::string setting_name(const testing::TestParamInfo<Setting>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(Settings, NativeDistances, testing::ValuesIn(kSettings), setting_name);
+INSTANTIATE_TEST_SUITE_P(SettingsSlow, NativeDistances, testing::ValuesIn(kMoreSettings),
+                         setting_name);
 
 TEST(NativeBackend, IsTheDefault) {
   const auto method = HeatMethod::build(finish(sphere(2)));
