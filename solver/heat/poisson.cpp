@@ -95,6 +95,9 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   return out;
 }
 
+/// Compact factors are refined for sets of more.
+constexpr std::size_t kMostCompactAnchors = 32;
+
 Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work,
                                                   const Progress& progress) const {
   if (!report(progress, "solve", 0.0)) return cancelled_error();
@@ -106,6 +109,16 @@ Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work
 
 Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
                                            const Workspace& work, const Progress& progress) const {
+  std::size_t most = 0;
+  for (const SourceAnchors& set : anchors) most = std::max(most, set.anchors.size());
+  if (precision_ == Precision::kCompact && !iterative_ && most > kMostCompactAnchors) {
+    // What rounding adds is measured by phi's range, which many sources leave far above the largest
+    // distance.
+    PoissonSolver refined(*this);
+    refined.precision_ = Precision::kRefined;
+    refined.system_ = system_->refined(true);
+    return refined.solve(std::move(b), anchors, work, progress);
+  }
   const std::vector<ComponentSize>& sizes = surface_->components;
   if (!iterative_ || sizes.size() == 1)
     return solve_as_given(std::move(b), anchors, work, progress);

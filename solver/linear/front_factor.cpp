@@ -219,7 +219,8 @@ FactorFailure factorize_fronts(const FrontTree& tree, const LowerMatrix& matrix,
 std::int64_t front_work_bytes(const FrontTree& tree, int threads) {
   const auto workers = std::min<std::int64_t>(threads, std::ssize(tree.tasks));
   const std::int64_t each = tree.largest_panel + tree.update_stack[0] + tree.update_stack[1];
-  return static_cast<std::int64_t>(sizeof(double)) * (workers * each + tree.waiting_updates);
+  return static_cast<std::int64_t>(sizeof(double)) *
+         (workers * each + tree.waiting_updates + (workers - 1) * tree.largest_update);
 }
 
 }  // namespace geotherm

@@ -90,6 +90,23 @@ void measure_stacks(FrontTree& tree) {
   }
 }
 
+/// Updates between tasks: those that wait at once when one thread takes the tasks in order, which
+/// goes up as soon as it can, and one more for each other thread.
+void measure_waiting(FrontTree& tree) {
+  std::int64_t waiting = 0;
+  const auto update_of = [&tree](const FrontTask& task) {
+    return triangle_size(slabs(tree.below(task.end - 1)));
+  };
+  for (const FrontTask& task : tree.tasks) {
+    if (task.parent != kNoIndex) {
+      waiting += update_of(task);
+      tree.largest_update = std::max(tree.largest_update, update_of(task));
+    }
+    tree.waiting_updates = std::max(tree.waiting_updates, waiting);
+    for (const Index child : task.children) waiting -= update_of(tree.tasks[child]);
+  }
+}
+
 }  // namespace
 
 void divide_into_tasks(FrontTree& tree) {
@@ -138,10 +155,7 @@ void divide_into_tasks(FrontTree& tree) {
     tree.stack[s] = p == kNoIndex ? 0 : static_cast<std::uint8_t>(1 - tree.stack[p]);
   }
   measure_stacks(tree);
-  for (const FrontTask& task : tree.tasks) {
-    if (task.parent == kNoIndex) continue;
-    tree.waiting_updates += triangle_size(slabs(tree.below(task.end - 1)));
-  }
+  measure_waiting(tree);
 }
 
 TaskQueue::TaskQueue(const std::vector<FrontTask>& tasks, Direction direction)

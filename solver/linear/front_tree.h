@@ -47,7 +47,8 @@ struct FrontTree {
   std::array<std::int64_t, 2> update_stack{};  ///< doubles that wait on each, most in any task
   std::array<std::int64_t, 2> vector_stack{};  ///< the same of rows in solves
   std::int64_t vector_path = 0;                ///< rows of all fronts above one, most in any task
-  std::int64_t waiting_updates = 0;            ///< doubles of updates between tasks, at most
+  std::int64_t waiting_updates = 0;            ///< doubles that wait between tasks with one thread
+  std::int64_t largest_update = 0;             ///< of those
   double operations = 0;                       ///< of one factorisation
 
   Index count() const { return nodes.count(); }
