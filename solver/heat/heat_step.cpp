@@ -210,6 +210,13 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
 Result<HeatStep::Answer> HeatStep::diffuse(std::span<const SourceAnchors> anchors, HeatMode mode,
                                            bool residuals, const Workspace& work,
                                            const Progress& progress) const {
+  if (precision_ == Precision::kCompact && !iterative_ && has_many(anchors)) {
+    HeatStep refined(*this);
+    refined.precision_ = Precision::kRefined;
+    if (neumann_) refined.neumann_ = neumann_->refined(true);
+    if (dirichlet_) refined.dirichlet_ = dirichlet_->refined(true);
+    return refined.diffuse(anchors, mode, residuals, work, progress);
+  }
   if (boundary_ != BoundaryRule::kAverage) {
     return solve_rule(boundary_ == BoundaryRule::kDirichlet, anchors, mode, residuals, work,
                       progress);

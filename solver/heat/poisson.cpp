@@ -95,9 +95,6 @@ std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& const
   return out;
 }
 
-/// Compact factors are refined for sets of more.
-constexpr std::size_t kMostCompactAnchors = 32;
-
 Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work,
                                                   const Progress& progress) const {
   if (!report(progress, "solve", 0.0)) return cancelled_error();
@@ -109,11 +106,7 @@ Result<PoissonAnswer> PoissonSolver::solve_pinned(Block b, const Workspace& work
 
 Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchors> anchors,
                                            const Workspace& work, const Progress& progress) const {
-  std::size_t most = 0;
-  for (const SourceAnchors& set : anchors) most = std::max(most, set.anchors.size());
-  if (precision_ == Precision::kCompact && !iterative_ && most > kMostCompactAnchors) {
-    // What rounding adds is measured by phi's range, which many sources leave far above the largest
-    // distance.
+  if (precision_ == Precision::kCompact && !iterative_ && has_many(anchors)) {
     PoissonSolver refined(*this);
     refined.precision_ = Precision::kRefined;
     refined.system_ = system_->refined(true);

@@ -216,4 +216,9 @@ Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sou
   return placer.finish();
 }
 
+bool has_many(std::span<const SourceAnchors> sets) {
+  constexpr std::size_t kFew = 32;
+  return std::ranges::any_of(sets, [](const auto& set) { return set.anchors.size() > kFew; });
+}
+
 }  // namespace geotherm

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/heat/surface.h"
@@ -31,5 +32,10 @@ struct SourceAnchors {
 
 /// Errors (kBadInput): those of check_sources(), and offsets above 0.
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);
+
+/// Whether a set has so many anchors that solves with compact factors are refined: rounding is in
+/// proportion to u and to the range of phi, while distances, and the slope of u between the
+/// sources, are the smaller the more sources there are.
+bool has_many(std::span<const SourceAnchors> sets);
 
 }  // namespace geotherm

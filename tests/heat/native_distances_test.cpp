@@ -98,6 +98,30 @@ TEST(NativeBackend, HalvesWhatDoublesTake) {
   EXPECT_DOUBLE_EQ(full->memory_mb(), full->forecast_mb());
 }
 
+TEST(NativeBackend, IsAsRightWithManySourcesAsWithOne) {
+  // Distances are a hundredth of phi's range here, and what rounds phi would be a hundred times as
+  // much of them.
+  std::vector<Index> sources;
+  for (Index k = 0; k < 700; ++k) sources.push_back(k * 7919 % large_mesh()->vertex_count());
+  for (const ConstraintMode mode : {ConstraintMode::kPinSources, ConstraintMode::kPinVertex}) {
+    HeatOptions native = options("native"), doubles = options("eigen-ldlt");
+    native.constraint.mode = doubles.constraint.mode = mode;
+    EXPECT_LE(relative_difference(solve(large_mesh(), sources, native).distances,
+                                  solve(large_mesh(), sources, doubles).distances),
+              kCompact);
+  }
+}
+
+TEST(NativeBackend, RoundsWithoutAlarm) {
+  const auto method = HeatMethod::build(large_mesh(), options("native"));
+  ASSERT_TRUE(method);
+  const auto answer = method->solve(SourceSet::of_vertices({5}));
+  ASSERT_TRUE(answer);
+  EXPECT_GT(answer->quality.poisson_residual, 1e-10);  // it did round
+  EXPECT_EQ(method->warnings(), std::vector<std::string>());
+  EXPECT_EQ(answer->warnings, std::vector<std::string>());
+}
+
 TEST(NativeBackend, KeepsDoublesWhereWeightsDifferByManyOrders) {
   // Two tori that a thread of needles joins: what passes through it is next to nothing beside what
   // passes within them, and would drown in the rounding of narrow numbers.
