@@ -152,7 +152,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   next->warnings = next->surface->warnings;
   const double held = HeatMethod(next).memory_mb(), foreseen = HeatMethod(next).forecast_mb();
   constexpr double kMore = 1.01;
-  if (held > kMore * foreseen) {
+  if (foreseen > 0 && held > kMore * foreseen) {
     // A backend that keeps numbers wider than was asked of it, where narrow ones would show.
     if (options.memory_limit_mb > 0 && held > options.memory_limit_mb) {
       return {

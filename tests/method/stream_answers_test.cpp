@@ -33,13 +33,13 @@ std::shared_ptr<const DistanceMethod> method_of(MethodKind kind, int threads) {
 
 class StreamOfAnswers : public testing::TestWithParam<MethodKind> {};
 
-TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfEight) {
+TEST_P(StreamOfAnswers, HasTheBitsOfOneCallWhateverThreadsAndChunksOfSixteen) {
   const auto sets = some_sets();
   const auto all = method_of(GetParam(), 1)->solve_each(sets);
   ASSERT_TRUE(all);
   for (const int threads : {1, 3}) {
     const auto method = method_of(GetParam(), threads);
-    for (const std::size_t chunk : {std::size_t{8}, std::size_t{16}, std::size_t{96}}) {
+    for (const std::size_t chunk : {std::size_t{16}, std::size_t{32}, std::size_t{96}}) {
       std::size_t next = 0;
       const auto sink = [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
         EXPECT_EQ(set, next++);
@@ -90,7 +90,7 @@ TEST(StreamAnswers, HaveTheBitsOfOneCallBesideASourceThatIsSolvedAlone) {
   sets[2] = SourceSet::of_vertices({grid_vertex(kCells, 5, 0)});  // on the border
   const auto all = (*method)->solve_each(sets);
   ASSERT_TRUE(all) << all.error().message;
-  const auto done = stream_answers(**method, sets, {8, {}},
+  const auto done = stream_answers(**method, sets, {16, {}},
                                    [&](std::size_t set, DistanceResult&& answer) -> Result<void> {
                                      EXPECT_EQ(answer.distances, (*all)[set].distances) << set;
                                      return {};
@@ -162,13 +162,13 @@ TEST(GoodChunk, FillsThreadsAndStaysInMemory) {
   constexpr std::int64_t kPlenty = std::int64_t{1} << 40;
   EXPECT_EQ(good_chunk(1000, 2, kPlenty), 64U);
   EXPECT_EQ(good_chunk(1000, 2, {}), 64U);
-  EXPECT_EQ(good_chunk(100'000'000, 2, kPlenty), 16U);
+  EXPECT_EQ(good_chunk(100'000'000, 2, kPlenty), 32U);
   for (const std::int64_t free : {std::int64_t{1} << 31, std::int64_t{1} << 29}) {
     const std::size_t chunk = good_chunk(1'000'000, 8, free);
     EXPECT_LE(chunk_bytes(1'000'000, chunk), free / 2) << free;
-    EXPECT_EQ(chunk % 8, 0U);
+    EXPECT_EQ(chunk % 16, 0U);
   }
-  EXPECT_EQ(good_chunk(1'000'000, 8, 0), 8U);
+  EXPECT_EQ(good_chunk(1'000'000, 8, 0), 16U);
 }
 
 }  // namespace
