@@ -150,7 +150,8 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   }
   if (!poisson_done) return {poisson_done.error(), successor_of(poisson_done.error())};
   next->warnings = next->surface->warnings;
-  const double held = HeatMethod(next).memory_mb(), foreseen = HeatMethod(next).forecast_mb();
+  const HeatMethod made(next);
+  const double held = made.memory_mb(), foreseen = made.forecast_mb();
   constexpr double kMore = 1.01;
   if (foreseen > 0 && held > kMore * foreseen) {
     // A backend that keeps numbers wider than was asked of it, where narrow ones would show.

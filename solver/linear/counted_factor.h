@@ -24,13 +24,13 @@ class CountedFactor final : public TriangularFactor {
     stats.operations = operations_;
     return stats;
   }
-  void forward(double* x, Eigen::Index stride, int columns,
-               std::span<const Index> nodes) const override {
-    factor_->forward(x, stride, columns, nodes);
+  void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+               int threads) const override {
+    factor_->forward(x, stride, columns, nodes, threads);
   }
-  void backward(double* x, Eigen::Index stride, int columns,
-                std::span<const Index> nodes) const override {
-    factor_->backward(x, stride, columns, nodes);
+  void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                int threads) const override {
+    factor_->backward(x, stride, columns, nodes, threads);
   }
 
  private:

@@ -2,6 +2,7 @@
 #include "solver/linear/front_factor.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -10,12 +11,6 @@
 
 namespace geotherm {
 namespace {
-
-/// Doubles that are not cleared when they are made.
-using Doubles = std::unique_ptr<double[]>;
-Doubles uncleared(std::int64_t count) {
-  return Doubles(new double[static_cast<std::size_t>(count)]);  // NOLINT: make_unique clears
-}
 
 /// From this many operations on, a single front is worth several threads.
 constexpr double kLargeFront = 2e7;

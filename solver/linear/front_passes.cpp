@@ -11,11 +11,6 @@
 namespace geotherm {
 namespace {
 
-using Doubles = std::unique_ptr<double[]>;
-Doubles uncleared(std::int64_t count) {
-  return Doubles(new double[static_cast<std::size_t>(count)]);  // NOLINT: make_unique clears
-}
-
 /// to[i] = or += from[i], `count` doubles; groups are short.
 inline void copy(const double* from, int count, double* to) {
   for (int k = 0; k < count; ++k) to[k] = from[k];
@@ -23,6 +18,12 @@ inline void copy(const double* from, int count, double* to) {
 inline void add(const double* from, int count, double* to) {
   for (int k = 0; k < count; ++k) to[k] += from[k];
 }
+
+/// A front on a path, whose vector its parent or its child still needs.
+struct HeldVector {
+  Index front;
+  Doubles vector;
+};
 
 }  // namespace
 
@@ -202,12 +203,8 @@ void FrontPasses::backward(double* x, Eigen::Index stride, int threads) const {
 
 void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index> path) const {
   const FlushDenormals flush;
-  struct Held {
-    Index front;
-    Doubles vector;
-  };
   const Steps steps(*this, x, stride);
-  std::vector<Held> held;
+  std::vector<HeldVector> held;
   for (const Index s : path) {
     Doubles y = uncleared(steps.vector_size(s));
     steps.start(s, y.get(), false);
@@ -222,12 +219,8 @@ void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index>
 
 void FrontPasses::backward(double* x, Eigen::Index stride, std::span<const Index> path) const {
   const FlushDenormals flush;
-  struct Held {
-    Index front;
-    Doubles vector;
-  };
   const Steps steps(*this, x, stride);
-  std::vector<Held> held;
+  std::vector<HeldVector> held;
   for (auto s = path.rbegin(); s != path.rend(); ++s) {
     while (!held.empty() && held.back().front != tree_.tree.parent[*s]) held.pop_back();
     Doubles y = uncleared(steps.vector_size(*s));

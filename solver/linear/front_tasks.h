@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -23,9 +22,7 @@ class SharedFailure {
   void keep(std::exception_ptr failure) {
     const std::lock_guard lock(mutex_);
     if (!failure_) failure_ = std::move(failure);
-    failed_ = true;
   }
-  bool failed() const { return failed_; }
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -33,7 +30,6 @@ class SharedFailure {
  private:
   std::mutex mutex_;
   std::exception_ptr failure_;
-  std::atomic<bool> failed_{false};
 };
 
 /// Hands tasks out to threads, each once all those it waits for are done: its children when going

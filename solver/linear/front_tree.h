@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "solver/linear/elimination_tree.h"
@@ -19,6 +20,12 @@ inline constexpr Index padded(Index rows) { return slabs(rows) * kSlab; }
 /// Size of a lower triangle of slabs: slab s has 8 (s + 1) columns of 8 rows.
 inline constexpr std::int64_t triangle_size(std::int64_t slab_count) {
   return kSlab * kSlab * slab_count * (slab_count + 1) / 2;
+}
+
+/// Doubles that are not cleared when they are made: what a front works on.
+using Doubles = std::unique_ptr<double[]>;
+inline Doubles uncleared(std::int64_t count) {
+  return std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(count));
 }
 
 /// Whole subtrees, or single fronts above them, that one thread works on at a time.

@@ -7,58 +7,43 @@
 #include "solver/linear/backends.h"
 #include "solver/linear/fill_order.h"
 #include "solver/linear/front_passes.h"
+#include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
 namespace {
 
-class NativeFactorization final : public Factorization {
+class NativeFactor final : public TriangularFactor {
  public:
-  NativeFactorization(std::shared_ptr<const FrontTree> tree, FrontFactor factor)
+  NativeFactor(std::shared_ptr<const FrontTree> tree, FrontFactor factor)
       : tree_(std::move(tree)), factor_(std::move(factor)) {}
 
-  Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& /*progress*/,
-                            int threads) const override {
-    const std::vector<Index> path = tree_->tree.path(support);
-    for (Eigen::Index first = 0; first < x.cols();) {
-      const int width = column_group(x.cols() - first);
-      const FrontPasses passes(*tree_, factor_, width);
-      double* const columns = x.data() + first;
-      if (path.empty() || static_cast<double>(path.size()) > kLongPath * tree_->count()) {
-        passes.forward(columns, x.cols(), threads);
-      } else {
-        passes.forward(columns, x.cols(), path);
-      }
-      passes.backward(columns, x.cols(), threads);
-      first += width;
-    }
-    return SolveReport{};
-  }
-
-  Result<Eigen::MatrixXd> inverse_entries(std::span<const Index> rows) const override {
-    const std::vector<Index> path = tree_->tree.path(rows);
-    const auto count = static_cast<Eigen::Index>(rows.size());
-    Eigen::MatrixXd entries(count, count);
-    for (Eigen::Index first = 0; first < count;) {
-      const int width = column_group(count - first);
-      const FrontPasses passes(*tree_, factor_, width);
-      Block x = Block::Zero(size(), width);
-      for (int c = 0; c < width; ++c) x(rows[static_cast<std::size_t>(first + c)], c) = 1;
-      passes.forward(x.data(), width, path);
-      passes.backward(x.data(), width, path);
-      for (Eigen::Index r = 0; r < count; ++r) {
-        entries.block(r, first, 1, width) = x.row(rows[static_cast<std::size_t>(r)]);
-      }
-      first += width;
-    }
-    return entries;
-  }
-
+  const EliminationTree& tree() const override { return tree_->tree; }
+  Index size() const override { return tree_->size(); }
   FactorStats stats() const override {
     const std::int64_t numbers = tree_->value_start.back();
     return {numbers, numbers * bytes_of(factor_.storage),
             static_cast<std::int64_t>(tree_->operations)};
   }
-  Index size() const override { return tree_->size(); }
+
+  void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+               int threads) const override {
+    const FrontPasses passes(*tree_, factor_, columns);
+    if (nodes.empty() || static_cast<double>(nodes.size()) > kLongPath * tree_->count()) {
+      passes.forward(x, stride, threads);
+    } else {
+      passes.forward(x, stride, nodes);
+    }
+  }
+
+  void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                int threads) const override {
+    const FrontPasses passes(*tree_, factor_, columns);
+    if (nodes.empty()) {
+      passes.backward(x, stride, threads);
+    } else {
+      passes.backward(x, stride, nodes);
+    }
+  }
 
  private:
   /// A path of this share of all fronts and more gains nothing over the whole pass, which has less
@@ -119,8 +104,7 @@ class NativeAnalysis final : public Analysis {
                        std::to_string(failure.column) + " of " + std::to_string(matrix->size()) +
                        "); try --laplacian intrinsic-delaunay or another backend"};
     }
-    return std::unique_ptr<Factorization>(
-        std::make_unique<NativeFactorization>(tree_, std::move(factor)));
+    return make_direct_factorization(std::make_unique<NativeFactor>(tree_, std::move(factor)));
   } catch (const std::bad_alloc&) {
     return out_of_memory("ran out of memory in the factorisation", matrix->size());
   }

@@ -48,8 +48,8 @@ class SupernodalFactor final : public TriangularFactor {
     return {structure_->value_start.back(), supernodal_factor_bytes(*structure_)};
   }
 
-  void forward(double* x, Eigen::Index stride, int columns,
-               std::span<const Index> nodes) const override {
+  void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+               int /*threads*/) const override {
     const auto run = solve_kernels(columns).panel_forward;
     std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
                                 kPanelPadding);
@@ -60,8 +60,8 @@ class SupernodalFactor final : public TriangularFactor {
     }
   }
 
-  void backward(double* x, Eigen::Index stride, int columns,
-                std::span<const Index> nodes) const override {
+  void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                int /*threads*/) const override {
     const auto run = solve_kernels(columns).panel_backward;
     std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
                                 kPanelPadding);

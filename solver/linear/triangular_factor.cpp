@@ -12,12 +12,12 @@ class DirectFactorization final : public Factorization {
       : factor_(std::move(factor)) {}
 
   Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& /*progress*/,
-                            int /*threads*/) const override {
+                            int threads) const override {
     const std::vector<Index> path = factor_->tree().path(support);
     for (Eigen::Index first = 0; first < x.cols();) {
       const int width = column_group(x.cols() - first);
-      factor_->forward(x.data() + first, x.cols(), width, path);
-      factor_->backward(x.data() + first, x.cols(), width, {});
+      factor_->forward(x.data() + first, x.cols(), width, path, threads);
+      factor_->backward(x.data() + first, x.cols(), width, {}, threads);
       first += width;
     }
     return SolveReport{};
@@ -31,8 +31,8 @@ class DirectFactorization final : public Factorization {
       const int width = column_group(count - first);
       Block x = Block::Zero(factor_->size(), width);
       for (int c = 0; c < width; ++c) x(rows[static_cast<std::size_t>(first + c)], c) = 1;
-      factor_->forward(x.data(), width, width, path);
-      factor_->backward(x.data(), width, width, path);
+      factor_->forward(x.data(), width, width, path, 1);
+      factor_->backward(x.data(), width, width, path, 1);
       for (Eigen::Index r = 0; r < count; ++r) {
         entries.block(r, first, 1, width) = x.row(rows[static_cast<std::size_t>(r)]);
       }

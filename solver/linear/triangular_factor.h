@@ -9,8 +9,8 @@
 namespace geotherm {
 
 /// A Cholesky factor in elimination order, M = L L^T or L D L^T, with the two triangular passes
-/// over some or all of its nodes. What a direct backend hands back once the library behind it has
-/// computed the numbers.
+/// over some or all of its nodes. What a direct backend hands back once it, or the library behind
+/// it, has computed the numbers.
 class TriangularFactor {
  public:
   virtual ~TriangularFactor() = default;
@@ -21,11 +21,11 @@ class TriangularFactor {
 
   /// x := L^-1 x and x := (D) L^-T x for `columns` vectors (1, 2, 4, 8 or 16) whose row i starts
   /// at x + i * stride. `nodes`: the nodes to visit, ascending (backward goes through them from
-  /// the end); empty means all.
-  virtual void forward(double* x, Eigen::Index stride, int columns,
-                       std::span<const Index> nodes) const = 0;
-  virtual void backward(double* x, Eigen::Index stride, int columns,
-                        std::span<const Index> nodes) const = 0;
+  /// the end); empty means all. `threads` may be used; the answer has the same bits with any.
+  virtual void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                       int threads) const = 0;
+  virtual void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                        int threads) const = 0;
 };
 
 /// A Factorization over a triangular factor: sparse right sides walk only their path forward,
