@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/core/large_buffer.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -16,14 +17,23 @@ constexpr std::size_t kLargePage = 2UL << 20;
 
 }  // namespace
 
+void prefer_large_pages(void* data, std::size_t bytes) {
+#ifdef __linux__
+  const auto begin = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t first = (begin + kLargePage - 1) / kLargePage * kLargePage;
+  const std::uintptr_t end = (begin + bytes) / kLargePage * kLargePage;
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+#else
+  static_cast<void>(data), static_cast<void>(bytes);
+#endif
+}
+
 LargeBuffer::LargeBuffer(std::size_t bytes) : bytes_(bytes) {
   const std::size_t alignment = bytes >= 2 * kLargePage ? kLargePage : kLine;
   const std::size_t whole = (bytes + alignment) / alignment * alignment;
   data_ = static_cast<std::byte*>(std::aligned_alloc(alignment, whole));
   if (data_ == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-  if (alignment == kLargePage) madvise(data_, whole, MADV_HUGEPAGE);  // a wish
-#endif
+  prefer_large_pages(data_, whole);
 }
 
 LargeBuffer::~LargeBuffer() { std::free(data_); }

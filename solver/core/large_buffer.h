@@ -6,6 +6,10 @@
 
 namespace geotherm {
 
+/// Wishes that the system keep what is in here of large pages (2 MiB) as such, before it is first
+/// touched: what is read here and there would wait for the tables of small ones.
+void prefer_large_pages(void* data, std::size_t bytes);
+
 /// Uninitialised memory for what is read from end to end: aligned to a cache line, and in large
 /// pages where the system has them, so that reading does not wait for the tables of pages.
 class LargeBuffer {

@@ -6,8 +6,11 @@
 #include <exception>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "solver/core/thread_crew.h"
 
 namespace geotherm {
 
@@ -59,10 +62,31 @@ inline int piece_count(int threads, std::int64_t count, std::int64_t grain) {
       std::clamp<std::int64_t>(count / std::max<std::int64_t>(grain, 1), 1, std::max(threads, 1)));
 }
 
+/// Calls work(k) for all k in [0, count), 0 on this thread and the others each on one of its own,
+/// the crew's where this thread has one; what threads the system does not have is done here
+/// afterwards. `work` must not throw. Throws std::bad_alloc.
+template <class Work>
+void run_on_threads(int count, Work&& work) {
+  const auto call = [](void* context, int k) {
+    (*static_cast<std::remove_reference_t<Work>*>(context))(k);
+  };
+  if (ThreadCrew::run(count, &work, call)) return;
+  std::vector<std::jthread> helpers;
+  helpers.reserve(static_cast<std::size_t>(count - 1));
+  int begun = 1;
+  for (; begun < count; ++begun) {
+    auto helper = try_thread([&work, begun] { work(begun); });
+    if (!helper.joinable()) break;
+    helpers.push_back(std::move(helper));
+  }
+  work(0);
+  for (; begun < count; ++begun) work(begun);
+}
+
 /// Calls body(begin, end) on contiguous pieces of [0, count), one a thread, none shorter than
-/// `grain`; what threads the system does not have is done by the caller's. The body must give the
-/// same result however the range is cut. An exception of the body's is rethrown after all pieces
-/// have ended, the first piece's where there are several. Throws std::bad_alloc.
+/// `grain`. The body must give the same result however the range is cut. An exception of the
+/// body's is rethrown after all pieces have ended, the first piece's where there are several.
+/// Throws std::bad_alloc.
 template <class Body>
 void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& body) {
   const int pieces = piece_count(threads, count, grain);
@@ -71,26 +95,13 @@ void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& bo
     return;
   }
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(pieces));
-  const auto run = [&](int piece, std::int64_t end) noexcept {
+  run_on_threads(pieces, [&](int piece) noexcept {
     try {
-      body(count * piece / pieces, end);
+      body(count * piece / pieces, count * (piece + 1) / pieces);
     } catch (...) {
       failures[static_cast<std::size_t>(piece)] = std::current_exception();
     }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    helpers.reserve(static_cast<std::size_t>(pieces - 1));
-    int begun = 1;
-    for (; begun < pieces; ++begun) {
-      auto helper =
-          try_thread([&run, begun, end = count * (begun + 1) / pieces] { run(begun, end); });
-      if (!helper.joinable()) break;
-      helpers.push_back(std::move(helper));
-    }
-    run(0, count / pieces);
-    if (begun < pieces) run(begun, count);
-  }
+  });
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }

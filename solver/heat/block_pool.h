@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "solver/core/large_buffer.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/backend.h"
 
@@ -30,7 +31,9 @@ class BlockPool {
         return out;
       }
     }
-    return Block(rows, columns);
+    Block out(rows, columns);
+    prefer_large_pages(out.data(), static_cast<std::size_t>(out.size()) * sizeof(double));
+    return out;
   }
 
   void give(Block block) {

@@ -18,14 +18,14 @@ struct FieldPass {
   Index first_face, end_face;  ///< those to be walked
   const double* u;
   const double* log_u;        ///< null: X keeps length 1
-  const std::uint8_t* level;  ///< null, or exponents of u: faces with one are done carefully
+  const std::uint8_t* level;  ///< null, or exponents of u: faces with several are done carefully
   double* b;
   std::ptrdiff_t stride;
   double root_t;                 ///< sqrt(t), for field_length(), where all faces have one
   const double* root_t_of_face;  ///< F, or null
 
   /// X of one face and column, for the lanes that the fast path cannot do: gradients that
-  /// underflow, logarithms that do not exist, exponents.
+  /// underflow, logarithms that do not exist, corners with different exponents.
   const void* context;
   std::array<double, 2> (*careful)(const void* context, Index face, int column);
 };
@@ -44,17 +44,19 @@ inline constexpr double kResolved = 1.6;
 /// slope sqrt(t) |grad log u|, relative to that of one front, at most 1. Over an extent e of the
 /// mesh one front falls by 2 asinh(x), x = e / (2 sqrt(t)), where exp(-d / sqrt(t)) falls by 2 x;
 /// 1 + x^2/6 - x^4/72 is x / asinh(x) to 2 % for x < 0.8.
-inline double field_length(double base, double x, double height, double nx, double ny, double size,
-                           double root_t) {
-  const double a = base * nx;
-  const double b = x * nx + height * ny;
-  const double high = a > b ? a : b;
-  const double low = a < b ? a : b;
-  const double extent = (high > 0 ? high : 0) - (low < 0 ? low : 0);
-  const double half = 0.5 / root_t * extent;
-  const double q = half * half / 6;
-  const double length = root_t / kFront * size * (1 + q - 0.5 * q * q);
-  return extent > kResolved * root_t || length > 1 ? 1.0 : length;
+/// T: a number, or a register of them. inverse_root_t: 1 / sqrt(t); divisions take longest here.
+template <class T>
+inline T field_length(T base, T x, T height, T nx, T ny, T size, T root_t, T inverse_root_t) {
+  const T a = base * nx;
+  const T b = x * nx + height * ny;
+  const T zero{}, one = zero + 1.0;
+  const T high = a > b ? a : b;
+  const T low = a < b ? a : b;
+  const T extent = (high > zero ? high : zero) - (low < zero ? low : zero);
+  const T half = 0.5 * inverse_root_t * extent;
+  const T q = half * half * (1.0 / 6);
+  const T length = root_t * (1 / kFront) * size * (1.0 + q - 0.5 * q * q);
+  return (extent > kResolved * root_t) | (length > one) ? one : length;
 }
 
 /// out[i] = log(u[i]) to 1e-8; NaN where u <= 0.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The pass of field_kernels.h, compiled once for each instruction set. A lane is one face of one
 // source set; with few sets several faces go side by side, so that registers are always full.
+#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "solver/heat/field_kernels.h"
@@ -15,6 +16,8 @@ using FieldKernel = void (*)(const FieldPass&);
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
+#include "solver/core/register.inl"
+
 /// Differences and squares outside this range go the careful way: what has underflowed has no
 /// direction left.
 constexpr double kSafeLow = 1e-280;
@@ -23,61 +26,198 @@ constexpr double kSafeHigh = 1e280;
 /// 1 / sqrt(x) to a few units of the last digit, for 1e-290 < x < 1e290, in a quarter of the time
 /// that a square root and a division take: a guess from halving the exponent (3.5 % off, Lomont
 /// 2003), and two steps y (1 - e)^(-1/2), e = 1 - x y^2, by the binomial series to e^2 and to e^3.
-inline double inverse_root(double x) {
+inline Register inverse_root(Register x) {
   constexpr std::uint64_t kGuess = 0x5fe6eb50c7b537a9;
-  double y = std::bit_cast<double>(kGuess - (std::bit_cast<std::uint64_t>(x) >> 1));
-  double e = 1 - x * (y * y);
+  Register y = reinterpret_cast<Register>(kGuess - (reinterpret_cast<Bits>(x) >> 1));
+  Register e = 1.0 - x * (y * y);
   y += y * e * (0.5 + 0.375 * e);
-  e = 1 - x * (y * y);
+  e = 1.0 - x * (y * y);
   return y + y * e * (0.5 + e * (0.375 + 0.3125 * e));
 }
 
 /// The power of two that brings x, positive and not denormal, to between 1 and 2.
-inline double to_one(double x) {
+inline Register to_one(Register x) {
   constexpr std::uint64_t kExponent = 0x7ff0000000000000, kOfInverse = 0x7fe0000000000000;
-  return std::bit_cast<double>(kOfInverse - (std::bit_cast<std::uint64_t>(x) & kExponent));
+  return reinterpret_cast<Register>(kOfInverse - (reinterpret_cast<Bits>(x) & kExponent));
 }
 
+inline Register size_of(Register x) {
+  constexpr std::uint64_t kAllButSign = 0x7fffffffffffffff;
+  return reinterpret_cast<Register>(reinterpret_cast<Bits>(x) & kAllButSign);
+}
+
+inline Bits unsafe(Register square) {
+  return reinterpret_cast<Bits>((square <= kSafeLow) | (square >= kSafeHigh) | (square != square));
+}
+
+/// Faces as their lanes see them.
+struct Shape {
+  Register base, x, height, inverse_area, root_t, inverse_root_t;
+};
+
+/// What X gives to corners 1 and 2; corner 0 takes the opposite of both.
+struct Given {
+  Register d1, d2;
+  Bits careful;  ///< lanes where the fast path does not hold
+};
+
+/// From the differences of u to corner 0, for X of length 1.
+inline Given unit_divergence(const Shape& s, Register u0, Register du1, Register du2) {
+  // Relative to the larger difference: squares of u itself underflow half way to the floor.
+  const Register size1 = size_of(du1), size2 = size_of(du2);
+  const Register largest = size1 > size2 ? size1 : size2;
+  const Register scale = to_one(largest);
+  du1 *= scale;
+  // The gradient times base and height: only its direction counts.
+  const Register gx = du1 * s.height;
+  const Register gy = du2 * scale * s.base - s.x * du1;
+  const Register square = gx * gx + gy * gy;
+  const Register half = -0.5 * inverse_root(square);
+  const Register fx = gx * half;
+  const Register fy = gy * half;
+  const Register same = kSafeLow + kEquallyWarm * size_of(u0);
+  return {s.height * fx - s.x * fy, s.base * fy,
+          reinterpret_cast<Bits>((largest <= same) | (largest != largest)) | unsafe(square)};
+}
+
+/// Shortens X, from the differences of log u.
+inline void shorten(const Shape& s, Register dl1, Register dl2, Given& given) {
+  const Register gx = dl1 * s.height;
+  const Register gy = dl2 * s.base - s.x * dl1;
+  const Register square = gx * gx + gy * gy;
+  const Register inverse = inverse_root(square);
+  const Register size = square * inverse * s.inverse_area;
+  const Register length = field_length(s.base, s.x, s.height, gx * inverse, gy * inverse, size,
+                                       s.root_t, s.inverse_root_t);
+  given.d1 *= length;
+  given.d2 *= length;
+  given.careful |= unsafe(square);
+}
+
+/// What the careful way gives.
+std::array<double, 3> divergence_of(const FieldPass& pass, Index f, int column) {
+  const auto x = pass.careful(pass.context, f, column);
+  return divergence(pass.mesh->layout[f], x[0], x[1]);
+}
+
+/// d1, d2: of one face, K columns.
+template <int K>
+inline void scatter(const FieldPass& pass, Index f, const double* d1, const double* d2) {
+  const Face& face = pass.mesh->faces[f];
+  double* b0 = pass.b + face[0] * pass.stride;
+  double* b1 = pass.b + face[1] * pass.stride;
+  double* b2 = pass.b + face[2] * pass.stride;
+  // Three loops, since a face may visit one vertex twice.
+  if constexpr (K >= kLanes) {
+    for (int k = 0; k < K; k += kLanes) store(load(b0 + k) - (load(d1 + k) + load(d2 + k)), b0 + k);
+    for (int k = 0; k < K; k += kLanes) store(load(b1 + k) + load(d1 + k), b1 + k);
+    for (int k = 0; k < K; k += kLanes) store(load(b2 + k) + load(d2 + k), b2 + k);
+  } else {
+    for (int k = 0; k < K; ++k) b0[k] -= d1[k] + d2[k];
+    for (int k = 0; k < K; ++k) b1[k] += d1[k];
+    for (int k = 0; k < K; ++k) b2[k] += d2[k];
+  }
+}
+
+/// Asks for what a face to come reads: rows of several cache lines each, out of order.
+template <int K>
+inline void ask_for(const FieldPass& pass, Index f) {
+  constexpr int kLine = 8;  // doubles
+  for (const Index vertex : pass.mesh->faces[f]) {
+    const std::ptrdiff_t row = vertex * pass.stride;
+    for (int k = 0; k < K; k += kLine) {
+      __builtin_prefetch(pass.u + row + k);
+      if (pass.log_u != nullptr) __builtin_prefetch(pass.log_u + row + k);
+      __builtin_prefetch(pass.b + row + k);
+    }
+  }
+}
+
+/// Whether some corner has an exponent of its own in one of these columns.
+template <int K>
+inline bool has_mixed_levels(const FieldPass& pass, const Face& face) {
+  if (pass.level == nullptr) return false;
+  const std::uint8_t* const first = pass.level + face[0] * pass.stride;
+  return std::memcmp(first, pass.level + face[1] * pass.stride, K) != 0 ||
+         std::memcmp(first, pass.level + face[2] * pass.stride, K) != 0;
+}
+
+/// Many columns: they fill registers, and the shape is the same in all lanes.
+template <int K>
+void run_wide(const FieldPass& pass) {
+  constexpr int kRegisters = K / kLanes;
+  constexpr Index kAhead = 4;
+  const double inverse_root_t = 1 / pass.root_t;
+  for (Index f = pass.first_face; f < pass.end_face; ++f) {
+    if (f + kAhead < pass.end_face) ask_for<K>(pass, f + kAhead);
+    const Face& face = pass.mesh->faces[f];
+    const FaceLayout& p = pass.mesh->layout[f];
+    Shape shape{all_lanes(p.base),      all_lanes(p.x),
+                all_lanes(p.height),    all_lanes(1 / (p.base * p.height)),
+                all_lanes(pass.root_t), all_lanes(inverse_root_t)};
+    if (pass.root_t_of_face != nullptr) {
+      shape.root_t = all_lanes(pass.root_t_of_face[f]);
+      shape.inverse_root_t = all_lanes(1 / pass.root_t_of_face[f]);
+    }
+    const auto corner = [&](const double* values, int k, int i) {
+      return load(values + face[k] * pass.stride + i * kLanes);
+    };
+    double d1[K], d2[K];
+    Bits careful[kRegisters], some{};
+    for (int i = 0; i < kRegisters; ++i) {
+      const Register u0 = corner(pass.u, 0, i);
+      Given given =
+          unit_divergence(shape, u0, corner(pass.u, 1, i) - u0, corner(pass.u, 2, i) - u0);
+      if (pass.log_u != nullptr) {
+        const Register l0 = corner(pass.log_u, 0, i);
+        shorten(shape, corner(pass.log_u, 1, i) - l0, corner(pass.log_u, 2, i) - l0, given);
+      }
+      store(given.d1, d1 + i * kLanes);
+      store(given.d2, d2 + i * kLanes);
+      careful[i] = given.careful;
+      some |= given.careful;
+    }
+    if (const bool mixed = has_mixed_levels<K>(pass, face); mixed || any(some)) {
+      for (int k = 0; k < K; ++k) {
+        if (!mixed && careful[k / kLanes][k % kLanes] == 0) continue;
+        const auto d = divergence_of(pass, f, k);
+        d1[k] = d[1];
+        d2[k] = d[2];
+      }
+    }
+    scatter<K>(pass, f, d1, d2);
+  }
+}
+
+/// Few columns: several faces fill the registers, number by number.
 template <int K>
 struct Lanes {
-  // Sixteen lanes, not eight: the compiler unrolls shorter loops before it thinks of vectors.
-  static constexpr int kFaces = 16 / K;
-  static constexpr int kCount = kFaces * K;
-  double du1[kCount], du2[kCount];  ///< differences of u to corner 0
-  double same[kCount];              ///< what is no difference
-  double dl1[kCount], dl2[kCount];  ///< of log u
-  double base[kCount], x[kCount], height[kCount], inverse_area[kCount];
+  // Two registers at least: one that has just been stored in parts cannot be read whole yet.
+  static constexpr int kCount = 16;
+  static constexpr int kFaces = kCount / K;
+  double u0[kCount], du1[kCount], du2[kCount];  ///< u, and its differences to corner 0
+  double dl1[kCount], dl2[kCount];              ///< of log u
+  double base[kCount], x[kCount], height[kCount], root_t[kCount];
   double d1[kCount], d2[kCount];
-  double root_t[kCount];   ///< where faces have their own
-  double far[kCount];      ///< not 0 where a corner has an exponent of its own
-  double careful[kCount];  ///< not 0 where the fast path does not hold
+  std::uint64_t careful[kCount];  ///< not 0 where the fast path does not hold
 };
 
 template <int K>
-void load(const FieldPass& pass, Index first, Lanes<K>& s) {
+void load_faces(const FieldPass& pass, Index first, Lanes<K>& s) {
   for (int i = 0; i < Lanes<K>::kFaces; ++i) {
     const Face& face = pass.mesh->faces[first + i];
     const FaceLayout& p = pass.mesh->layout[first + i];
-    // Once for all columns, or with one column for all faces of the registers.
-    const double inverse_area = K > 1 ? 1 / (p.base * p.height) : 0.0;
+    const std::uint64_t mixed = has_mixed_levels<K>(pass, face) ? 1 : 0;
     for (int k = 0; k < K; ++k) {
       const int lane = i * K + k;
       const double u0 = pass.u[face[0] * pass.stride + k];
+      s.u0[lane] = u0;
       s.du1[lane] = pass.u[face[1] * pass.stride + k] - u0;
       s.du2[lane] = pass.u[face[2] * pass.stride + k] - u0;
-      s.same[lane] = kSafeLow + kEquallyWarm * std::abs(u0);
       s.base[lane] = p.base;
       s.x[lane] = p.x;
       s.height[lane] = p.height;
-      if (K > 1) s.inverse_area[lane] = inverse_area;
-    }
-    for (int k = 0; k < K; ++k) s.far[i * K + k] = 0;
-    if (pass.level != nullptr) {
-      for (int k = 0; k < K; ++k) {
-        s.far[i * K + k] = pass.level[face[0] * pass.stride + k] |
-                           pass.level[face[1] * pass.stride + k] |
-                           pass.level[face[2] * pass.stride + k];
-      }
+      s.careful[lane] = mixed;
     }
     if (pass.log_u == nullptr) continue;
     if (pass.root_t_of_face != nullptr) {
@@ -92,102 +232,64 @@ void load(const FieldPass& pass, Index first, Lanes<K>& s) {
   }
 }
 
-/// Shortens X; root_t(j) is that of lane j.
-template <int K, class RootT>
-void shorten(Lanes<K>& s, const RootT& root_t) {
-  for (int j = 0; j < Lanes<K>::kCount; ++j) {
-    const double base = s.base[j], x = s.x[j], height = s.height[j];
-    const double gx = s.dl1[j] * height;
-    const double gy = s.dl2[j] * base - x * s.dl1[j];
-    const double square = gx * gx + gy * gy;
-    const double inverse = inverse_root(square);
-    const double inverse_area = K > 1 ? s.inverse_area[j] : 1 / (base * height);
-    const double size = square * inverse * inverse_area;
-    const double length =
-        field_length(base, x, height, gx * inverse, gy * inverse, size, root_t(j));
-    s.d1[j] *= length;
-    s.d2[j] *= length;
-    s.careful[j] += square > kSafeLow && square < kSafeHigh ? 0.0 : 1.0;
-  }
-}
-
 template <int K>
 bool compute(const FieldPass& pass, Lanes<K>& s) {
-  double any = 0;
-  for (int j = 0; j < Lanes<K>::kCount; ++j) {
-    // Relative to the larger difference: squares of u itself underflow half way to the floor.
-    const double size1 = std::abs(s.du1[j]);
-    const double size2 = std::abs(s.du2[j]);
-    const double largest = size1 > size2 ? size1 : size2;
-    const double scale = to_one(largest);
-    const double du1 = s.du1[j] * scale;
-    // The gradient times base and height: only its direction counts.
-    const double gx = du1 * s.height[j];
-    const double gy = s.du2[j] * scale * s.base[j] - s.x[j] * du1;
-    const double square = gx * gx + gy * gy;
-    const double half = -0.5 * inverse_root(square);
-    const double fx = gx * half;
-    const double fy = gy * half;
-    s.d1[j] = s.height[j] * fx - s.x[j] * fy;
-    s.d2[j] = s.base[j] * fy;
-    s.careful[j] = largest > s.same[j] && square > kSafeLow && square < kSafeHigh ? s.far[j] : 1.0;
-  }
-  if (pass.log_u != nullptr) {
-    if (pass.root_t_of_face == nullptr) {
-      shorten(s, [root_t = pass.root_t](int) { return root_t; });
-    } else {
-      shorten(s, [&s](int j) { return s.root_t[j]; });
+  bool some = false;
+  for (int j = 0; j < Lanes<K>::kCount; j += kLanes) {
+    Shape shape{
+        load(s.base + j), load(s.x + j), load(s.height + j), {}, all_lanes(pass.root_t), {}};
+    Given given = unit_divergence(shape, load(s.u0 + j), load(s.du1 + j), load(s.du2 + j));
+    if (pass.log_u != nullptr) {
+      if (pass.root_t_of_face != nullptr) shape.root_t = load(s.root_t + j);
+      shape.inverse_root_t = 1.0 / shape.root_t;
+      shape.inverse_area = 1.0 / (shape.base * shape.height);
+      shorten(shape, load(s.dl1 + j), load(s.dl2 + j), given);
     }
+    store(given.d1, s.d1 + j);
+    store(given.d2, s.d2 + j);
+    for (int lane = 0; lane < kLanes; ++lane) s.careful[j + lane] |= given.careful[lane];
   }
-  for (int j = 0; j < Lanes<K>::kCount; ++j) any += s.careful[j];
-  return any > 0;
+  for (const std::uint64_t careful : s.careful) some = some || careful != 0;
+  return some;
 }
 
 template <int K>
-void scatter(const FieldPass& pass, Index first, const Lanes<K>& s) {
-  for (int i = 0; i < Lanes<K>::kFaces; ++i) {
-    const Face& face = pass.mesh->faces[first + i];
-    double* b0 = pass.b + face[0] * pass.stride;
-    double* b1 = pass.b + face[1] * pass.stride;
-    double* b2 = pass.b + face[2] * pass.stride;
-    const int lane = i * K;
-    // Three loops, since a face may visit one vertex twice.
-    for (int k = 0; k < K; ++k) b0[k] -= s.d1[lane + k] + s.d2[lane + k];
-    for (int k = 0; k < K; ++k) b1[k] += s.d1[lane + k];
-    for (int k = 0; k < K; ++k) b2[k] += s.d2[lane + k];
-  }
-}
-
-void add_one(const FieldPass& pass, Index f, int column) {
-  const auto x = pass.careful(pass.context, f, column);
-  const auto d = divergence(pass.mesh->layout[f], x[0], x[1]);
-  for (int k = 0; k < 3; ++k) pass.b[pass.mesh->faces[f][k] * pass.stride + column] += d[k];
-}
-
-template <int K>
-void run(const FieldPass& pass) {
+void run_narrow(const FieldPass& pass) {
   constexpr int kFaces = Lanes<K>::kFaces;
-  // Two sets of lanes: what has just been stored one by one cannot be read as a vector yet.
   Lanes<K> lanes[2];
   Index f = pass.first_face;
   const Index end = f + (pass.end_face - f) / kFaces * kFaces;
-  if (f < end) load<K>(pass, f, lanes[0]);
+  if (f < end) load_faces<K>(pass, f, lanes[0]);
   for (int turn = 0; f < end; f += kFaces, turn = 1 - turn) {
-    if (f + kFaces < end) load<K>(pass, f + kFaces, lanes[1 - turn]);
+    if (f + kFaces < end) load_faces<K>(pass, f + kFaces, lanes[1 - turn]);
     Lanes<K>& s = lanes[turn];
     if (compute<K>(pass, s)) {
       for (int j = 0; j < Lanes<K>::kCount; ++j) {
         if (s.careful[j] == 0) continue;
-        const auto x = pass.careful(pass.context, f + j / K, j % K);
-        const auto d = divergence(pass.mesh->layout[f + j / K], x[0], x[1]);
+        const auto d = divergence_of(pass, f + j / K, j % K);
         s.d1[j] = d[1];
         s.d2[j] = d[2];
       }
     }
-    scatter<K>(pass, f, s);
+    for (int i = 0; i < kFaces; ++i) scatter<K>(pass, f + i, s.d1 + i * K, s.d2 + i * K);
   }
   for (; f < pass.end_face; ++f) {
-    for (int k = 0; k < K; ++k) add_one(pass, f, k);
+    double d1[K], d2[K];
+    for (int k = 0; k < K; ++k) {
+      const auto d = divergence_of(pass, f, k);
+      d1[k] = d[1];
+      d2[k] = d[2];
+    }
+    scatter<K>(pass, f, d1, d2);
+  }
+}
+
+template <int K>
+void run(const FieldPass& pass) {
+  if constexpr (K >= kLanes) {
+    run_wide<K>(pass);
+  } else {
+    run_narrow<K>(pass);
   }
 }
 

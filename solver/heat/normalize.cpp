@@ -44,6 +44,7 @@ class Scatter {
         phi_(answer.phi),
         columns_(answer.phi.cols()),
         unit_(surface.intrinsic.unit),
+        results_(results),
         most_(results.size(), 0.0),
         least_(results.size(), 0.0) {
     // +inf where no source is.
@@ -52,17 +53,37 @@ class Scatter {
       for (const Index component : anchors[static_cast<std::size_t>(c)].components) {
         add_(component, c) = answer.shift.size() == 0 ? 0.0 : answer.shift(component, c);
       }
-      DistanceResult& result = results[static_cast<std::size_t>(c)];
-      result.distances.resize(surface.row_of_vertex.size());
-      out_.push_back(result.distances.data());
     }
   }
 
+  /// One column is cut among threads by its vertices, several are by columns, which each grow at
+  /// their ends: no memory is cleared before it is written.
   void run(int threads) {
-    parallel_for(threads, std::ssize(surface_.row_of_vertex), kVerticesOfThread / columns_,
-                 [this](std::int64_t begin, std::int64_t end) {
-                   columns_ == 1 ? write<1>(begin, end) : write<0>(begin, end);
-                 });
+    const std::int64_t count = std::ssize(surface_.row_of_vertex);
+    if (columns_ == 1) {
+      std::vector<double>& out = results_[0].distances;
+      out.resize(static_cast<std::size_t>(count));
+      parallel_for(threads, count, kVerticesOfThread, [&](std::int64_t begin, std::int64_t end) {
+        double* to = out.data() + begin;
+        write<1>(0, begin, end, [&](Eigen::Index, const double* values, std::int64_t size) {
+          to = std::copy_n(values, size, to);
+        });
+      });
+      return;
+    }
+    for (DistanceResult& result : results_) result.distances.clear();
+    const auto append = [this](Eigen::Index c, const double* values, std::int64_t size) {
+      std::vector<double>& out = results_[static_cast<std::size_t>(c)].distances;
+      out.insert(out.end(), values, values + size);
+    };
+    const int most = count * columns_ < kVerticesOfThread ? 1 : threads;
+    parallel_for(most, columns_, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t c = begin; c < end; ++c) {
+        results_[static_cast<std::size_t>(c)].distances.reserve(static_cast<std::size_t>(count));
+      }
+      for (; begin + kAtOnce <= end; begin += kAtOnce) write<kAtOnce>(begin, 0, count, append);
+      for (; begin < end; ++begin) write<1>(begin, 0, count, append);
+    });
   }
 
   Index first_not_finite() const { return bad_; }
@@ -81,37 +102,67 @@ class Scatter {
   }
 
  private:
-  /// K: the number of columns, or 0 for any.
+  static constexpr int kAtOnce = 8;  ///< columns: a cache line
+  /// Vertices whose distances are gathered before they are written: columns may lie at the same
+  /// places of their pages, where a cache holds few of them side by side.
+  static constexpr std::int64_t kTile = 128;
+  /// Vertices ahead whose rows are asked for.
+  static constexpr std::int64_t kAhead = 16;
+
+  /// The first of these vertices with a value that is not finite.
   template <int K>
-  void write(std::int64_t begin, std::int64_t end) {
-    const Eigen::Index columns = K > 0 ? K : columns_;
-    const auto& component = surface_.operators->components.of;
-    const bool whole = surface_.operators->components.count == 1;
-    std::vector<double> most(most_.size(), 0.0), least(most_.size(), 0.0);
-    std::int64_t bad = end;
-    for (std::int64_t v = begin; v < end; ++v) {
-      const Index row = surface_.row_of_vertex[static_cast<std::size_t>(v)];
-      const double* phi = phi_.data() + (row == kNoIndex ? 0 : row) * columns;
-      const double* add = add_.data() + (whole || row == kNoIndex ? 0 : component[row]) * columns;
-      for (Eigen::Index c = 0; c < columns; ++c) {
-        double* const out = out_[static_cast<std::size_t>(c)] + v;
-        if (row == kNoIndex || add[c] == kUnreached) {
-          *out = kUnreached;
-          continue;
-        }
-        const double distance = phi[c] + add[c];
-        if (!std::isfinite(distance * unit_)) bad = std::min(bad, v);
-        most[c] = distance > most[c] ? distance : most[c];
-        least[c] = distance < least[c] ? distance : least[c];
-        *out = (distance > 0 ? distance : 0.0) * unit_;
+  std::int64_t first_bad(Eigen::Index first, std::int64_t begin, std::int64_t end) const {
+    for (; begin < end; ++begin) {
+      const Index row = surface_.row_of_vertex[static_cast<std::size_t>(begin)];
+      if (row == kNoIndex) continue;
+      for (Eigen::Index c = first; c < first + K; ++c) {
+        const double add = add_(surface_.operators->components.of[row], c);
+        if (add != kUnreached && !std::isfinite((phi_(row, c) + add) * unit_)) return begin;
       }
     }
+    return end;
+  }
+
+  /// Calls sink(column, values, count) for columns from `first` on, by pieces of the vertices.
+  template <int K, class Sink>
+  void write(Eigen::Index first, std::int64_t begin, std::int64_t end, const Sink& sink) {
+    const auto& component = surface_.operators->components.of;
+    const bool whole = surface_.operators->components.count == 1;
+    const Index* const row_of = surface_.row_of_vertex.data();
+    double most[K] = {}, least[K] = {}, tile[K][kTile];
+    std::int64_t bad = end;
+    for (std::int64_t next = begin; begin < end; begin = next) {
+      next = std::min(end, begin + kTile);
+      bool finite = true;
+      for (std::int64_t v = begin; v < next; ++v) {
+        if (v + kAhead < end && row_of[v + kAhead] != kNoIndex) {
+          __builtin_prefetch(phi_.data() + row_of[v + kAhead] * columns_ + first);
+        }
+        const Index row = row_of[v];
+        if (row == kNoIndex) {
+          for (int c = 0; c < K; ++c) tile[c][v - begin] = kUnreached;
+          continue;
+        }
+        const double* const phi = phi_.data() + row * columns_ + first;
+        const double* const add = add_.data() + (whole ? 0 : component[row]) * columns_ + first;
+        for (int c = 0; c < K; ++c) {
+          const double distance = phi[c] + add[c];
+          tile[c][v - begin] = (distance > 0 ? distance : 0.0) * unit_;
+          if (add[c] == kUnreached) continue;
+          finite = finite && std::abs(distance) * unit_ < kUnreached;
+          most[c] = distance > most[c] ? distance : most[c];
+          least[c] = distance < least[c] ? distance : least[c];
+        }
+      }
+      if (!finite && bad == end) bad = first_bad<K>(first, begin, next);
+      for (int c = 0; c < K; ++c) sink(first + c, tile[c], next - begin);
+    }
     const std::lock_guard lock(mutex_);
-    if (bad < end)
-      bad_ = bad_ == kNoIndex ? static_cast<Index>(bad) : std::min(bad_, static_cast<Index>(bad));
-    for (std::size_t c = 0; c < most.size(); ++c) {
-      most_[c] = std::max(most_[c], most[c]);
-      least_[c] = std::min(least_[c], least[c]);
+    if (bad < end && (bad_ == kNoIndex || bad < bad_)) bad_ = static_cast<Index>(bad);
+    for (int c = 0; c < K; ++c) {
+      const auto column = static_cast<std::size_t>(first + c);
+      most_[column] = std::max(most_[column], most[c]);
+      least_[column] = std::min(least_[column], least[c]);
     }
   }
 
@@ -119,8 +170,8 @@ class Scatter {
   const Block& phi_;
   const Eigen::Index columns_;
   const double unit_;
+  std::span<DistanceResult> results_;
   Block add_;  ///< components x K
-  std::vector<double*> out_;
   std::mutex mutex_;
   std::vector<double> most_, least_;
   Index bad_ = kNoIndex;

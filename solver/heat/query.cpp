@@ -208,6 +208,7 @@ class GroupRunner {
 
  private:
   void work() {
+    const ThreadCrew crew(threads_of_group_);
     for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
       const auto count = static_cast<double>(groups_.size());
       const Progress part =

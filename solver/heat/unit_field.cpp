@@ -181,7 +181,7 @@ double UnitField::length(Index f, Eigen::Index column) const {
   if (!(square > 0) || !std::isfinite(square)) return 1;  // no logarithm: u <= 0
   const double size = std::sqrt(square);
   const double whole =
-      field_length(p.base, p.x, p.height, g[0] / size, g[1] / size, size, root_t(f));
+      field_length(p.base, p.x, p.height, g[0] / size, g[1] / size, size, root_t(f), 1 / root_t(f));
   return 1 - trust(face[0], column) * (1 - whole);
 }
 

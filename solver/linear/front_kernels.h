@@ -58,7 +58,7 @@ struct StoredFront {
   const void* values;
 };
 
-/// The two passes over one front for a group of 1, 2, 4, 8 or 16 right sides. `x`: the values at
+/// The two passes over one front, and what joins fronts, for a group of 1, 2, 4, 8 or 16 right sides. `x`: the values at
 /// its places, a group each; what stands in the padding is of no use.
 struct FrontSolves {
   /// Own places: x := D-blocks of L^-1 x; to the places below what they lose is added, or set where
@@ -67,6 +67,8 @@ struct FrontSolves {
   /// Own places: x := L^-T x; the final values below are above[place[i]]. Precondition: the padding
   /// of the own places is 0.
   void (*backward)(const StoredFront& front, double* x, const double* above, const Index* place);
+  /// Adds `count` groups of a child's, which lie one after the other, to x[place[i]].
+  void (*take)(const double* left, const Index* place, Index count, double* x);
 };
 
 const FrontSolves& front_solves(FactorStorage storage, int group,

@@ -2,6 +2,7 @@
 #include "solver/linear/front_passes.h"
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -11,12 +12,16 @@
 namespace geotherm {
 namespace {
 
-/// to[i] = or += from[i], `count` doubles; groups are short.
-inline void copy(const double* from, int count, double* to) {
-  for (int k = 0; k < count; ++k) to[k] = from[k];
-}
-inline void add(const double* from, int count, double* to) {
-  for (int k = 0; k < count; ++k) to[k] += from[k];
+/// `count` groups of doubles, from one stride to another.
+inline void copy_groups(const double* from, std::ptrdiff_t from_stride, int group, Index count,
+                        double* to, std::ptrdiff_t to_stride) {
+  if (from_stride == group && to_stride == group) {
+    std::memcpy(to, from, sizeof(double) * static_cast<std::size_t>(count * std::int64_t{group}));
+    return;
+  }
+  for (; count > 0; --count, from += from_stride, to += to_stride) {
+    for (int k = 0; k < group; ++k) to[k] = from[k];
+  }
 }
 
 /// A front on a path, whose vector its parent or its child still needs.
@@ -45,21 +50,13 @@ class FrontPasses::Steps {
 
   /// Forward: the right side at its own rows; below nothing, which a fresh front need not see.
   void start(Index s, double* y, bool fresh) const {
-    const double* const x = rows(s);
-    const Index width = tree_.width(s);
-    for (Index i = 0; i < width; ++i) copy(x + i * stride_, group_, y + i * group_);
+    copy_groups(rows(s), stride_, group_, tree_.width(s), y, group_);
     if (!fresh) std::fill(y + own_size(s), y + vector_size(s), 0.0);
   }
 
   /// Forward: adds what a child leaves to the rows below it.
   void take(Index child, const double* left, double* y) const {
-    const Index* const place = tree_.places_in_parent(child);
-    const Index count = tree_.below(child);
-    if (group_ == 1) {
-      for (Index i = 0; i < count; ++i) y[place[i]] += left[i];
-      return;
-    }
-    for (Index i = 0; i < count; ++i) add(left + i * group_, group_, y + place[i] * group_);
+    p_.solves_.take(left, tree_.places_in_parent(child), tree_.below(child), y);
   }
 
   void eliminate(Index s, double* y, bool fresh) const {
@@ -69,9 +66,8 @@ class FrontPasses::Steps {
 
   /// Backward: `above` is the vector of its parent, if it has one.
   void substitute(Index s, const double* above, double* y) const {
-    const double* const x = rows(s);
     const Index width = tree_.width(s);
-    for (Index i = 0; i < width; ++i) copy(x + i * stride_, group_, y + i * group_);
+    copy_groups(rows(s), stride_, group_, width, y, group_);
     std::fill(y + std::int64_t{width} * group_, y + own_size(s), 0.0);
     p_.solves_.backward(p_.factor_.front(tree_, s), y, above, tree_.places_in_parent(s));
     store(s, y);
@@ -80,7 +76,7 @@ class FrontPasses::Steps {
  private:
   double* rows(Index s) const { return x_ + tree_.nodes.first[s] * stride_; }
   void store(Index s, const double* y) const {
-    for (Index i = 0; i < tree_.width(s); ++i) copy(y + i * group_, group_, rows(s) + i * stride_);
+    copy_groups(y, group_, group_, tree_.width(s), rows(s), stride_);
   }
 
   const FrontPasses& p_;

@@ -252,9 +252,23 @@ void backward(const StoredFront& front, double* x, const double* above, const In
   }
 }
 
+template <int K>
+void take(const double* left, const Index* place, Index count, double* x) {
+  if constexpr (K == 1) {
+    for (Index i = 0; i < count; ++i) x[place[i]] += left[i];
+  } else {
+    for (Index i = 0; i < count; ++i, left += K) {
+      double* const at = x + static_cast<std::ptrdiff_t>(place[i]) * K;
+      Group<K> sum = Group<K>::load(at);
+      sum.add(1.0, Group<K>::load(left));
+      sum.store(at);
+    }
+  }
+}
+
 template <int K, class T>
 constexpr FrontSolves solves() {
-  return {forward<K, T>, backward<K, T>};
+  return {forward<K, T>, backward<K, T>, take<K>};
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "solver/core/spin.h"
+
 namespace geotherm {
 namespace {
 
@@ -182,9 +184,21 @@ Index TaskQueue::next(Index done) {
       release(tasks_[done].parent);
     }
     ++finished_;
-    if (ready_.size() > before + 1 || finished_ == tasks_.size()) changed_.notify_all();
+    if (ready_.size() > before + 1 || finished_ == tasks_.size()) {
+      ++changes_;
+      changed_.notify_all();
+    }
   }
-  changed_.wait(lock, [this] { return stopped_ || !ready_.empty() || finished_ == tasks_.size(); });
+  const auto has_news = [this] {
+    return stopped_ || !ready_.empty() || finished_ == tasks_.size();
+  };
+  if (!has_news()) {  // a front takes microseconds, falling asleep and waking tens of them
+    const unsigned seen = changes_;
+    lock.unlock();
+    watch_for([&] { return changes_ != seen; });
+    lock.lock();
+  }
+  changed_.wait(lock, has_news);
   if (stopped_ || ready_.empty()) return kNoIndex;
   const Index task = ready_.back();
   ready_.pop_back();
@@ -194,6 +208,7 @@ Index TaskQueue::next(Index done) {
 void TaskQueue::stop() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
+  ++changes_;
   changed_.notify_all();
 }
 

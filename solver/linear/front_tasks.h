@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -52,6 +53,7 @@ class TaskQueue {
   std::vector<Index> ready_;      ///< the last one goes first
   std::size_t finished_ = 0;
   bool stopped_ = false;
+  std::atomic<unsigned> changes_{0};  ///< of what next() waits for
 };
 
 /// Calls work(task, worker) for every task, on up to `threads` threads; make_worker() makes what a
@@ -62,7 +64,8 @@ void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int thread
                const MakeWorker& make_worker, const Work& work) {
   TaskQueue queue(tree.tasks, direction);
   SharedFailure failure;
-  const auto run = [&] {
+  const auto most = std::min<std::size_t>(static_cast<std::size_t>(threads), tree.tasks.size());
+  run_on_threads(std::max(1, static_cast<int>(most)), [&](int) noexcept {
     try {
       const FlushDenormals flush;
       auto worker = make_worker();
@@ -73,16 +76,7 @@ void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int thread
       failure.keep(std::current_exception());
       queue.stop();
     }
-  };
-  const auto most = std::min<std::size_t>(static_cast<std::size_t>(threads), tree.tasks.size());
-  {
-    std::vector<std::jthread> helpers;
-    for (std::size_t k = 1; k < most; ++k) {
-      helpers.push_back(try_thread(run));
-      if (!helpers.back().joinable()) break;
-    }
-    run();
-  }
+  });
   failure.rethrow();
 }
 

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 // For the .inl files of kernels, which include it inside their namespace.
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;  ///< doubles a register holds
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
-
-typedef double Register __attribute__((vector_size(8 * kLanes)));
+#include "solver/core/register.inl"
 
 inline void widen(const float* from, Register& to) {
   typedef float Narrow __attribute__((vector_size(4 * kLanes)));

@@ -49,8 +49,9 @@ class FieldKernels : public testing::TestWithParam<KernelCase> {
     const double norm = std::hypot(g[0], g[1]);
     const auto h = gradient(p, log_at[0], log_at[1], log_at[2]);
     const double slope = std::hypot(h[0], h[1]);
-    const double length = field_length(p.base, p.x, p.height, h[0] / slope, h[1] / slope, slope,
-                                       each_its_own ? root_t_of_face[f] : kRootT);
+    const double root_t = each_its_own ? root_t_of_face[f] : kRootT;
+    const double length =
+        field_length(p.base, p.x, p.height, h[0] / slope, h[1] / slope, slope, root_t, 1 / root_t);
     return {-length * g[0] / norm, -length * g[1] / norm};
   }
 
