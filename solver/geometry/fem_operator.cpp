@@ -116,16 +116,17 @@ void FemOperator::apply(std::span<const double> x, std::span<double> y) const {
   for (const Index i : held_) y[i] = x[i];
 }
 
-double FemOperator::product_at(Index i, std::span<const double> x) const {
-  if (is_held(i)) return x[i];
-  const auto free = [&](Index j) { return is_held(j) ? 0.0 : x[j]; };
-  double sum = mass_factor_ * mesh_->mass[i] * x[i];
+double FemOperator::product_at(Index i, const std::function<double(Index)>& x) const {
+  const double own = x(i);
+  if (is_held(i)) return own;
+  const auto free = [&](Index j) { return is_held(j) ? 0.0 : x(j); };
+  double sum = mass_factor_ * mesh_->mass[i] * own;
   for (const Side corner : mesh_->corners.at(i)) {
     const Index f = face_of(corner);
     const auto w = weights(static_cast<std::size_t>(f));
     const int k = corner_of(corner), before = previous_corner(k);
-    sum += w[k] * (x[i] - free(mesh_->faces[f][next_corner(k)]));
-    sum += w[before] * (x[i] - free(mesh_->faces[f][before]));
+    sum += w[k] * (own - free(mesh_->faces[f][next_corner(k)]));
+    sum += w[before] * (own - free(mesh_->faces[f][before]));
   }
   return sum;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -28,8 +29,8 @@ class FemOperator final : public SymmetricOperator {
 
   Index size() const override { return mesh_->size(); }
   void apply(std::span<const double> x, std::span<double> y) const override;
-  /// (M x)_i alone. Cost: the faces at i.
-  double product_at(Index i, std::span<const double> x) const;
+  /// (M x)_i alone, x as a function of the row. Cost: the faces at i.
+  double product_at(Index i, const std::function<double(Index)>& x) const;
   std::span<const double> diagonal() const override { return diagonal_; }
   Kernel kernel() const override;
   std::uint64_t pattern() const override { return mesh_->pattern; }

@@ -4,133 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <mutex>
+
+#include "solver/heat/far_field.h"
 
 namespace geotherm {
 namespace {
-
-/// More levels than this many floors: 255 * 280 decades for direct solvers.
-constexpr int kMostLevels = 255;
-
-class FarField {
- public:
-  FarField(const LinearSystem& system, const Components& components,
-           const std::vector<char>& reached, Eigen::Index column, HeatField& field,
-           const Workspace& work, const Progress& progress)
-      : system_(system),
-        components_(components),
-        reached_(reached),
-        column_(column),
-        columns_(field.u.cols()),
-        field_(field),
-        work_(work),
-        progress_(progress) {}
-
-  /// Restarts outwards until every reached entry lies above the floor or nothing more comes.
-  Result<void> extend(double floor) {
-    std::vector<Index> far = below(floor, 0);
-    for (int level = 1; !far.empty() && level <= kMostLevels; ++level) {
-      if (field_.level.empty()) field_.level.assign(n() * static_cast<std::size_t>(columns_), 0);
-      Block right = work_.take_zero(field_.u.rows(), 1);
-      const std::vector<Index> interface = restart(far, level - 1, floor, right);
-      if (interface.empty()) break;
-      // How many levels there will be is not known: each has half of the rest.
-      const double rest = std::pow(0.5, level);
-      if (!report(progress_, "solve", 1 - rest)) return cancelled_error();
-      const auto solved =
-          system_.invert(right, interface, work_, part_of(progress_, 1 - rest, 1 - rest / 2));
-      if (!solved) return solved.error();
-      field_.iterations += solved->iterations;
-      bool heated = false;  // else cut off from the sources by held vertices
-      for (const Index i : far) heated = heated || std::abs(right(i, 0)) > 0;
-      if (!heated) break;
-      for (const Index i : far) {
-        field_.u(i, column_) = right(i, 0);
-        level_at(i) = static_cast<std::uint8_t>(level);
-      }
-      work_.pool.give(std::move(right));
-      std::vector<Index> next = below(floor, level);
-      if (next.size() >= far.size()) break;
-      far = std::move(next);
-    }
-    return {};
-  }
-
- private:
-  std::size_t n() const { return static_cast<std::size_t>(field_.u.rows()); }
-  std::uint8_t& level_at(Index i) {
-    return field_.level[static_cast<std::size_t>(i) * static_cast<std::size_t>(columns_) +
-                        static_cast<std::size_t>(column_)];
-  }
-  int level_of(Index i) { return field_.level.empty() ? 0 : level_at(i); }
-
-  /// Reached, free entries of this level whose value is below the floor times the largest of this
-  /// level in their component: sizes of components differ, and with them the heat in them.
-  std::vector<Index> below(double floor, int level) {
-    std::vector<double> largest(static_cast<std::size_t>(components_.count), 0.0);
-    const auto size = static_cast<Index>(n());
-    for (Index i = 0; i < size; ++i) {
-      if (level_of(i) != level) continue;
-      double& most = largest[components_.of[i]];
-      most = std::max(most, std::abs(field_.u(i, column_)));
-    }
-    std::vector<Index> out;
-    for (Index i = 0; i < size; ++i) {
-      if (std::abs(field_.u(i, column_)) >= floor * largest[components_.of[i]]) continue;
-      if (!reached_[components_.of[i]] || system_.matrix().is_held(i)) continue;
-      if (level_of(i) == level) out.push_back(i);
-    }
-    return out;
-  }
-
-  /// Entries that share a face with one of these and are not far, ascending.
-  std::vector<Index> around(const std::vector<Index>& rows, const std::vector<char>& is_far) const {
-    const OperatorMesh& mesh = system_.matrix().mesh();
-    std::vector<Index> out;
-    for (const Index i : rows) {
-      for (const Index f : mesh.faces_at(i)) {
-        for (const Index j : mesh.faces[f]) {
-          if (is_far[j] == 0) out.push_back(j);
-        }
-      }
-    }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
-  }
-
-  /// What the heat on the far entries and on the layer of vertices that touch them asks of all
-  /// others, over the floor: the right side whose answer goes on from there. Gives its rows.
-  std::vector<Index> restart(const std::vector<Index>& far, int level, double floor, Block& right) {
-    std::vector<char> is_far(n(), 0);
-    for (const Index i : far) is_far[i] = 1;
-    Block heat = work_.take_zero(field_.u.rows(), 1);
-    const std::vector<Index> layer = around(far, is_far);
-    for (const auto& rows : {std::cref(far), std::cref(layer)}) {
-      for (const Index j : rows.get()) {
-        heat(j, 0) = field_.u(j, column_) * (level_of(j) == level ? 1.0 : 1.0 / field_.step);
-      }
-    }
-    std::vector<Index> rows;
-    for (const Index i : around(layer, is_far)) {
-      const double asked = system_.matrix().product_at(i, {heat.data(), n()});
-      if (asked == 0 || !std::isfinite(asked)) continue;
-      right(i, 0) = asked / floor;
-      rows.push_back(i);
-    }
-    work_.pool.give(std::move(heat));
-    return rows;
-  }
-
-  const LinearSystem& system_;
-  const Components& components_;
-  const std::vector<char>& reached_;
-  Eigen::Index column_, columns_;
-  HeatField& field_;
-  const Workspace& work_;
-  const Progress& progress_;
-};
 
 /// The largest and the smallest |u| of each column of a block.
 struct Extremes {
@@ -206,10 +85,13 @@ Result<HeatField> diffuse(const LinearSystem& system, const Components& componen
   const auto solved = system.solve(field.u, support, work, part_of(progress, 0.0, 0.5));
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
-  for (const Eigen::Index c : columns_with_small_values(field.u, floor, work)) {
-    FarField far(system, components, reached[static_cast<std::size_t>(c)], c, field, work,
-                 progress);
-    if (const auto extended = far.extend(floor); !extended) return extended.error();
+  const std::vector<Eigen::Index> small = columns_with_small_values(field.u, floor, work);
+  for (std::size_t next = 0; next < small.size(); next += kColumnsOfFarField) {
+    FarField far(system, components, reached, floor, work, field);
+    const auto columns = std::span(small).subspan(next);
+    const auto extended =
+        far.extend(columns.first(std::min(columns.size(), kColumnsOfFarField)), progress);
+    if (!extended) return extended.error();
   }
   return field;
 }

@@ -64,6 +64,13 @@ Result<SolveReport> LinearSystem::invert(Block& x, std::span<const Index> suppor
   return solved;
 }
 
+Result<SolveReport> LinearSystem::invert_where(Block& x, std::span<const Index> support,
+                                               std::span<const char> wanted, const Workspace& work,
+                                               const Progress& progress) const {
+  if (refine_) return invert(x, support, work, progress);  // the residual takes all rows
+  return factor_->solve_where(x, support, wanted, progress, work.threads);
+}
+
 std::shared_ptr<const LinearSystem> LinearSystem::refined(bool refine) const {
   std::shared_ptr<LinearSystem> out(new LinearSystem(*this));
   out->refine_ = refine;

@@ -68,6 +68,14 @@ class Factorization {
   virtual Result<SolveReport> solve(Block& x, std::span<const Index> support = {},
                                     const Progress& progress = {}, int threads = 1) const = 0;
 
+  /// The same where only some rows of the answer are of use: those with a flag in `wanted` (n). The
+  /// others may come out as anything finite. Direct backends skip the work for them.
+  virtual Result<SolveReport> solve_where(Block& x, std::span<const Index> support,
+                                          std::span<const char> /*wanted*/,
+                                          const Progress& progress, int threads) const {
+    return solve(x, support, progress, threads);
+  }
+
   /// The entries of M^-1 at the given rows and columns: k x k. Cost for direct backends: the
   /// elimination-tree paths of the rows; otherwise k solves.
   virtual Result<Eigen::MatrixXd> inverse_entries(std::span<const Index> rows) const;

@@ -28,6 +28,20 @@ std::vector<Index> EliminationTree::path(std::span<const Index> rows) const {
   return path;
 }
 
+std::vector<Index> EliminationTree::path_of_flags(std::span<const char> rows) const {
+  std::vector<char> visited(parent.size(), 0);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    if (rows[row] != 0) visited[node_of_row[row]] = 1;
+  }
+  std::vector<Index> path;
+  for (Index node = 0; node < static_cast<Index>(parent.size()); ++node) {
+    if (visited[node] == 0) continue;
+    path.push_back(node);
+    if (parent[node] != kNoIndex) visited[parent[node]] = 1;
+  }
+  return path;
+}
+
 std::vector<Index> elimination_parents(const SymmetricPattern& pattern) {
   const auto size = static_cast<std::size_t>(pattern.size());
   std::vector<Index> parent(size, kNoIndex);

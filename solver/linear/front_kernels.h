@@ -58,8 +58,8 @@ struct StoredFront {
   const void* values;
 };
 
-/// The two passes over one front, and what joins fronts, for a group of 1, 2, 4, 8 or 16 right sides. `x`: the values at
-/// its places, a group each; what stands in the padding is of no use.
+/// The two passes over one front, and what joins fronts, for a group of 1, 2, 4, 8 or 16 right
+/// sides. `x`: the values at its places, a group each; what stands in the padding is of no use.
 struct FrontSolves {
   /// Own places: x := D-blocks of L^-1 x; to the places below what they lose is added, or set where
   /// the front is `fresh`: nothing is there yet.

@@ -148,9 +148,11 @@ class FrontPasses::Downwards {
   Downwards(const FrontTree& tree, int group, const Steps& steps)
       : tree_(tree), steps_(steps), room_(uncleared(tree.vector_path * group)) {}
 
-  void run(const FrontTask& task, const double* above) {
+  /// `visits`: a flag per front, or empty for all.
+  void run(const FrontTask& task, const double* above, const std::vector<char>& visits) {
     held_.clear();
     for (Index s = task.end; s-- > task.begin;) {
+      if (!visits.empty() && visits[s] == 0) continue;
       while (!held_.empty() && held_.back().front != tree_.tree.parent[s]) held_.pop_back();
       double* const y = held_.empty() ? room_.get() : held_.back().end;
       steps_.substitute(s, held_.empty() ? above : held_.back().vector, y);
@@ -180,16 +182,19 @@ void FrontPasses::forward(double* x, Eigen::Index stride, int threads) const {
       });
 }
 
-void FrontPasses::backward(double* x, Eigen::Index stride, int threads) const {
+void FrontPasses::backward(double* x, Eigen::Index stride, int threads,
+                           std::span<const Index> fronts) const {
   const Steps steps(*this, x, stride);
+  std::vector<char> visits(fronts.empty() ? 0 : static_cast<std::size_t>(tree_.count()), 0);
+  for (const Index s : fronts) visits[s] = 1;
   std::vector<Doubles> kept(tree_.tasks.size());  // vectors of single fronts that others hang on
   run_tasks(
       tree_, TaskQueue::Direction::kDown, threads, [&] { return Downwards(tree_, group_, steps); },
       [&](const FrontTask& task, Index number, Downwards& pass) {
         const double* above = task.parent == kNoIndex ? nullptr : kept[task.parent].get();
         if (task.children.empty()) {
-          pass.run(task, above);
-        } else {
+          pass.run(task, above, visits);
+        } else if (visits.empty() || visits[task.begin] != 0) {
           kept[number] = uncleared(steps.vector_size(task.begin));
           steps.substitute(task.begin, above, kept[number].get());
         }

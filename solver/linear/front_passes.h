@@ -18,10 +18,13 @@ class FrontPasses {
 
   /// x := L^-1 x and x := L^-T x, L with its diagonal blocks taken out as D (front_kernels.h).
   void forward(double* x, Eigen::Index stride, int threads) const;
-  void backward(double* x, Eigen::Index stride, int threads) const;
+  /// `fronts`: the second visits these alone, where there are any; they come with their parents.
+  void backward(double* x, Eigen::Index stride, int threads,
+                std::span<const Index> fronts = {}) const;
 
-  /// The same over some fronts alone: `path` ascends and has every front's parent. Forward gives
-  /// what the whole pass gives where x is 0 elsewhere; backward what it gives on those fronts.
+  /// Both over a few fronts, by this thread: `path` ascends and has every front's parent. Forward
+  /// gives what the whole pass gives where x is 0 elsewhere; backward what it gives on those
+  /// fronts.
   void forward(double* x, Eigen::Index stride, std::span<const Index> path) const;
   void backward(double* x, Eigen::Index stride, std::span<const Index> path) const;
 

@@ -227,10 +227,22 @@ inline void gather(const double* from, const Index* place, Index count, double* 
   }
 }
 
+/// As a rule the first number tells.
+inline bool is_zero(const double* x, std::int64_t count) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (x[i] != 0) return false;
+  }
+  return true;
+}
+
 template <int K, class T>
 void backward(const StoredFront& front, double* x, const double* above, const Index* place) {
   double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
   gather<K>(above, place, front.below, under);
+  // Heat that has underflowed on the way here: 0 stays 0, and no number of the factor is read.
+  if (is_zero(under, std::int64_t{front.below} * K) && is_zero(x, std::int64_t{front.width} * K)) {
+    return;
+  }
   const std::int64_t last = front.width % kSlab;
   Index column = static_cast<Index>(front.width - last);
   // Blocks of eight columns hold 8 (rows from their first column on) numbers each.

@@ -28,7 +28,7 @@ class NativeFactor final : public TriangularFactor {
   void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
                int threads) const override {
     const FrontPasses passes(*tree_, factor_, columns);
-    if (nodes.empty() || static_cast<double>(nodes.size()) > kLongPath * tree_->count()) {
+    if (nodes.empty() || is_long(nodes)) {
       passes.forward(x, stride, threads);
     } else {
       passes.forward(x, stride, nodes);
@@ -40,12 +40,17 @@ class NativeFactor final : public TriangularFactor {
     const FrontPasses passes(*tree_, factor_, columns);
     if (nodes.empty()) {
       passes.backward(x, stride, threads);
+    } else if (is_long(nodes)) {
+      passes.backward(x, stride, threads, nodes);
     } else {
       passes.backward(x, stride, nodes);
     }
   }
 
  private:
+  bool is_long(std::span<const Index> nodes) const {
+    return static_cast<double>(nodes.size()) > kLongPath * tree_->count();
+  }
   /// A path of this share of all fronts and more gains nothing over the whole pass, which has less
   /// to look up and runs on all threads.
   static constexpr double kLongPath = 0.2;

@@ -13,13 +13,15 @@ class DirectFactorization final : public Factorization {
 
   Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& /*progress*/,
                             int threads) const override {
-    const std::vector<Index> path = factor_->tree().path(support);
-    for (Eigen::Index first = 0; first < x.cols();) {
-      const int width = column_group(x.cols() - first);
-      factor_->forward(x.data() + first, x.cols(), width, path, threads);
-      factor_->backward(x.data() + first, x.cols(), width, {}, threads);
-      first += width;
-    }
+    solve_nodes(x, factor_->tree().path(support), {}, threads);
+    return SolveReport{};
+  }
+
+  Result<SolveReport> solve_where(Block& x, std::span<const Index> support,
+                                  std::span<const char> wanted, const Progress& /*progress*/,
+                                  int threads) const override {
+    const EliminationTree& tree = factor_->tree();
+    solve_nodes(x, tree.path(support), tree.path_of_flags(wanted), threads);
     return SolveReport{};
   }
 
@@ -45,6 +47,17 @@ class DirectFactorization final : public Factorization {
   Index size() const override { return factor_->size(); }
 
  private:
+  /// Forward over one set of nodes, backward over another; all where it is empty.
+  void solve_nodes(Block& x, std::span<const Index> up, std::span<const Index> down,
+                   int threads) const {
+    for (Eigen::Index first = 0; first < x.cols();) {
+      const int width = column_group(x.cols() - first);
+      factor_->forward(x.data() + first, x.cols(), width, up, threads);
+      factor_->backward(x.data() + first, x.cols(), width, down, threads);
+      first += width;
+    }
+  }
+
   std::unique_ptr<TriangularFactor> factor_;
 };
 
