@@ -13,6 +13,8 @@ namespace {
 constexpr int kMostLevels = 255;
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
+/// Ranges of faces that are.
+constexpr std::int64_t kRangesOfThread = 4;
 
 }  // namespace
 
@@ -28,115 +30,111 @@ FarField::FarField(const LinearSystem& system, const Components& components,
 
 Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progress& progress) {
   columns_.assign(columns.begin(), columns.end());
-  Rows rows;
-  rows.far = below(0);
-  std::vector<std::int64_t> far_count = count(rows.far);
+  Far far = below({});
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
     if (!report(progress, "solve", 1 - rest)) return cancelled_error();
     Block right = work_.take_zero(field_.u.rows(), std::ssize(columns_));
-    ask(rows, level - 1, right);
-    if (rows.asked.empty()) return {};
-    std::vector<char> wanted(rows.far.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = rows.far[i] != 0;
-    const auto solved = system_.invert_where(right, rows.asked, wanted, work_,
+    const std::vector<Index> asked = ask(far.rows, level - 1, right);
+    if (asked.empty()) return {};
+    std::vector<char> wanted(far.rows.size());
+    std::ranges::transform(far.rows, wanted.begin(), [](Columns row) { return row != 0; });
+    const auto solved = system_.invert_where(right, asked, wanted, work_,
                                              part_of(progress, 1 - rest, 1 - rest / 2));
     if (!solved) return solved.error();
     field_.iterations += solved->iterations;
-    const Columns goes_on = heated(rows.far, right);  // the others are cut off by held vertices
-    if (goes_on != 0) take(rows.far, goes_on, level, right);
+    const Columns goes_on = heated(far.rows, right);  // the others are cut off by held vertices
+    if (goes_on == 0) return {};
+    take(far.rows, goes_on, level, right);
     work_.pool.give(std::move(right));
-
-    std::vector<Columns> next = below(level);
-    const std::vector<std::int64_t> next_count = count(next);
-    std::vector<Eigen::Index> kept;
-    std::vector<std::int64_t> kept_count;
-    std::vector<int> bits;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      if ((goes_on >> k & 1) == 0 || next_count[k] == 0 || next_count[k] >= far_count[k]) continue;
-      kept.push_back(columns_[k]);
-      kept_count.push_back(next_count[k]);
-      bits.push_back(static_cast<int>(k));
-    }
-    if (kept.size() < columns_.size()) {
-      for (Columns& row : next) {
-        Columns renamed = 0;
-        for (std::size_t k = 0; k < bits.size(); ++k) {
-          renamed = static_cast<Columns>(renamed | (row >> bits[k] & 1) << k);
-        }
-        row = renamed;
-      }
-    }
-    columns_ = std::move(kept);
-    far_count = std::move(kept_count);
-    rows.far = std::move(next);
+    far = keep(below(far.rows), goes_on, far.count);
   }
   return {};
 }
 
-/// Reached, free entries of this level whose value is below the floor times the largest of this
-/// level in their component: sizes of components differ, and with them the heat in them.
-std::vector<FarField::Columns> FarField::below(int level) const {
-  const auto count = std::ssize(columns_);
-  Block least = Block::Zero(components_.count, count);  // at first the largest
-  std::mutex mutex;
-  work_.for_rows(field_.u.rows(), count, [&](std::int64_t begin, std::int64_t end) {
-    Block most = Block::Zero(components_.count, count);
+/// Of these entries, or of all: those reached and free whose value is below the floor times the
+/// largest in their component: sizes of components differ, and with them the heat in them.
+FarField::Far FarField::below(const Rows& candidates) const {
+  const auto columns = std::ssize(columns_);
+  const auto all = static_cast<Columns>((1U << columns) - 1);
+  const auto visit = [&](std::int64_t begin, std::int64_t end, const auto& see) {
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      const Index component = components_.of[i];
-      for (Eigen::Index k = 0; k < count; ++k) {
-        if (level_of(i, columns_[k]) != level) continue;
-        most(component, k) = std::max(most(component, k), std::abs(field_.u(i, columns_[k])));
+      const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
+      for (unsigned some = candidates.empty() ? all : candidates[i]; some != 0; some &= some - 1) {
+        const int k = std::countr_zero(some);
+        see(i, k, std::abs(u[columns_[static_cast<std::size_t>(k)]]));
       }
     }
+  };
+  Block least = Block::Zero(components_.count, columns);  // at first the largest
+  std::mutex mutex;
+  work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
+    Block most = Block::Zero(components_.count, columns);
+    visit(begin, end, [&](Index i, int k, double u) {
+      double& largest = most(components_.of[i], k);
+      if (u > largest) largest = u;
+    });
     const std::lock_guard lock(mutex);
     least = least.cwiseMax(most);
   });
   for (Index component = 0; component < components_.count; ++component) {
-    for (Eigen::Index k = 0; k < count; ++k) {
+    for (Eigen::Index k = 0; k < columns; ++k) {
       const bool reached = reached_[static_cast<std::size_t>(columns_[k])][component] != 0;
       least(component, k) *= reached ? floor_ : 0.0;
     }
   }
-  std::vector<Columns> out(static_cast<std::size_t>(field_.u.rows()));
-  work_.for_rows(field_.u.rows(), count, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      unsigned small = 0;
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const bool is_small = std::abs(field_.u(i, columns_[k])) < least(components_.of[i], k);
-        if (is_small && level_of(i, columns_[k]) == level) small |= 1U << k;
-      }
-      out[i] = static_cast<Columns>(system_.matrix().is_held(i) ? 0 : small);
-    }
+  Far far{Rows(static_cast<std::size_t>(field_.u.rows())), {}};
+  far.count.resize(columns_.size());
+  work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<std::int64_t> count(columns_.size());
+    visit(begin, end, [&](Index i, int k, double u) {
+      if (!(u < least(components_.of[i], k)) || system_.matrix().is_held(i)) return;
+      far.rows[i] |= static_cast<Columns>(1U << k);
+      ++count[static_cast<std::size_t>(k)];
+    });
+    const std::lock_guard lock(mutex);
+    for (std::size_t k = 0; k < count.size(); ++k) far.count[k] += count[k];
   });
-  return out;
+  return far;
 }
 
-/// Of each column.
-std::vector<std::int64_t> FarField::count(const std::vector<Columns>& rows) const {
-  std::vector<std::int64_t> counts(columns_.size());
-  for (unsigned row : rows) {
-    for (; row != 0; row &= row - 1) ++counts[static_cast<std::size_t>(std::countr_zero(row))];
+/// Drops columns that are done, are not among these or have got no shorter; the others' bits move
+/// up.
+FarField::Far FarField::keep(Far next, Columns which, const std::vector<std::int64_t>& before) {
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < columns_.size(); ++k) {
+    if ((which >> k & 1) != 0 && next.count[k] != 0 && next.count[k] < before[k]) kept.push_back(k);
   }
-  return counts;
+  if (kept.size() == columns_.size()) return next;
+  for (std::size_t to = 0; to < kept.size(); ++to) {
+    columns_[to] = columns_[kept[to]];
+    next.count[to] = next.count[kept[to]];
+  }
+  columns_.resize(kept.size());
+  next.count.resize(kept.size());
+  for (Columns& row : next.rows) {
+    unsigned renamed = 0;
+    for (std::size_t to = 0; to < kept.size(); ++to) renamed |= (row >> kept[to] & 1U) << to;
+    row = static_cast<Columns>(renamed);
+  }
+  return next;
 }
 
-/// Entries that share a face with one of these and are not far.
-std::vector<FarField::Columns> FarField::beside(const std::vector<Columns>& rows,
-                                                const std::vector<Columns>& far) const {
+/// Entries that share a face with a far one and are not far.
+FarField::Rows FarField::layer_around(const Rows& far) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
-  std::vector<Columns> out(rows.size());
+  Rows out(far.size());
   const auto look = [&](Index first, Index end) {
     for (Index f = first; f < end; ++f) {
       const auto [a, b, c] = mesh.faces[f];
-      const auto some = static_cast<Columns>(rows[a] | rows[b] | rows[c]);
-      if (some == 0) continue;
+      const auto some = static_cast<Columns>(far[a] | far[b] | far[c]);
+      if (some == static_cast<Columns>(far[a] & far[b] & far[c])) continue;  // as a rule
       for (const Index i : mesh.faces[f]) out[i] |= static_cast<Columns>(some & ~far[i]);
     }
   };
   // Faces of a range meet no rows of another's.
-  parallel_for(work_.threads, std::ssize(mesh.ranges), 4,
+  parallel_for(work_.threads, std::ssize(mesh.ranges), kRangesOfThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {
                    const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
@@ -148,34 +146,47 @@ std::vector<FarField::Columns> FarField::beside(const std::vector<Columns>& rows
 }
 
 /// What the heat on the far entries and on the layer of vertices that touch them asks of all
-/// others, over the floor: the right side whose answer goes on from there.
-void FarField::ask(Rows& rows, int level, Block& right) const {
-  rows.near = beside(rows.far, rows.far);
-  const std::vector<Columns> around = beside(rows.near, rows.far);
-  rows.asked.clear();
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    if (around[i] != 0) rows.asked.push_back(static_cast<Index>(i));
+/// others, over the floor: the right side whose answer goes on from there. Gives its rows.
+std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const {
+  const OperatorMesh& mesh = system_.matrix().mesh();
+  const Rows layer = layer_around(far);
+  std::vector<Index> asked;
+  for (Index i = 0; i < static_cast<Index>(layer.size()); ++i) {
+    if (layer[i] == 0) continue;
+    for (const Index f : mesh.faces_at(i))
+      asked.insert(asked.end(), mesh.faces[f].begin(), mesh.faces[f].end());
   }
-  parallel_for(work_.threads, std::ssize(rows.asked), kRowsOfThread,
+  std::sort(asked.begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {
-                   const Index i = rows.asked[static_cast<std::size_t>(begin)];
-                   for (unsigned some = around[i]; some != 0; some &= some - 1) {
+                   const Index i = asked[static_cast<std::size_t>(begin)];
+                   unsigned some = 0;
+                   for (const Index f : mesh.faces_at(i)) {
+                     for (const Index j : mesh.faces[f]) some |= layer[j];
+                   }
+                   for (some &= ~unsigned{far[i]}; some != 0; some &= some - 1) {
                      const int k = std::countr_zero(some);
-                     const Eigen::Index column = columns_[static_cast<std::size_t>(k)];
-                     const double asked = system_.matrix().product_at(i, [&](Index j) {
-                       if (((rows.far[j] | rows.near[j]) >> k & 1) == 0) return 0.0;
-                       return field_.u(j, column) *
-                              (level_of(j, column) == level ? 1.0 : 1.0 / field_.step);
-                     });
-                     if (std::isfinite(asked)) right(i, k) = asked / floor_;
+                     const double out = outflow(i, k, level, far, layer);
+                     if (std::isfinite(out)) right(i, k) = out / floor_;
                    }
                  }
                });
+  return asked;
+}
+
+/// (M u)_i of one column, u restricted to these entries and at the scale of this level.
+double FarField::outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const {
+  const Eigen::Index column = columns_[static_cast<std::size_t>(k)];
+  return system_.matrix().product_at(i, [&](Index j) {
+    if (((far[j] | layer[j]) >> k & 1) == 0) return 0.0;
+    return field_.u(j, column) * (level_of(j, column) == level ? 1.0 : 1.0 / field_.step);
+  });
 }
 
 /// Columns whose far entries got any heat.
-FarField::Columns FarField::heated(const std::vector<Columns>& far, const Block& right) const {
+FarField::Columns FarField::heated(const Rows& far, const Block& right) const {
   const unsigned all = (1U << columns_.size()) - 1;
   unsigned found = 0;
   for (std::size_t i = 0; i < far.size() && found != all; ++i) {
@@ -187,7 +198,7 @@ FarField::Columns FarField::heated(const std::vector<Columns>& far, const Block&
   return static_cast<Columns>(found);
 }
 
-void FarField::take(const std::vector<Columns>& far, Columns which, int level, const Block& right) {
+void FarField::take(const Rows& far, Columns which, int level, const Block& right) {
   if (field_.level.empty()) field_.level.assign(static_cast<std::size_t>(field_.u.size()), 0);
   work_.for_rows(field_.u.rows(), std::ssize(columns_), [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {

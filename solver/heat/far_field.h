@@ -28,19 +28,20 @@ class FarField {
 
  private:
   using Columns = std::uint16_t;  ///< a set of them: bit k is columns_[k]
-  struct Rows {
-    std::vector<Columns> far;   ///< n: where the entry is below the floor
-    std::vector<Columns> near;  ///< n: one layer before that
-    std::vector<Index> asked;   ///< the layer and the rows beside it
-  };
+  using Rows = std::vector<Columns>;
 
-  std::vector<Columns> below(int level) const;
-  std::vector<std::int64_t> count(const std::vector<Columns>& rows) const;
-  std::vector<Columns> beside(const std::vector<Columns>& rows,
-                              const std::vector<Columns>& far) const;
-  void ask(Rows& rows, int level, Block& right) const;
-  Columns heated(const std::vector<Columns>& far, const Block& right) const;
-  void take(const std::vector<Columns>& far, Columns which, int level, const Block& right);
+  /// Entries below the floor, and how many in each column.
+  struct Far {
+    Rows rows;
+    std::vector<std::int64_t> count;
+  };
+  Far below(const Rows& candidates) const;
+  Rows layer_around(const Rows& far) const;
+  std::vector<Index> ask(const Rows& far, int level, Block& right) const;
+  double outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const;
+  Columns heated(const Rows& far, const Block& right) const;
+  void take(const Rows& far, Columns which, int level, const Block& right);
+  Far keep(Far next, Columns which, const std::vector<std::int64_t>& before);
 
   int level_of(Index row, Eigen::Index column) const {
     return field_.level.empty()

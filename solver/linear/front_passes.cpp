@@ -86,6 +86,19 @@ class FrontPasses::Steps {
   Eigen::Index stride_;
 };
 
+/// Fronts that a pass visits.
+class FrontPasses::Visits {
+ public:
+  Visits(std::span<const Index> fronts, Index count)
+      : flag_(fronts.empty() ? 0 : static_cast<std::size_t>(count), 0) {
+    for (const Index s : fronts) flag_[s] = 1;
+  }
+  bool operator()(Index s) const { return flag_.empty() || flag_[s] != 0; }
+
+ private:
+  std::vector<char> flag_;  ///< empty: all
+};
+
 /// The forward pass over the fronts of a task: vectors wait on two stacks, as updates do in the
 /// factorisation.
 class FrontPasses::Upwards {
@@ -96,12 +109,13 @@ class FrontPasses::Upwards {
         stack_{uncleared(tree.vector_stack[0] * group), uncleared(tree.vector_stack[1] * group)} {}
 
   /// `left`: what the last fronts of other tasks leave to theirs.
-  void run(const FrontTask& task, Index number, std::vector<Doubles>& left) {
+  void run(const FrontTask& task, Index number, const Visits& visits, std::vector<Doubles>& left) {
     for (int k = 0; k < 2; ++k) {
       top_[k] = stack_[k].get();
       held_[k].clear();
     }
     for (Index s = task.begin; s < task.end; ++s) {
+      if (!visits(s)) continue;
       const int own = tree_.stack[s];
       double* const y = top_[own];
       top_[own] += steps_.vector_size(s);
@@ -110,14 +124,15 @@ class FrontPasses::Upwards {
       take_children(s, y);
       if (s == task.begin) {
         for (auto child = task.children.rbegin(); child != task.children.rend(); ++child) {
+          if (left[*child] == nullptr) continue;  // not visited
           steps_.take(tree_.tasks[*child].end - 1, left[*child].get(), y);
         }
       }
       steps_.eliminate(s, y, fresh);
       held_[own].push_back(s);
     }
-    if (task.parent == kNoIndex) return;
     const Index last = task.end - 1;
+    if (task.parent == kNoIndex || !visits(last)) return;
     const std::int64_t size = steps_.vector_size(last) - steps_.own_size(last);
     left[number] = uncleared(size);
     std::copy_n(top_[tree_.stack[last]] - size, size, left[number].get());
@@ -148,11 +163,10 @@ class FrontPasses::Downwards {
   Downwards(const FrontTree& tree, int group, const Steps& steps)
       : tree_(tree), steps_(steps), room_(uncleared(tree.vector_path * group)) {}
 
-  /// `visits`: a flag per front, or empty for all.
-  void run(const FrontTask& task, const double* above, const std::vector<char>& visits) {
+  void run(const FrontTask& task, const Visits& visits, const double* above) {
     held_.clear();
     for (Index s = task.end; s-- > task.begin;) {
-      if (!visits.empty() && visits[s] == 0) continue;
+      if (!visits(s)) continue;
       while (!held_.empty() && held_.back().front != tree_.tree.parent[s]) held_.pop_back();
       double* const y = held_.empty() ? room_.get() : held_.back().end;
       steps_.substitute(s, held_.empty() ? above : held_.back().vector, y);
@@ -171,13 +185,15 @@ class FrontPasses::Downwards {
   std::vector<Held> held_;
 };
 
-void FrontPasses::forward(double* x, Eigen::Index stride, int threads) const {
+void FrontPasses::forward(double* x, Eigen::Index stride, int threads,
+                          std::span<const Index> fronts) const {
   const Steps steps(*this, x, stride);
+  const Visits visits(fronts, tree_.count());
   std::vector<Doubles> left(tree_.tasks.size());
   run_tasks(
       tree_, TaskQueue::Direction::kUp, threads, [&] { return Upwards(tree_, group_, steps); },
       [&](const FrontTask& task, Index number, Upwards& pass) {
-        pass.run(task, number, left);
+        pass.run(task, number, visits, left);
         return true;
       });
 }
@@ -185,16 +201,15 @@ void FrontPasses::forward(double* x, Eigen::Index stride, int threads) const {
 void FrontPasses::backward(double* x, Eigen::Index stride, int threads,
                            std::span<const Index> fronts) const {
   const Steps steps(*this, x, stride);
-  std::vector<char> visits(fronts.empty() ? 0 : static_cast<std::size_t>(tree_.count()), 0);
-  for (const Index s : fronts) visits[s] = 1;
+  const Visits visits(fronts, tree_.count());
   std::vector<Doubles> kept(tree_.tasks.size());  // vectors of single fronts that others hang on
   run_tasks(
       tree_, TaskQueue::Direction::kDown, threads, [&] { return Downwards(tree_, group_, steps); },
       [&](const FrontTask& task, Index number, Downwards& pass) {
         const double* above = task.parent == kNoIndex ? nullptr : kept[task.parent].get();
         if (task.children.empty()) {
-          pass.run(task, above, visits);
-        } else if (visits.empty() || visits[task.begin] != 0) {
+          pass.run(task, visits, above);
+        } else if (visits(task.begin)) {
           kept[number] = uncleared(steps.vector_size(task.begin));
           steps.substitute(task.begin, above, kept[number].get());
         }
@@ -202,11 +217,12 @@ void FrontPasses::backward(double* x, Eigen::Index stride, int threads,
       });
 }
 
-void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+void FrontPasses::forward_along(std::span<const Index> fronts, double* x,
+                                Eigen::Index stride) const {
   const FlushDenormals flush;
   const Steps steps(*this, x, stride);
   std::vector<HeldVector> held;
-  for (const Index s : path) {
+  for (const Index s : fronts) {
     Doubles y = uncleared(steps.vector_size(s));
     steps.start(s, y.get(), false);
     for (; !held.empty() && tree_.tree.parent[held.back().front] == s; held.pop_back()) {
@@ -218,11 +234,12 @@ void FrontPasses::forward(double* x, Eigen::Index stride, std::span<const Index>
   }
 }
 
-void FrontPasses::backward(double* x, Eigen::Index stride, std::span<const Index> path) const {
+void FrontPasses::backward_along(std::span<const Index> fronts, double* x,
+                                 Eigen::Index stride) const {
   const FlushDenormals flush;
   const Steps steps(*this, x, stride);
   std::vector<HeldVector> held;
-  for (auto s = path.rbegin(); s != path.rend(); ++s) {
+  for (auto s = fronts.rbegin(); s != fronts.rend(); ++s) {
     while (!held.empty() && held.back().front != tree_.tree.parent[*s]) held.pop_back();
     Doubles y = uncleared(steps.vector_size(*s));
     steps.substitute(*s, held.empty() ? nullptr : held.back().vector.get(), y.get());

@@ -17,19 +17,20 @@ class FrontPasses {
               InstructionSet set = best_instruction_set());
 
   /// x := L^-1 x and x := L^-T x, L with its diagonal blocks taken out as D (front_kernels.h).
-  void forward(double* x, Eigen::Index stride, int threads) const;
-  /// `fronts`: the second visits these alone, where there are any; they come with their parents.
+  /// `fronts`: those to visit, with all above them, ascending; empty means all. Forward gives what
+  /// the whole pass gives where x is 0 in all others; backward what it gives on these.
+  void forward(double* x, Eigen::Index stride, int threads,
+               std::span<const Index> fronts = {}) const;
   void backward(double* x, Eigen::Index stride, int threads,
                 std::span<const Index> fronts = {}) const;
 
-  /// Both over a few fronts, by this thread: `path` ascends and has every front's parent. Forward
-  /// gives what the whole pass gives where x is 0 elsewhere; backward what it gives on those
-  /// fronts.
-  void forward(double* x, Eigen::Index stride, std::span<const Index> path) const;
-  void backward(double* x, Eigen::Index stride, std::span<const Index> path) const;
+  /// The same over a few fronts by this thread, which looks at nothing else.
+  void forward_along(std::span<const Index> fronts, double* x, Eigen::Index stride) const;
+  void backward_along(std::span<const Index> fronts, double* x, Eigen::Index stride) const;
 
  private:
   class Steps;
+  class Visits;
   class Upwards;
   class Downwards;
   const FrontTree& tree_;

@@ -28,32 +28,32 @@ class NativeFactor final : public TriangularFactor {
   void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
                int threads) const override {
     const FrontPasses passes(*tree_, factor_, columns);
-    if (nodes.empty() || is_long(nodes)) {
-      passes.forward(x, stride, threads);
+    if (is_short(nodes)) {
+      passes.forward_along(nodes, x, stride);
     } else {
-      passes.forward(x, stride, nodes);
+      passes.forward(x, stride, threads, nodes);
     }
   }
 
   void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
                 int threads) const override {
     const FrontPasses passes(*tree_, factor_, columns);
-    if (nodes.empty()) {
-      passes.backward(x, stride, threads);
-    } else if (is_long(nodes)) {
-      passes.backward(x, stride, threads, nodes);
+    if (is_short(nodes)) {
+      passes.backward_along(nodes, x, stride);
     } else {
-      passes.backward(x, stride, nodes);
+      passes.backward(x, stride, threads, nodes);
     }
   }
 
  private:
-  bool is_long(std::span<const Index> nodes) const {
-    return static_cast<double>(nodes.size()) > kLongPath * tree_->count();
+  /// Numbers of the factor below which a pass takes less time than it takes to begin one by tasks.
+  static constexpr std::int64_t kShort = 1 << 18;
+
+  bool is_short(std::span<const Index> nodes) const {
+    std::int64_t values = nodes.empty() ? kShort : 0;
+    for (const Index s : nodes) values += tree_->value_start[s + 1] - tree_->value_start[s];
+    return values < kShort;
   }
-  /// A path of this share of all fronts and more gains nothing over the whole pass, which has less
-  /// to look up and runs on all threads.
-  static constexpr double kLongPath = 0.2;
 
   std::shared_ptr<const FrontTree> tree_;
   FrontFactor factor_;

@@ -113,18 +113,22 @@ TEST(FrontFactor, WalksAPathLikeTheWhole) {
     for (const Index row : rows) {
       for (int k = 0; k < group; ++k) whole[row * group + k] = row + k + 1;
     }
-    std::vector<double> walked = whole;
+    std::vector<double> along = whole, by_tasks = whole;
     const FrontPasses passes(fronts.tree, factor, group);
     passes.forward(whole.data(), group, 1);
-    passes.forward(walked.data(), group, path);
-    EXPECT_EQ(walked, whole);  // zeros that were added change no bit
+    passes.forward_along(path, along.data(), group);
+    passes.forward(by_tasks.data(), group, 3, path);
+    EXPECT_EQ(along, whole);  // zeros that were added change no bit
+    EXPECT_EQ(by_tasks, whole);
     passes.backward(whole.data(), group, 1);
-    passes.backward(walked.data(), group, path);
+    passes.backward_along(path, along.data(), group);
+    passes.backward(by_tasks.data(), group, 3, path);
+    EXPECT_EQ(by_tasks, along);  // and what is not on the path stays as it was
     for (const Index front : path) {
       for (Index row = fronts.tree.nodes.first[front]; row < fronts.tree.nodes.first[front + 1];
            ++row) {
         for (int k = 0; k < group; ++k) {
-          EXPECT_EQ(walked[row * group + k], whole[row * group + k]);
+          EXPECT_EQ(along[row * group + k], whole[row * group + k]);
         }
       }
     }
