@@ -3,7 +3,6 @@
 // including file sets GEOTHERM_KERNEL_NAMESPACE and its compiler flags. Both read the front's
 // numbers as one stream, forward upwards and backward downwards.
 #include <cstring>
-
 #include "solver/linear/front_kernels.h"
 #include "solver/linear/stored_number.h"
 
@@ -20,14 +19,14 @@ using Slab = Group<kSlab>;
 /// Bytes ahead of the numbers in use that are asked for: panels are short, and the processor
 /// guesses their ends badly (a quarter
 /// of the time at a million faces).
-constexpr std::ptrdiff_t kAhead = 2048;
+constexpr std::ptrdiff_t kAhead = 4096;
 constexpr std::size_t kLine = 64;
 
 template <int N, class T>
 inline void ask_for_tile(const T* values, std::ptrdiff_t ahead) {
   const auto address = reinterpret_cast<std::uintptr_t>(values) + static_cast<std::size_t>(ahead);
   for (std::size_t k = 0; k < kSlab * N * sizeof(T); k += kLine) {
-    __builtin_prefetch(reinterpret_cast<const void*>(address + k));
+    __builtin_prefetch(reinterpret_cast<const void*>(address + k), 0, 2);
   }
 }
 
@@ -35,6 +34,7 @@ inline void ask_for_tile(const T* values, std::ptrdiff_t ahead) {
 /// within registers it has to be moved about, which compilers prefer unless kept from it.
 template <int N, class T>
 inline void widen_tile(const T* values, Index rows, double* out) {
+#pragma GCC unroll 8
   for (int c = 0; c < N; ++c) Slab::load(values + c * rows).store(out + c * kSlab);
   __asm__ __volatile__("" : : "r"(out) : "memory");
 }
@@ -42,6 +42,7 @@ inline void widen_tile(const T* values, Index rows, double* out) {
 /// sum += tile x.
 template <int N, class T>
 inline void add_tile(const T* values, Index rows, const Slab (&x)[N], Slab& sum) {
+#pragma GCC unroll 8
   for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * rows), x[c]);
 }
 
@@ -72,6 +73,7 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
   if (last > 0) {
     values -= last * N;
     const Slab at = Slab::load(z);
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c].add(Slab::load(values + c * last), at);
   }
   for (Index t = 0; t < whole; ++t) {
@@ -79,6 +81,7 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
     ask_for_tile<N>(values, -kAhead);
     z -= kSlab;
     const Slab at = Slab::load(z);
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c].add(Slab::load(values + c * kSlab), at);
   }
   return values;
@@ -89,6 +92,7 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
                               double* under, bool fresh) {
   if constexpr (K == 1) {
     Slab x[N];
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) x[c] = Slab::all(own[c]);
     // The first tile is D: it gives what comes to stand in place of x.
     values = add_rows<N>(values, N, x, own, true);
@@ -97,6 +101,7 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
   } else {
     // Several right sides: they are the vector dimension, and the tile's numbers single factors.
     Group<K> x[N];
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) x[c] = Group<K>::load(own + c * K);
     const auto add = [&](Index rows, double* y, bool empty) {
       while (rows > 0) {
@@ -105,6 +110,7 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
         widen_tile<N>(values, here, factor);
         for (Index r = 0; r < here; ++r, y += K) {
           Group<K> sum = empty ? Group<K>::zero() : Group<K>::load(y);
+#pragma GCC unroll 8
           for (int c = 0; c < N; ++c) sum.add(factor[c * kSlab + r], x[c]);
           sum.store(y);
         }
@@ -123,6 +129,7 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
 template <int N>
 inline Slab sums_of_lanes(const Slab (&sum)[N]) {
   Slab all[kSlab];
+#pragma GCC unroll 8
   for (int c = 0; c < kSlab; ++c) all[c] = c < N ? sum[c < N ? c : 0] : Slab::zero();
   return Slab::sums(all);
 }
@@ -132,6 +139,7 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
                                const double* under) {
   if constexpr (K == 1) {
     Slab sum[N];
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c] = Slab::zero();
     values = add_columns<N>(values, below, under, sum);
     values = add_columns<N>(values, own_rows, own, sum);
@@ -141,11 +149,13 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
     } else {
       double numbers[kSlab];
       solved.store(numbers);
+#pragma GCC unroll 8
       for (int c = 0; c < N; ++c) own[c] = numbers[c];
     }
     return values;
   } else {
     Group<K> sum[N];
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c] = Group<K>::zero();
     const auto add = [&](Index rows, const double* z) {
       for (Index first = (rows - 1) / kSlab * kSlab; first >= 0 && rows > 0; first -= kSlab) {
@@ -155,12 +165,14 @@ inline const T* backward_block(const T* values, Index own_rows, Index below, dou
         widen_tile<N>(values, here, factor);
         for (Index r = 0; r < here; ++r) {
           const Group<K> at = Group<K>::load(z + (first + r) * K);
+#pragma GCC unroll 8
           for (int c = 0; c < N; ++c) sum[c].add(factor[c * kSlab + r], at);
         }
       }
     };
     add(below, under);
     add(own_rows, own);
+#pragma GCC unroll 8
     for (int c = 0; c < N; ++c) sum[c].store(own + c * K);
     return values;
   }

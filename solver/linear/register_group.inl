@@ -7,7 +7,12 @@ inline void widen(const float* from, Register& to) {
   typedef float Narrow __attribute__((vector_size(4 * kLanes)));
   Narrow narrow;
   __builtin_memcpy(&narrow, from, sizeof narrow);
+#if defined(__AVX512F__)
+  constexpr int kCurrentRounding = 4;  // as _mm512_cvtps_pd() has it; vectors convert by halves
+  to = __builtin_ia32_cvtps2pd512_mask(narrow, Register{}, -1, kCurrentRounding);
+#else
   to = __builtin_convertvector(narrow, Register);
+#endif
 }
 
 inline void widen(const UpperHalf* from, Register& to) {
@@ -15,7 +20,15 @@ inline void widen(const UpperHalf* from, Register& to) {
   typedef std::uint64_t Whole __attribute__((vector_size(8 * kLanes)));
   Half half;
   __builtin_memcpy(&half, from, sizeof half);
-  to = reinterpret_cast<Register>(__builtin_convertvector(half, Whole) << 32);
+#if defined(__AVX512F__)
+  typedef int Signed __attribute__((vector_size(4 * kLanes)));
+  typedef long long SignedWhole __attribute__((vector_size(8 * kLanes)));
+  const Whole whole = reinterpret_cast<Whole>(__builtin_ia32_pmovzxdq512_mask(
+      reinterpret_cast<Signed>(half), SignedWhole{}, -1));  // as above
+#else
+  const Whole whole = __builtin_convertvector(half, Whole);
+#endif
+  to = reinterpret_cast<Register>(whole << 32);
 }
 
 inline void gather_lanes(const double* from, const Index* place, Register& to) {
