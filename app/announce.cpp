@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/text.h"
@@ -14,10 +15,26 @@ namespace {
 
 /// Work that ends sooner needs no word.
 constexpr double kWorthAWord = 1;  // seconds
+/// What is shorter tells little about the rest.
+constexpr double kMeasured = 0.1;  // seconds
 
+/// Holds the speed of all parts but the first, which does what is done once, too.
 struct Estimate {
   Stopwatch watch;
+  double begun_at = 0, begun_share = 0;  ///< seconds; where the first part ended
   bool told = false;
+
+  /// Seconds that the rest will take; empty while nothing is known.
+  std::optional<double> left(double share) {
+    const double now = watch.milliseconds() / 1000;
+    if (begun_share == 0) {
+      begun_at = now;
+      begun_share = share;
+    }
+    const double passed = now - begun_at;
+    if (!(share > begun_share) || passed < kMeasured) return {};
+    return passed * (1 - share) / (share - begun_share);
+  }
 };
 
 }  // namespace
@@ -29,11 +46,11 @@ Progress with_estimate(Progress progress, const Announce& announce, std::string_
           details = std::move(details),
           estimate = std::make_shared<Estimate>()](std::string_view at, double share) {
     if (announce && !estimate->told && at == stage && share > 0) {
-      estimate->told = true;
-      const double passed = estimate->watch.milliseconds() / 1000;
-      const double left = passed * (1 - share) / share;
-      if (left > kWorthAWord) {
-        announce(title + ": about " + seconds_in_words(passed + left) +
+      const std::optional<double> left = estimate->left(share);
+      estimate->told = left.has_value();
+      if (left && *left > kWorthAWord) {
+        announce(title + ": about " +
+                 seconds_in_words(estimate->watch.milliseconds() / 1000 + *left) +
                  (details.empty() ? "" : ", " + details));
       }
     }
@@ -42,7 +59,7 @@ Progress with_estimate(Progress progress, const Announce& announce, std::string_
 }
 
 std::string bytes_in_words(double bytes) {
-  constexpr double kStep = 1000;
+  constexpr double kStep = 1024;
   constexpr const char* kUnits[] = {"KB", "MB", "GB", "TB"};
   if (bytes < kStep) return counted(std::llround(bytes), "byte", "bytes");
   std::size_t unit = 0;

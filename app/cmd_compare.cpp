@@ -136,6 +136,18 @@ Result<void> write_reports(const CompareArguments& arguments, const std::vector<
   return write(arguments.html, compare_html(machine, rows));
 }
 
+/// What is wrong where no solver has answered, of the rows of one model. A single failure is a row
+/// like others.
+std::optional<Error> failure_of_all(const std::vector<CompareRow>& rows) {
+  const auto answered = [](const CompareRow& row) { return row.status == "ok"; };
+  if (std::ranges::any_of(rows, answered)) return {};
+  const CompareRow& first = rows.front();
+  const std::string what = rows.size() == 1 ? first.name() + " failed: "
+                                            : "all " + std::to_string(rows.size()) +
+                                                  " solvers failed; " + first.name() + ": ";
+  return Error{ErrorCode::kNumericalFailure, one_line(first.model) + ": " + what + first.message};
+}
+
 }  // namespace
 
 void add_compare_options(CLI::App& command, CompareArguments& arguments) {
@@ -164,6 +176,8 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   add_source_options(command, arguments.sources);
   add_method_options(command, arguments.method);
   command.footer(
+      "A solver that fails is a row with its message. Where all fail on a model the exit code is "
+      "1,\nand the rows are written all the same.\n"
       "Without sources each query starts at another vertex, chosen at random, the same in each "
       "run.\n"
       "Errors are those against exact distances, or wavefront-fine on large meshes.\n"
@@ -188,6 +202,7 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
     }
     auto some = compare_backends(*model, task, progress);
     if (!some) return some.error();
+    if (!out.failure) out.failure = failure_of_all(*some);
     rows.insert(rows.end(), some->begin(), some->end());
   }
   const auto& solvers = plan->task.solvers;

@@ -41,6 +41,8 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
+int fail(const Error& error) { return fail(exit_code(error.code), error.message); }
+
 int print(const CommandOutput& output) {
   for (const std::string& warning : output.warnings) {
     std::fprintf(stderr, "geotherm: warning: %s\n", one_line(warning).c_str());
@@ -48,7 +50,7 @@ int print(const CommandOutput& output) {
   errno = 0;
   if (std::fwrite(output.text.data(), 1, output.text.size(), stdout) == output.text.size() &&
       std::fflush(stdout) == 0) {
-    return 0;
+    return output.failure ? fail(*output.failure) : 0;
   }
   const int code = errno;
   for (const std::string& path : output.made) ::unlink(path.c_str());
@@ -58,7 +60,7 @@ int print(const CommandOutput& output) {
 
 int finish(const Result<CommandOutput>& result) {
   if (result) return print(*result);
-  return fail(exit_code(result.error().code), result.error().message);
+  return fail(result.error());
 }
 
 template <class Arguments, class Run>

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "solver/core/result.h"
 
 namespace geotherm::app {
 
@@ -11,6 +14,8 @@ struct CommandOutput {
   std::string text;  ///< for standard output
   std::vector<std::string> warnings;
   std::vector<std::string> made;  ///< new files, to be removed when the text cannot be printed
+  /// Why the work counts as failed although there is something to print.
+  std::optional<Error> failure = {};
 };
 
 }  // namespace geotherm::app

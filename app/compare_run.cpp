@@ -12,6 +12,7 @@
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/linear/backend.h"
+#include "solver/linear/fallback.h"
 #include "solver/method/distance_error.h"
 
 namespace geotherm::app {
@@ -53,7 +54,7 @@ std::string status_name(ErrorCode code) {
 
 void fail(CompareRow& row, const Error& error) {
   row.status = status_name(error.code);
-  row.message = error.message;
+  row.message = without_backend(error.message, row.backend);  // which stands beside it
 }
 
 void add_message(CompareRow& row, const std::string& text) {

@@ -35,7 +35,7 @@ extern "C" void end_by_signal(int number) {
 /// program ignore (nohup) stays ignored. A file that grows beyond its limit is an error like
 /// others.
 void end_tidily_by_signals() {
-  constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+  constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
   struct sigaction action {};
   action.sa_handler = end_by_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/announce.h"
 #include "app/text.h"
 #include "ui/dialog.h"
 #include "ui/file_dialog.h"
@@ -79,7 +80,7 @@ void FileDialog::draw_entries(Frame& frame, float height) {
         taken = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
       }
       if (entry.is_folder) continue;
-      const std::string size = size_text(entry.bytes);
+      const std::string size = app::bytes_in_words(static_cast<double>(entry.bytes));
       const float width = ImGui::CalcTextSize(size.c_str()).x;
       ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
       ImGui::TextDisabled("%s", size.c_str());

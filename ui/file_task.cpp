@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ui/file_task.h"
 
-#include "app/text.h"
-
 namespace geotherm::ui {
 namespace {
 
@@ -33,18 +31,6 @@ std::string suggested_name(const std::string& model, const FileTask& task) {
   if (name.empty()) name = "geotherm";
   if (task.purpose == FilePurpose::kSaveLog) name += "-log";
   return name + std::string(task.extensions.front());
-}
-
-std::string size_text(std::uintmax_t bytes) {
-  constexpr const char* kUnits[] = {"B", "kB", "MB", "GB", "TB"};
-  auto size = static_cast<double>(bytes);
-  std::size_t unit = 0;
-  while (size >= 1000 && unit + 1 < std::size(kUnits)) {
-    size /= 1000;
-    ++unit;
-  }
-  return (unit == 0 ? app::grouped(static_cast<std::int64_t>(bytes)) : app::significant(size, 3)) +
-         " " + kUnits[unit];
 }
 
 }  // namespace geotherm::ui

@@ -22,7 +22,4 @@ const FileTask& file_task(FilePurpose purpose);
 /// A name for a new file, after the model's.
 std::string suggested_name(const std::string& model, const FileTask& task);
 
-/// "12.3 kB"
-std::string size_text(std::uintmax_t bytes);
-
 }  // namespace geotherm::ui

@@ -89,7 +89,7 @@ Result<SampleFigures> sample(Model model, const SampleArguments& arguments,
   };
   add_warnings(figures.model.notes);
   add_warnings(figures.method->warnings());
-  add_warnings(figures.points.warnings);
+  add_warnings(figures.points.first.warnings);
   const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
   add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
   note_unused_options(arguments.method, options, figures.warnings);

@@ -153,20 +153,20 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
   }
   const SetupTiming& setup = figures.method->timing();
   const auto rows = static_cast<double>(work.sources.sets.size());
-  return {{"model", model_json(work.model.name, work.mesh)},
-          {"options", options_json(*figures.method, work.options, figures.first)},
-          {"sources", std::move(sources)},
-          {"timing_ms",
-           {{"load", work.model.load_ms},
-            {"setup", setup.setup},
-            {"queries", figures.queries_ms},
-            {"query", figures.queries_ms / rows}}},
-          {"memory_mb",
-           {{"factor", figures.method->memory_mb()},
-            {"answers",
-             static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / (1024.0 * 1024.0)},
-            {"peak_rss", figures.peak_rss_mb}}},
-          {"warnings", figures.warnings}};
+  return {
+      {"model", model_json(work.model.name, work.mesh)},
+      {"options", options_json(*figures.method, work.options, figures.first)},
+      {"sources", std::move(sources)},
+      {"timing_ms",
+       {{"load", work.model.load_ms},
+        {"setup", setup.setup},
+        {"queries", figures.queries_ms},
+        {"query", figures.queries_ms / rows}}},
+      {"memory_mb",
+       {{"factor", figures.method->memory_mb()},
+        {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
+        {"peak_rss", figures.peak_rss_mb}}},
+      {"warnings", figures.warnings}};
 }
 
 std::string many_table(const ManySources& work, const ManyFigures& figures,

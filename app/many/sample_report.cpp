@@ -36,13 +36,12 @@ Json sample_json(const SampleFigures& f) {
     samples.push_back({{"vertex", sample.vertex},
                        {"position", position_json(f.model.mesh->positions()[sample.vertex])},
                        {"distance", sample.distance},
+                       {"distance_back", sample.back},
                        {"radius", sample.radius},
                        {"cell", cells[i]}});
   }
-  DistanceResult answer;
-  if (f.method->heat()) answer.backend = f.method->heat()->options().backend;
   return {{"model", model_json(f.model.name, f.mesh)},
-          {"options", options_json(*f.method, f.options, answer)},
+          {"options", options_json(*f.method, f.options, f.points.first)},
           {"count", f.points.samples.size()},
           {"radius", f.points.radius()},
           {"separation", f.points.separation()},
@@ -70,10 +69,12 @@ std::string sample_table(const SampleFigures& f) {
                                  : "infinite: " + count + " for " +
                                        counted(f.mesh.components, "component", "components")});
   if (std::isfinite(points.separation())) {
-    figures.add_row(
-        {"separation", significant(points.separation()) + " between two samples at least"});
+    figures.add_row({"separation", significant(points.separation()) +
+                                       " between two samples at least, in either direction"});
   }
-  figures.add_row({"method", to_text(f.method->kind()) + ", " +
+  figures.add_row({"method", to_text(f.method->kind()) +
+                                 (f.method->heat() ? ", " + points.first.backend : std::string()) +
+                                 ", " +
                                  counted(thread_count(f.options.threads), "thread", "threads")});
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
   figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +

@@ -53,9 +53,7 @@ std::string tick_digits(double value) { return format("%.12g", value); }
 std::string time_tick(double ms) {
   return ms < 1000 ? tick_digits(ms) + " ms" : tick_digits(ms / 1000) + " s";
 }
-std::string memory_tick(double mb) {
-  return mb < 1000 ? tick_digits(mb) + " MB" : tick_digits(mb / 1000) + " GB";
-}
+std::string memory_tick(double mb) { return tick_digits(mb) + " MB"; }
 std::string faces_tick(double faces) {
   return faces < 1e6 ? tick_digits(faces / 1e3) + "k" : tick_digits(faces / 1e6) + "M";
 }

@@ -22,7 +22,7 @@ std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties& properties, 
 }
 
 std::string megabytes(std::uint64_t bytes) {
-  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
 }
 
 vk::raii::Buffer make_buffer(const MemorySource& source, vk::DeviceSize bytes,

@@ -88,7 +88,7 @@ Result<void> Propagation::check(const Progress& progress) {
     return Error{ErrorCode::kOutOfMemory, "exact distances on " + std::to_string(faces) +
                                               " faces: " + std::to_string(bytes / sizeof(Window)) +
                                               " windows are kept and fill " +
-                                              std::to_string(most_bytes_ >> 20) + " MiB; " + cure};
+                                              std::to_string(most_bytes_ >> 20) + " MB; " + cure};
   }
   if (work_ > std::max(kMostWorkAtLeast, kMostWorkPerFace * faces)) {
     return Error{ErrorCode::kBudgetEnded, "exact distances on " + std::to_string(faces) +

@@ -52,11 +52,13 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
                      rounded_text(most) + "); scale the model down"};
   }
   if (clean.faces.empty() || !(mean_edge > 0)) {
-    return Error{ErrorCode::kBadInput,
-                 "the mesh has no face with area (" + std::to_string(mesh.face_count()) +
-                     " faces, " + std::to_string(clean.repeated_corner) +
-                     " repeat a corner, mean edge length " + rounded_text(mean_edge) +
-                     "); check how it was exported"};
+    return Error{
+        ErrorCode::kBadInput,
+        "the mesh has no face with area (" +
+            counted_text(static_cast<std::size_t>(mesh.face_count()), "face", "faces") + ", " +
+            counted_text(static_cast<std::size_t>(clean.repeated_corner), "repeats a corner",
+                         "repeat a corner") +
+            ", mean edge length " + rounded_text(mean_edge) + "); check how it was exported"};
   }
   return {};
 }

@@ -53,11 +53,12 @@ Result<void> check_options(const HeatOptions& options) {
 }
 
 Error out_of_memory_error(const std::string& stage, Index faces, const std::string& backend) {
-  return {ErrorCode::kOutOfMemory, "the memory ended in the " + stage + " for " +
-                                       std::to_string(faces) + " faces with " + backend +
-                                       (backend == "cg" ? "; take a mesh with fewer faces"
-                                                        : "; try --backend cg, which needs less, "
-                                                          "or a mesh with fewer faces")};
+  return {ErrorCode::kOutOfMemory,
+          backend + " ran out of memory in the " + stage + " for " +
+              counted_text(static_cast<std::size_t>(faces), "face", "faces") +
+              (backend == "cg" ? "; take a mesh with fewer faces"
+                               : "; try --backend cg, which needs less, "
+                                 "or a mesh with fewer faces")};
 }
 
 /// Everything with one backend, `options.backend`.

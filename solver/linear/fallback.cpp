@@ -39,15 +39,19 @@ Successor successor_of(const Error& error) {
   }
 }
 
-Fallback failure_of(std::string backend, Error error) {
-  std::string_view reason = error.message;
-  reason = reason.substr(0, reason.find(kCureAfter));
-  if (reason.starts_with(backend)) {
-    const std::string_view rest = reason.substr(backend.size());
-    if (rest.starts_with(": ")) reason = rest.substr(2);
-    if (rest.starts_with(' ')) reason = rest.substr(1);
+std::string without_backend(std::string_view message, std::string_view backend) {
+  if (!backend.empty() && message.starts_with(backend)) {
+    const std::string_view rest = message.substr(backend.size());
+    if (rest.starts_with(": ")) return std::string(rest.substr(2));
+    if (rest.starts_with(' ')) return std::string(rest.substr(1));
   }
-  return {std::move(backend), std::string(reason), std::move(error)};
+  return std::string(message);
+}
+
+Fallback failure_of(std::string backend, Error error) {
+  const std::string_view message = error.message;
+  std::string reason = without_backend(message.substr(0, message.find(kCureAfter)), backend);
+  return {std::move(backend), std::move(reason), std::move(error)};
 }
 
 std::string next_backend(std::span<const Fallback> failed, Successor successor) {

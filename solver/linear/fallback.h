@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Trial {
   Result<Value> outcome;
   Successor successor = Successor::kNone;
 };
+
+/// The sentence without the backend's name in front of it, for where that is told already.
+std::string without_backend(std::string_view message, std::string_view backend);
 
 /// A failure as it is told.
 Fallback failure_of(std::string backend, Error error);

@@ -23,6 +23,14 @@ std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
   return used;
 }
 
+/// Whether some face has an edge of any length; without one no method can be set up.
+bool has_extent(const TriangleMesh& mesh) {
+  const auto& at = mesh.positions();
+  return std::ranges::any_of(mesh.faces(), [&at](const Face& f) {
+    return !repeats_corner(f) && (at[f[0]] != at[f[1]] || at[f[0]] != at[f[2]]);
+  });
+}
+
 class Sampler {
  public:
   Sampler(const DistanceMethod& method, const TriangleMesh& mesh, const Progress& progress)
@@ -45,9 +53,13 @@ class Sampler {
       const double before = out_.distances[next];
       const auto from = distances_from(next);
       if (!from) return from.error();
+      double back = kUnreached;
+      for (const FarthestSample& other : out_.samples) {
+        back = std::min(back, (*from)[other.vertex]);
+      }
       take(i, next, *from);
       const Index chosen = std::exchange(next, farthest(out_.distances, false));
-      out_.samples.push_back({chosen, before, next == kNoIndex ? 0.0 : out_.distances[next]});
+      out_.samples.push_back({chosen, before, next == kNoIndex ? 0.0 : out_.distances[next], back});
     }
     out_.query_ms = watch_.milliseconds() / done_;
     return std::move(out_);
@@ -61,10 +73,11 @@ class Sampler {
     auto answer = method_.solve(SourceSet::of_vertices({v}), {.quality = is_first},
                                 part_of(progress_, begun, ended));
     if (!answer) return answer.error();
-    if (is_first) out_.warnings = std::move(answer->warnings);
+    std::vector<double> distances = std::move(answer->distances);
+    if (is_first) out_.first = *std::move(answer);
     ++done_;
     if (!report(progress_, kSamplesStage, ended)) return cancelled_error();
-    return std::move(answer->distances);
+    return distances;
   }
 
   /// Every vertex that is nearer to the new sample becomes its own.
@@ -101,11 +114,19 @@ class Sampler {
 
 double FarthestPoints::separation() const {
   double least = kUnreached;
-  for (const FarthestSample& sample : samples) least = std::min(least, sample.distance);
+  for (const FarthestSample& sample : samples) {
+    least = std::min({least, sample.distance, sample.back});
+  }
   return least;
 }
 
 Result<void> check_sampling(const TriangleMesh& mesh, Index count, const FarthestOptions& options) {
+  if (!has_extent(mesh)) {
+    return Error{ErrorCode::kBadFile,
+                 "the mesh has no face with area (" +
+                     counted_text(static_cast<std::size_t>(mesh.face_count()), "face", "faces") +
+                     ", each with a corner twice or all in one place); check how it was exported"};
+  }
   const std::vector<char> used = vertices_in_faces(mesh);
   const auto vertices = static_cast<Index>(std::ranges::count(used, 1));
   if (count < 1 || count > vertices) {

@@ -27,6 +27,9 @@ struct FarthestSample {
   /// The cover radius with this sample and those before it: the largest distance of a vertex to the
   /// nearest of them; infinite while a component has none. It does not grow from one to the next.
   double radius = kUnreached;
+  /// To the nearest sample before it as its own query has it. By the heat method the two directions
+  /// differ by the discretisation error.
+  double back = kUnreached;
 };
 
 /// Samples of a surface and the cells around them.
@@ -34,26 +37,27 @@ struct FarthestPoints {
   std::vector<FarthestSample> samples;  ///< in the order in which they were chosen
   std::vector<double> distances;        ///< V: to the nearest sample; kUnreached: in no face
   std::vector<Index> nearest;           ///< V: number of that sample, kNoIndex: in no face
-  std::vector<std::string> warnings;    ///< of the first query
+  DistanceResult first;                 ///< answer to the first query, without its distances
   double query_ms = 0;                  ///< mean of all queries
 
   double radius() const { return samples.back().radius; }
-  /// The smallest distance between two samples, as the query from the earlier one has it; infinite
-  /// where no two reach each other.
+  /// The smallest distance between two samples, in either direction; infinite where no two reach
+  /// each other.
   double separation() const;
 };
 
 /// Whether so many samples can be had, and with this first one: what farthest_points() asks before
 /// it begins. Errors: kBadInput (`count` below 1 or above the number of vertices in faces, `first`
-/// that is not one of them). Cost: O(F).
+/// that is not one of them), kBadFile (no face with an edge of any length). Cost: O(F).
 Result<void> check_sampling(const TriangleMesh& mesh, Index count,
                             const FarthestOptions& options = {});
 
 /// Farthest-point sampling (Gonzalez 1985; on surfaces: Eldar, Lindenbaum, Porat, Zeevi 1997): each
 /// sample is the vertex farthest from all before it, the lowest of several. Where distances are a
 /// metric no choice of as many samples covers the surface with less than half the radius, and the
-/// samples lie at least that radius apart. Unreached vertices count as infinitely far, so that
-/// every component gets a sample before any gets a second one. The same on any number of threads.
+/// samples lie at least that radius apart; where the two directions differ, each sample lies at
+/// least so far from those before it. Unreached vertices count as infinitely far, so that every
+/// component gets a sample before any gets a second one. The same on any number of threads.
 ///
 /// `method`: on `mesh`. Cost: `count` queries one after another, O(V) each beside, and V numbers.
 /// Errors: those of check_sampling() and of the queries.

@@ -79,10 +79,11 @@ TEST_P(Interrupt, RemovesTheFileThatIsBeingWritten) {
   EXPECT_TRUE(halted) << "no run was halted while it wrote";
 }
 
-INSTANTIATE_TEST_SUITE_P(By, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP),
+INSTANTIATE_TEST_SUITE_P(By, Interrupt, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGQUIT),
                          [](const auto& test) {
                            if (test.param == SIGINT) return "Sigint";
-                           return test.param == SIGTERM ? "Sigterm" : "Sighup";
+                           if (test.param == SIGTERM) return "Sigterm";
+                           return test.param == SIGHUP ? "Sighup" : "Sigquit";
                          });
 
 TEST(IgnoredSignal, StaysIgnored) {

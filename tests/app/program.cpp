@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,7 +40,9 @@ namespace {
     ::dup2(file, STDOUT_FILENO);
     ::close(file);
   }
-  ::alarm(seconds);  // outlives exec
+  const rlimit nothing{0, 0};
+  ::setrlimit(RLIMIT_CORE, &nothing);  // the core would lie among the outputs
+  ::alarm(seconds);                    // outlives exec
   if (::chdir(folder.c_str()) == 0) ::execv(argv[0], argv.data());
   ::_exit(kCannotStart);
 }

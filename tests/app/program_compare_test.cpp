@@ -66,15 +66,43 @@ TEST_F(ProgramCompare, KeepsTheAnswersOfTheFirstQueriesOnly) {
   EXPECT_LT(peak("2000") - peak("10"), kMost);
 }
 
-TEST_F(ProgramCompare, KeepsAFailureInItsRow) {
-  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
-  const Json compared = json({"compare", "flat.obj", "--json", "-"});
-  ASSERT_EQ(compared["rows"].size(), backend_names().size());
-  for (const Json& row : compared["rows"]) {
-    EXPECT_NE(row["status"], "ok");
-    EXPECT_NE(row["message"], "");
-    EXPECT_TRUE(row["setup_ms"].is_null());
+constexpr const char* kFlat = "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n";
+
+TEST_F(ProgramCompare, FailsInOneLineWhereEverySolverFailsAndKeepsTheRows) {
+  folder.write("flat.obj", kFlat);
+  const ProgramRun failed = run_program(
+      folder.path("."), {"compare", "bunny", "flat.obj", "--queries", "1", "--json", "t.json"});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_TRUE(failed.err.starts_with("geotherm: error: flat: all ")) << failed.err;
+  for (const char* part : {" solvers failed; native: the mesh has no face with area (1 face, ",
+                           "; check how it was exported"}) {
+    EXPECT_NE(failed.err.find(part), std::string::npos) << failed.err;
   }
+  EXPECT_EQ(std::count(failed.err.begin(), failed.err.end(), '\n'), 1) << failed.err;
+  EXPECT_NE(failed.out.find("pre-factorisation"), std::string::npos);
+  const Json compared = Json::parse(bytes_of(folder.path("t.json")));
+  const std::size_t backends = backend_names().size();
+  ASSERT_EQ(compared["rows"].size(), 2 * backends);
+  for (std::size_t i = 0; i < 2 * backends; ++i) {
+    const Json& row = compared["rows"][i];
+    EXPECT_EQ(row["status"] == "ok", i < backends) << row;
+    EXPECT_EQ(row["message"] == "", i < backends) << row;
+    EXPECT_EQ(row["setup_ms"].is_null(), i >= backends) << row;
+  }
+}
+
+TEST_F(ProgramCompare, NamesABackendThatFailsOnce) {
+  const std::string name = backend_names().front();
+  const ProgramRun failed =
+      run_program(folder.path("."), {"compare", "bunny", "--queries", "1", "--backends", name,
+                                     "--memory-limit", "0.2", "--json", "t.json"});
+  EXPECT_EQ(failed.code, 1);
+  const std::string needs = "needs about ";
+  EXPECT_TRUE(failed.err.starts_with("geotherm: error: bunny: " + name + " failed: " + needs))
+      << failed.err;
+  EXPECT_NE(failed.out.find("\nbunny, " + name + ": " + needs), std::string::npos) << failed.out;
+  const Json row = Json::parse(bytes_of(folder.path("t.json")))["rows"][0];
+  EXPECT_TRUE(row["message"].get<std::string>().starts_with(needs)) << row;
 }
 
 }  // namespace

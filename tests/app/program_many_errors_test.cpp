@@ -92,6 +92,10 @@ const std::vector<Refusal>& refusals() {
        {"sample", "triangle.obj", "-n", "4"},
        2,
        {"4 samples were asked for", "3 vertices", "; ask for"}},
+      {"SampleTooManyOfNothing",
+       {"sample", "flat.obj", "-n", "9"},
+       1,
+       {"flat: the mesh has no face with area (1 face, ", "; check how it was exported"}},
       {"SampleFirst", {"sample", "bunny", "-n", "2", "--first", "99999"}, 2, {"99999"}},
       {"SampleLooseFirst",
        {"sample", "triangle.obj", "-n", "2", "--first", "3"},
@@ -115,6 +119,7 @@ TEST_P(ProgramRefusals, AreOneLineWithTheCureAndLeaveNothing) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n";
   folder.write("triangle.obj", triangle);
   folder.write("triangle.npy", triangle);
+  folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
   ASSERT_EQ(::symlink("/dev/full", folder.path("full.npy").c_str()), 0);
   const std::vector<std::string> before = folder.names();
   const ProgramRun run = run_program(folder.path("."), GetParam().arguments);

@@ -7,6 +7,8 @@
 #include <csignal>
 
 #include "app/many/many_work.h"
+#include "app/option_values.h"
+#include "solver/core/stopwatch.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
@@ -139,24 +141,59 @@ TEST(RoomForMany, IsAskedBeforeTheWork) {
   const auto refused = app::check_room(folder.path("a.npy"), kMoreThanAnyDisk);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kBadFile);
-  for (const char* part : {"a.npy: the file would take 1e+12 TB", "are free there; take fewer"}) {
+  for (const char* part :
+       {"a.npy: the file would take 9.09e+11 TB", "are free there; take fewer"}) {
     EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
   }
 }
+
+constexpr unsigned kMeasurable = 150'000;  // microseconds: long enough for an estimate
 
 TEST(Estimate, IsToldOnceWhereMoreThanASecondIsLeft) {
   std::vector<std::string> told;
   const auto progress = app::with_estimate(
       {}, [&](const std::string& text) { told.push_back(text); }, "rows", "9 sources", "a file");
   EXPECT_TRUE(progress("solve", 0.9));  // the guess of a method
+  EXPECT_TRUE(progress("rows", 1e-9));
   EXPECT_TRUE(told.empty());
-  EXPECT_TRUE(progress("rows", 1e-9));
-  EXPECT_TRUE(progress("rows", 1e-9));
+  ::usleep(kMeasurable);
+  EXPECT_TRUE(progress("rows", 2e-9));
+  EXPECT_TRUE(progress("rows", 3e-9));
   ASSERT_EQ(told.size(), 1U);
   EXPECT_TRUE(told[0].starts_with("9 sources: about ") && told[0].ends_with(", a file")) << told[0];
-  EXPECT_EQ(app::bytes_in_words(999'600'000), "1 GB");
-  EXPECT_EQ(app::bytes_in_words(3.2e9), "3.2 GB");
+}
+
+TEST(Estimate, TakesTheSpeedOfAllPartsButTheFirst) {
+  constexpr double kParts = 100, kRounded = 1.1;
+  const Stopwatch watch;
+  std::string told;
+  const auto progress = app::with_estimate(
+      {}, [&](const std::string& text) { told = text; }, "rows", "all");
+  ::usleep(4 * kMeasurable);  // once
+  EXPECT_TRUE(progress("rows", 1 / kParts));
+  const double first = watch.milliseconds() / 1000;
+  ::usleep(kMeasurable);
+  EXPECT_TRUE(progress("rows", 2 / kParts));
+  const double second = watch.milliseconds() / 1000 - first;
+  const std::string begin = "all: about ";
+  ASSERT_TRUE(told.starts_with(begin) && told.ends_with(" s")) << told;
+  const double seconds = std::stod(told.substr(begin.size()));
+  EXPECT_LT(seconds, kRounded * (first + second * (kParts - 1)));
+  EXPECT_GT(seconds, second * (kParts - 1) / kRounded);
+}
+
+TEST(Sizes, AreOfTwoToTheTenthEach) {
+  EXPECT_EQ(app::bytes_in_words(0x1p30), "1 GB");
+  EXPECT_EQ(app::bytes_in_words(0x1p30 - 1), "1 GB");
+  EXPECT_EQ(app::bytes_in_words(3.2 * 0x1p30), "3.2 GB");
+  EXPECT_EQ(app::bytes_in_words(1000 * app::kMegabyte), "0.977 GB");
+  EXPECT_EQ(app::bytes_in_words(800 * app::kMegabyte), "800 MB");
+  EXPECT_EQ(*app::parse_memory_limit("800") * app::kMegabyte, 800 * 0x1p20);
+  EXPECT_EQ(app::bytes_in_words(1023), "1,023 bytes");
   EXPECT_EQ(app::bytes_in_words(1), "1 byte");
+}
+
+TEST(Times, AreInTheUnitsOfPeople) {
   EXPECT_EQ(app::seconds_in_words(12.4), "12 s");
   EXPECT_EQ(app::seconds_in_words(200), "3 min 20 s");
   EXPECT_EQ(app::seconds_in_words(7500), "2 h 5 min");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/linear/backend.h"
 #include "solver/mesh/write_distances.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
@@ -108,7 +109,12 @@ TEST_F(Program, SampleReportsSamplesAndLabelsVertices) {
   std::size_t cells = 0;
   for (const Json& sample : report["samples"]) cells += sample["cell"].get<std::size_t>();
   EXPECT_EQ(cells, vertices);
-  EXPECT_GE(report["separation"].get<double>(), report["radius"].get<double>());
+  double least = report["samples"][1]["distance"];
+  for (std::size_t i = 1; i < 20; ++i) {
+    least = std::min({least, report["samples"][i]["distance"].get<double>(),
+                      report["samples"][i]["distance_back"].get<double>()});
+  }
+  EXPECT_EQ(report["separation"].get<double>(), least);
 
   const auto labels = lines_of(bytes_of(folder.path("cells.csv")));
   ASSERT_EQ(labels.size(), vertices + 1);
@@ -137,6 +143,20 @@ TEST_F(Program, SampleWritesEveryFormatAndBeginsWhereItIsTold) {
   EXPECT_EQ(npy_values<double>(bytes_of(folder.path("s.npy")))[0], 7);
   EXPECT_TRUE(has_shape(bytes_of(folder.path("a.npy")), report["model"]["vertices"], 2));
   EXPECT_NE(bytes_of(folder.path("a.ply")).find("property int nearest_source"), std::string::npos);
+}
+
+TEST_F(Program, SampleNamesTheBackendThatAnswered) {
+  const std::string asked = backend_names().front();
+  const std::vector<std::string> words = {"sample", "bunny", "-n", "3", "-o", "a.json"};
+  EXPECT_NE(run(words).out.find("heat, " + asked + ", "), std::string::npos);
+  EXPECT_EQ(Json::parse(bytes_of(folder.path("a.json")))["options"]["backend"], asked);
+  std::vector<std::string> limited = words;
+  limited.insert(limited.end(), {"--memory-limit", "0.2"});
+  EXPECT_NE(run(limited).out.find("heat, cg, "), std::string::npos);
+  const Json options = Json::parse(bytes_of(folder.path("a.json")))["options"];
+  EXPECT_EQ(options["backend"], "cg");
+  EXPECT_EQ(options["backend_asked"], asked);
+  EXPECT_EQ(options["fallbacks"].size(), backend_names().size() - 1);
 }
 
 TEST_F(Program, SampleIsInTheListOfCommands) {

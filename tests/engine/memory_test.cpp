@@ -20,7 +20,7 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
     const Result<void> failed = stage.renderer.set_surface(large.geometry());
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().code, ErrorCode::kOutOfMemory);
-    EXPECT_NE(failed.error().message.find("4 MiB"), std::string::npos) << failed.error().message;
+    EXPECT_NE(failed.error().message.find("4 MB"), std::string::npos) << failed.error().message;
     EXPECT_EQ(stage.draw().pixels, before.pixels);
     // Values and arrows are still those of the earlier model.
     Stage other(device(), plane_model(10, 10));

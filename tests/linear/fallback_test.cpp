@@ -16,6 +16,13 @@ TEST(Fallback, TellsTheReasonWithoutNameAndCure) {
   EXPECT_EQ(failure_of("cg", {ErrorCode::kBudgetEnded, "no cure"}).reason, "no cure");
 }
 
+TEST(Fallback, NamesABackendOnce) {
+  EXPECT_EQ(without_backend("cg: it ended; less", "cg"), "it ended; less");
+  EXPECT_EQ(without_backend("cg needs 2 MB; less", "cg"), "needs 2 MB; less");
+  EXPECT_EQ(without_backend("cgx needs 2 MB", "cg"), "cgx needs 2 MB");
+  EXPECT_EQ(without_backend("needs 2 MB", ""), "needs 2 MB");
+}
+
 TEST(Fallback, GoesThroughTheOthersInTheirOrder) {
   const std::vector<std::string> names = backend_names();
   std::vector<Fallback> failed = {failure_of(names.back(), kPivot)};

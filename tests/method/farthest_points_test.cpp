@@ -61,7 +61,10 @@ class FarthestPointsBy : public testing::TestWithParam<MethodKind> {};
 TEST_P(FarthestPointsBy, LieAsFarApartAsTheyCover) {
   const auto mesh = finish(sphere(3));
   const auto points = points_on(mesh, 30, GetParam());
-  EXPECT_GE(points.separation(), points.radius());
+  for (const FarthestSample& sample : points.samples) {
+    EXPECT_GE(sample.distance, points.radius());
+  }
+  EXPECT_GE(points.separation(), (1 - kHeatError) * points.radius());
   const auto exact = method_on(mesh, MethodKind::kExact);
   double apart = kUnreached;
   for (const FarthestSample& sample : points.samples) {
@@ -89,6 +92,20 @@ TEST_P(FarthestPointsBy, LabelTheNearestOfThem) {
     EXPECT_EQ(from[points.nearest[v]][v], least) << v;
   }
   EXPECT_EQ(points.radius(), *std::ranges::max_element(points.distances));
+}
+
+TEST_P(FarthestPointsBy, AreSeparatedByTheSmallerOfBothDirections) {
+  const auto mesh = finish(jittered_plane(20, 0.4, 3));
+  const auto method = method_on(mesh, GetParam());
+  const auto points = points_on(mesh, 12, GetParam());
+  double apart = kUnreached;
+  for (const FarthestSample& sample : points.samples) {
+    const auto from = method->solve(SourceSet::of_vertices({sample.vertex}));
+    for (const FarthestSample& other : points.samples) {
+      if (other.vertex != sample.vertex) apart = std::min(apart, from->distances[other.vertex]);
+    }
+  }
+  EXPECT_EQ(points.separation(), apart);
 }
 
 TEST_P(FarthestPointsBy, AreTheSameOnAnyNumberOfThreads) {
@@ -160,6 +177,23 @@ TEST(FarthestPoints, RefuseWhatThereIsNot) {
   EXPECT_NE(refusal(1, 4).find("no face"), std::string::npos);
   EXPECT_TRUE(check_sampling(*mesh, 4, {3}));
   EXPECT_EQ(points_on(mesh, 4).nearest[4], kNoIndex);
+}
+
+TEST(FarthestPoints, OfAMeshWithoutAreaAreRefusedForThat) {
+  Draft point;
+  for (int i = 0; i < 3; ++i) point.add(Vec3(1, 1, 1));
+  point.faces = {{0, 1, 2}};
+  Draft folded = point;
+  folded.positions[1] = Vec3(2, 1, 1);
+  folded.faces = {{0, 0, 1}};
+  for (const Draft& draft : {point, folded}) {
+    const auto valid = check_sampling(*finish(draft), 9);
+    ASSERT_FALSE(valid);
+    EXPECT_EQ(valid.error().code, ErrorCode::kBadFile);
+    EXPECT_NE(valid.error().message.find("no face with area (1 face, "), std::string::npos)
+        << valid.error().message;
+    EXPECT_NE(valid.error().message.find("; check how"), std::string::npos);
+  }
 }
 
 TEST(FarthestPoints, CanBeCancelledBetweenSamples) {
