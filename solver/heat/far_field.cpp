@@ -57,23 +57,31 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progr
 /// largest in their component: sizes of components differ, and with them the heat in them.
 FarField::Far FarField::below(const Rows& candidates) const {
   const auto columns = std::ssize(columns_);
-  const auto all = static_cast<Columns>((1U << columns) - 1);
+  const bool all = candidates.empty();
   const auto visit = [&](std::int64_t begin, std::int64_t end, const auto& see) {
+    const Eigen::Index* const column = columns_.data();
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
-      for (unsigned some = candidates.empty() ? all : candidates[i]; some != 0; some &= some - 1) {
-        const int k = std::countr_zero(some);
-        see(i, k, std::abs(u[columns_[static_cast<std::size_t>(k)]]));
+      if (all) {
+        for (int k = 0; k < columns; ++k) see(i, k, std::abs(u[column[k]]));
+      } else {
+        for (unsigned some = candidates[i]; some != 0; some &= some - 1) {
+          const int k = std::countr_zero(some);
+          see(i, k, std::abs(u[column[k]]));
+        }
       }
     }
   };
+  const bool whole = components_.count == 1;
+  const auto component_of = [&](Index i) { return std::int64_t{whole ? 0 : components_.of[i]}; };
   Block least = Block::Zero(components_.count, columns);  // at first the largest
   std::mutex mutex;
   work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
     Block most = Block::Zero(components_.count, columns);
+    double* const largest = most.data();
     visit(begin, end, [&](Index i, int k, double u) {
-      double& largest = most(components_.of[i], k);
-      if (u > largest) largest = u;
+      double& of_component = largest[component_of(i) * columns + k];
+      if (u > of_component) of_component = u;
     });
     const std::lock_guard lock(mutex);
     least = least.cwiseMax(most);
@@ -88,8 +96,9 @@ FarField::Far FarField::below(const Rows& candidates) const {
   far.count.resize(columns_.size());
   work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
     std::vector<std::int64_t> count(columns_.size());
+    const double* const floors = least.data();
     visit(begin, end, [&](Index i, int k, double u) {
-      if (!(u < least(components_.of[i], k)) || system_.matrix().is_held(i)) return;
+      if (!(u < floors[component_of(i) * columns + k]) || system_.matrix().is_held(i)) return;
       far.rows[i] |= static_cast<Columns>(1U << k);
       ++count[static_cast<std::size_t>(k)];
     });
