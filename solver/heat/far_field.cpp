@@ -30,7 +30,9 @@ FarField::FarField(const LinearSystem& system, const Components& components,
 
 Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progress& progress) {
   columns_.assign(columns.begin(), columns.end());
-  Far far = below({});
+  const Rows all(static_cast<std::size_t>(field_.u.rows()),
+                 static_cast<Columns>((1U << columns.size()) - 1));
+  Far far = below(largest(all), all);
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
@@ -48,44 +50,36 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progr
     if (goes_on == 0) return {};
     take(far.rows, goes_on, level, right);
     work_.pool.give(std::move(right));
-    far = keep(below(far.rows), goes_on, far.count);
+    far = keep(below(largest(far.rows), far.rows), goes_on, far.count);
   }
   return {};
 }
 
-/// Of these entries, or of all: those reached and free whose value is below the floor times the
-/// largest in their component: sizes of components differ, and with them the heat in them.
-FarField::Far FarField::below(const Rows& candidates) const {
-  const auto columns = std::ssize(columns_);
-  const bool all = candidates.empty();
-  const auto visit = [&](std::int64_t begin, std::int64_t end, const auto& see) {
-    const Eigen::Index* const column = columns_.data();
+/// The largest |u| of these entries in each component and column.
+Block FarField::largest(const Rows& candidates) const {
+  Block all = Block::Zero(components_.count, std::ssize(columns_));
+  std::mutex mutex;
+  work_.for_rows(field_.u.rows(), all.cols(), [&](std::int64_t begin, std::int64_t end) {
+    Block most = Block::Zero(all.rows(), all.cols());
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
-      if (all) {
-        for (int k = 0; k < columns; ++k) see(i, k, std::abs(u[column[k]]));
-      } else {
-        for (unsigned some = candidates[i]; some != 0; some &= some - 1) {
-          const int k = std::countr_zero(some);
-          see(i, k, std::abs(u[column[k]]));
-        }
+      for (unsigned some = candidates[i]; some != 0; some &= some - 1) {
+        const int k = std::countr_zero(some);
+        double& of_component = most(components_.of[i], k);
+        const double u = std::abs(field_.u(i, columns_[static_cast<std::size_t>(k)]));
+        if (u > of_component) of_component = u;
       }
     }
-  };
-  const bool whole = components_.count == 1;
-  const auto component_of = [&](Index i) { return std::int64_t{whole ? 0 : components_.of[i]}; };
-  Block least = Block::Zero(components_.count, columns);  // at first the largest
-  std::mutex mutex;
-  work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
-    Block most = Block::Zero(components_.count, columns);
-    double* const largest = most.data();
-    visit(begin, end, [&](Index i, int k, double u) {
-      double& of_component = largest[component_of(i) * columns + k];
-      if (u > of_component) of_component = u;
-    });
     const std::lock_guard lock(mutex);
-    least = least.cwiseMax(most);
+    all = all.cwiseMax(most);
   });
+  return all;
+}
+
+/// Those of these entries, reached and free, whose value is below the floor times the largest of
+/// their component: sizes of components differ, and with them the heat in them.
+FarField::Far FarField::below(Block largest, const Rows& candidates) const {
+  const auto columns = std::ssize(columns_);
+  Block& least = largest;
   for (Index component = 0; component < components_.count; ++component) {
     for (Eigen::Index k = 0; k < columns; ++k) {
       const bool reached = reached_[static_cast<std::size_t>(columns_[k])][component] != 0;
@@ -94,14 +88,24 @@ FarField::Far FarField::below(const Rows& candidates) const {
   }
   Far far{Rows(static_cast<std::size_t>(field_.u.rows())), {}};
   far.count.resize(columns_.size());
+  std::mutex mutex;
   work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
     std::vector<std::int64_t> count(columns_.size());
-    const double* const floors = least.data();
-    visit(begin, end, [&](Index i, int k, double u) {
-      if (!(u < floors[component_of(i) * columns + k]) || system_.matrix().is_held(i)) return;
-      far.rows[i] |= static_cast<Columns>(1U << k);
-      ++count[static_cast<std::size_t>(k)];
-    });
+    const Eigen::Index* const column = columns_.data();
+    const bool whole = components_.count == 1;
+    for (auto i = static_cast<Index>(begin); i < end; ++i) {
+      if (candidates[i] == 0) continue;
+      const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
+      const double* const floors = least.data() + (whole ? 0 : components_.of[i]) * columns;
+      unsigned small = 0;
+      for (Eigen::Index k = 0; k < columns; ++k) {
+        small |= static_cast<unsigned>(std::abs(u[column[k]]) < floors[k]) << k;
+      }
+      small &= candidates[i];
+      if (small == 0 || system_.matrix().is_held(i)) continue;
+      far.rows[i] = static_cast<Columns>(small);
+      for (; small != 0; small &= small - 1) ++count[std::countr_zero(small)];
+    }
     const std::lock_guard lock(mutex);
     for (std::size_t k = 0; k < count.size(); ++k) far.count[k] += count[k];
   });
@@ -159,14 +163,17 @@ FarField::Rows FarField::layer_around(const Rows& far) const {
 std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
   const Rows layer = layer_around(far);
-  std::vector<Index> asked;
+  std::vector<char> beside(layer.size());
   for (Index i = 0; i < static_cast<Index>(layer.size()); ++i) {
     if (layer[i] == 0) continue;
-    for (const Index f : mesh.faces_at(i))
-      asked.insert(asked.end(), mesh.faces[f].begin(), mesh.faces[f].end());
+    for (const Index f : mesh.faces_at(i)) {
+      for (const Index j : mesh.faces[f]) beside[j] = 1;
+    }
   }
-  std::sort(asked.begin(), asked.end());
-  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  std::vector<Index> asked;
+  for (Index i = 0; i < static_cast<Index>(beside.size()); ++i) {
+    if (beside[i] != 0) asked.push_back(i);
+  }
   parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {

@@ -35,7 +35,8 @@ class FarField {
     Rows rows;
     std::vector<std::int64_t> count;
   };
-  Far below(const Rows& candidates) const;
+  Block largest(const Rows& candidates) const;
+  Far below(Block largest, const Rows& candidates) const;
   Rows layer_around(const Rows& far) const;
   std::vector<Index> ask(const Rows& far, int level, Block& right) const;
   double outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const;
