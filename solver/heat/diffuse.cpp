@@ -52,9 +52,8 @@ struct Extremes {
   static constexpr std::size_t kLanes = 16;
 };
 
-/// Columns with an entry below `floor` times their largest: one pass along memory.
-std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor,
-                                                    const Workspace& work) {
+/// Of each column, all components together: one pass along memory.
+Extremes extremes_of(const Block& u, const Workspace& work) {
   Extremes all(u.cols());
   std::mutex mutex;
   work.for_rows(u.rows(), u.cols(), [&](std::int64_t begin, std::int64_t end) {
@@ -65,11 +64,7 @@ std::vector<Eigen::Index> columns_with_small_values(const Block& u, double floor
       all.take(c, here.largest[c], here.smallest[c]);
     }
   });
-  std::vector<Eigen::Index> found;
-  for (std::size_t c = 0; c < all.largest.size(); ++c) {
-    if (all.smallest[c] < floor * all.largest[c]) found.push_back(static_cast<Eigen::Index>(c));
-  }
-  return found;
+  return all;
 }
 
 }  // namespace
@@ -85,13 +80,26 @@ Result<HeatField> diffuse(const LinearSystem& system, const Components& componen
   const auto solved = system.solve(field.u, support, work, part_of(progress, 0.0, 0.5));
   if (!solved) return solved.error();
   field.iterations = solved->iterations;
-  const std::vector<Eigen::Index> small = columns_with_small_values(field.u, floor, work);
+  const Extremes extremes = extremes_of(field.u, work);
+  std::vector<Eigen::Index> small;  // columns with an entry below the floor
+  for (std::size_t c = 0; c < extremes.largest.size(); ++c) {
+    if (extremes.smallest[c] < floor * extremes.largest[c]) {
+      small.push_back(static_cast<Eigen::Index>(c));
+    }
+  }
   for (std::size_t next = 0; next < small.size(); next += kColumnsOfFarField) {
+    const auto columns =
+        std::span(small).subspan(next, std::min(small.size() - next, kColumnsOfFarField));
+    FarField::Range range(1, std::ssize(columns));
+    for (Eigen::Index k = 0; k < std::ssize(columns); ++k) {
+      const auto column = static_cast<std::size_t>(columns[static_cast<std::size_t>(k)]);
+      range.take(0, k, extremes.largest[column]);
+      range.take(0, k, extremes.smallest[column]);
+    }
     FarField far(system, components, reached, floor, work, field);
-    const auto columns = std::span(small).subspan(next);
-    const auto extended =
-        far.extend(columns.first(std::min(columns.size(), kColumnsOfFarField)), progress);
-    if (!extended) return extended.error();
+    if (const auto extended = far.extend(columns, range, progress); !extended) {
+      return extended.error();
+    }
   }
   return field;
 }

@@ -28,11 +28,12 @@ FarField::FarField(const LinearSystem& system, const Components& components,
       work_(work),
       field_(field) {}
 
-Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progress& progress) {
+Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range& of_columns,
+                              const Progress& progress) {
   columns_.assign(columns.begin(), columns.end());
-  const Rows all(static_cast<std::size_t>(field_.u.rows()),
-                 static_cast<Columns>((1U << columns.size()) - 1));
-  Far far = below(largest(all), all);
+  Far far = below(components_.count == 1 ? of_columns : range(),
+                  Rows(static_cast<std::size_t>(field_.u.rows()),
+                       static_cast<Columns>((1U << columns.size()) - 1)));
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
@@ -48,44 +49,44 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Progr
     field_.iterations += solved->iterations;
     const Columns goes_on = heated(far.rows, right);  // the others are cut off by held vertices
     if (goes_on == 0) return {};
-    take(far.rows, goes_on, level, right);
+    const Range range = take(far.rows, goes_on, level, right);
     work_.pool.give(std::move(right));
-    far = keep(below(largest(far.rows), far.rows), goes_on, far.count);
+    far = keep(below(range, far.rows), goes_on, far.count);
   }
   return {};
 }
 
-/// The largest |u| of these entries in each component and column.
-Block FarField::largest(const Rows& candidates) const {
-  Block all = Block::Zero(components_.count, std::ssize(columns_));
+/// Of the entries of columns_, all rows.
+FarField::Range FarField::range() const {
+  Range all(components_.count, std::ssize(columns_));
   std::mutex mutex;
-  work_.for_rows(field_.u.rows(), all.cols(), [&](std::int64_t begin, std::int64_t end) {
-    Block most = Block::Zero(all.rows(), all.cols());
+  work_.for_rows(field_.u.rows(), all.largest.cols(), [&](std::int64_t begin, std::int64_t end) {
+    Range here(components_.count, std::ssize(columns_));
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      for (unsigned some = candidates[i]; some != 0; some &= some - 1) {
-        const int k = std::countr_zero(some);
-        double& of_component = most(components_.of[i], k);
-        const double u = std::abs(field_.u(i, columns_[static_cast<std::size_t>(k)]));
-        if (u > of_component) of_component = u;
+      for (Eigen::Index k = 0; k < here.largest.cols(); ++k) {
+        here.take(components_.of[i], k, std::abs(field_.u(i, columns_[k])));
       }
     }
     const std::lock_guard lock(mutex);
-    all = all.cwiseMax(most);
+    all.take(here);
   });
   return all;
 }
 
 /// Those of these entries, reached and free, whose value is below the floor times the largest of
 /// their component: sizes of components differ, and with them the heat in them.
-FarField::Far FarField::below(Block largest, const Rows& candidates) const {
+FarField::Far FarField::below(const Range& range, const Rows& candidates) const {
   const auto columns = std::ssize(columns_);
-  Block& least = largest;
+  Block least(components_.count, columns);
+  bool none = true;
   for (Index component = 0; component < components_.count; ++component) {
     for (Eigen::Index k = 0; k < columns; ++k) {
       const bool reached = reached_[static_cast<std::size_t>(columns_[k])][component] != 0;
-      least(component, k) *= reached ? floor_ : 0.0;
+      least(component, k) = reached ? floor_ * range.largest(component, k) : 0.0;
+      none = none && !(range.smallest(component, k) < least(component, k));
     }
   }
+  if (none) return {{}, std::vector<std::int64_t>(columns_.size())};
   Far far{Rows(static_cast<std::size_t>(field_.u.rows())), {}};
   far.count.resize(columns_.size());
   std::mutex mutex;
@@ -214,19 +215,27 @@ FarField::Columns FarField::heated(const Rows& far, const Block& right) const {
   return static_cast<Columns>(found);
 }
 
-void FarField::take(const Rows& far, Columns which, int level, const Block& right) {
+FarField::Range FarField::take(const Rows& far, Columns which, int level, const Block& right) {
   if (field_.level.empty()) field_.level.assign(static_cast<std::size_t>(field_.u.size()), 0);
+  Range all(components_.count, std::ssize(columns_));
+  std::mutex mutex;
   work_.for_rows(field_.u.rows(), std::ssize(columns_), [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t i = begin; i < end; ++i) {
-      for (unsigned some = far[static_cast<std::size_t>(i)] & which; some != 0; some &= some - 1) {
+    Range here(components_.count, std::ssize(columns_));
+    for (auto i = static_cast<Index>(begin); i < end; ++i) {
+      const std::int64_t row = i * static_cast<std::int64_t>(field_.u.cols());
+      for (unsigned some = far[i] & which; some != 0; some &= some - 1) {
         const int k = std::countr_zero(some);
-        const Eigen::Index column = columns_[static_cast<std::size_t>(k)];
-        field_.u(i, column) = right(i, k);
-        field_.level[static_cast<std::size_t>(i * field_.u.cols() + column)] =
-            static_cast<std::uint8_t>(level);
+        const std::int64_t entry = row + columns_[static_cast<std::size_t>(k)];
+        const double u = right(i, k);
+        field_.u.data()[entry] = u;
+        field_.level[static_cast<std::size_t>(entry)] = static_cast<std::uint8_t>(level);
+        here.take(components_.of[i], k, std::abs(u));
       }
     }
+    const std::lock_guard lock(mutex);
+    all.take(here);
   });
+  return all;
 }
 
 }  // namespace geotherm

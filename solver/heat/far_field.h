@@ -17,14 +17,35 @@ inline constexpr std::size_t kColumnsOfFarField = 16;
 /// only what leads to the far rows.
 class FarField {
  public:
+  /// The largest and the smallest |u| of each component and column.
+  struct Range {
+    Block largest, smallest;
+    Range(Eigen::Index components, Eigen::Index columns)
+        : largest(Block::Zero(components, columns)),
+          smallest(Block::Constant(components, columns, kUnreached)) {}
+
+    void take(Index component, Eigen::Index column, double u) {
+      double& high = largest(component, column);
+      double& low = smallest(component, column);
+      if (u > high) high = u;
+      if (u < low) low = u;
+    }
+    void take(const Range& other) {
+      largest = largest.cwiseMax(other.largest);
+      smallest = smallest.cwiseMin(other.smallest);
+    }
+  };
+
   /// Keeps references. `field.u`: solved.
   FarField(const LinearSystem& system, const Components& components,
            const std::vector<std::vector<char>>& reached, double floor, const Workspace& work,
            HeatField& field);
 
   /// Restarts outwards until every reached entry of these columns lies above the floor or nothing
-  /// more comes. Errors: the solve's, kCancelled.
-  Result<void> extend(std::span<const Eigen::Index> columns, const Progress& progress);
+  /// more comes. `of_columns`: the range of these columns' entries, whatever their component.
+  /// Errors: the solve's, kCancelled.
+  Result<void> extend(std::span<const Eigen::Index> columns, const Range& of_columns,
+                      const Progress& progress);
 
  private:
   using Columns = std::uint16_t;  ///< a set of them: bit k is columns_[k]
@@ -35,13 +56,13 @@ class FarField {
     Rows rows;
     std::vector<std::int64_t> count;
   };
-  Block largest(const Rows& candidates) const;
-  Far below(Block largest, const Rows& candidates) const;
+  Range range() const;
+  Far below(const Range& range, const Rows& candidates) const;
   Rows layer_around(const Rows& far) const;
   std::vector<Index> ask(const Rows& far, int level, Block& right) const;
   double outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const;
   Columns heated(const Rows& far, const Block& right) const;
-  void take(const Rows& far, Columns which, int level, const Block& right);
+  Range take(const Rows& far, Columns which, int level, const Block& right);
   Far keep(Far next, Columns which, const std::vector<std::int64_t>& before);
 
   int level_of(Index row, Eigen::Index column) const {
