@@ -31,9 +31,7 @@ FarField::FarField(const LinearSystem& system, const Components& components,
 Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range& of_columns,
                               const Progress& progress) {
   columns_.assign(columns.begin(), columns.end());
-  Far far = below(components_.count == 1 ? of_columns : range(),
-                  Rows(static_cast<std::size_t>(field_.u.rows()),
-                       static_cast<Columns>((1U << columns.size()) - 1)));
+  Far far = below(components_.count == 1 ? of_columns : range(), {});
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
@@ -73,8 +71,8 @@ FarField::Range FarField::range() const {
   return all;
 }
 
-/// Those of these entries, reached and free, whose value is below the floor times the largest of
-/// their component: sizes of components differ, and with them the heat in them.
+/// Those of these entries, or of all, reached and free, whose value is below the floor times the
+/// largest of their component: sizes of components differ, and with them the heat in them.
 FarField::Far FarField::below(const Range& range, const Rows& candidates) const {
   const auto columns = std::ssize(columns_);
   Block least(components_.count, columns);
@@ -95,14 +93,14 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
     const Eigen::Index* const column = columns_.data();
     const bool whole = components_.count == 1;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      if (candidates[i] == 0) continue;
+      if (!candidates.empty() && candidates[i] == 0) continue;
       const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
       const double* const floors = least.data() + (whole ? 0 : components_.of[i]) * columns;
       unsigned small = 0;
       for (Eigen::Index k = 0; k < columns; ++k) {
         small |= static_cast<unsigned>(std::abs(u[column[k]]) < floors[k]) << k;
       }
-      small &= candidates[i];
+      if (!candidates.empty()) small &= candidates[i];
       if (small == 0 || system_.matrix().is_held(i)) continue;
       far.rows[i] = static_cast<Columns>(small);
       for (; small != 0; small &= small - 1) ++count[std::countr_zero(small)];
@@ -135,7 +133,8 @@ FarField::Far FarField::keep(Far next, Columns which, const std::vector<std::int
   return next;
 }
 
-/// Entries that share a face with a far one and are not far.
+/// Entries that share a face with a far one and are not far. Of the faces within a range of rows
+/// only those are looked at where some of its rows are far and others are not.
 FarField::Rows FarField::layer_around(const Rows& far) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
   Rows out(far.size());
@@ -152,7 +151,12 @@ FarField::Rows FarField::layer_around(const Rows& far) const {
                [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {
                    const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
-                   look(range.first_face, range.end_face);
+                   const auto rows = std::span(far).subspan(
+                       static_cast<std::size_t>(range.first_row),
+                       static_cast<std::size_t>(range.end_row - range.first_row));
+                   const bool mixed = std::ranges::any_of(
+                       rows, [&rows](Columns row) { return row != rows.front(); });
+                   if (mixed) look(range.first_face, range.end_face);
                  }
                });
   look(mesh.crossing, mesh.face_count());

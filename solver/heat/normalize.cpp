@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "solver/core/large_buffer.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm {
@@ -62,6 +63,7 @@ class Scatter {
     const std::int64_t count = std::ssize(surface_.row_of_vertex);
     if (columns_ == 1) {
       std::vector<double>& out = results_[0].distances;
+      make_room(out, count);
       out.resize(static_cast<std::size_t>(count));
       parallel_for(threads, count, kVerticesOfThread, [&](std::int64_t begin, std::int64_t end) {
         double* to = out.data() + begin;
@@ -79,7 +81,7 @@ class Scatter {
     const int most = count * columns_ < kVerticesOfThread ? 1 : threads;
     parallel_for(most, columns_, 1, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t c = begin; c < end; ++c) {
-        results_[static_cast<std::size_t>(c)].distances.reserve(static_cast<std::size_t>(count));
+        make_room(results_[static_cast<std::size_t>(c)].distances, count);
       }
       for (; begin + kAtOnce <= end; begin += kAtOnce) write<kAtOnce>(begin, 0, count, append);
       for (; begin < end; ++begin) write<1>(begin, 0, count, append);
@@ -102,6 +104,11 @@ class Scatter {
   }
 
  private:
+  static void make_room(std::vector<double>& out, std::int64_t count) {
+    out.reserve(static_cast<std::size_t>(count));
+    prefer_large_pages(out.data(), static_cast<std::size_t>(count) * sizeof(double));
+  }
+
   static constexpr int kAtOnce = 8;  ///< columns: a cache line
   /// Vertices whose distances are gathered before they are written: columns may lie at the same
   /// places of their pages, where a cache holds few of them side by side.
