@@ -19,7 +19,7 @@ using Slab = Group<kSlab>;
 /// Bytes ahead of the numbers in use that are asked for: panels are short, and the processor
 /// guesses their ends badly (a quarter
 /// of the time at a million faces).
-constexpr std::ptrdiff_t kAhead = 4096;
+constexpr std::ptrdiff_t kAhead = 6144;
 constexpr std::size_t kLine = 64;
 
 template <int N, class T>
