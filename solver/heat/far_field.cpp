@@ -31,7 +31,9 @@ FarField::FarField(const LinearSystem& system, const Components& components,
 Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range& of_columns,
                               const Progress& progress) {
   columns_.assign(columns.begin(), columns.end());
-  Far far = below(components_.count == 1 ? of_columns : range(), {});
+  const auto all = static_cast<Columns>((1U << columns.size()) - 1);
+  const std::vector<std::int64_t> rows(columns.size(), std::int64_t{field_.u.rows()} + 1);
+  Far far = keep(below(components_.count == 1 ? of_columns : range(), {}), all, rows);
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);

@@ -16,9 +16,8 @@ using Slab = Group<kSlab>;
 /// One right side: the rows of a tile are the vector dimension. The last rows are read together
 /// with what follows them: into lanes that are never looked at (forward), or times zero (backward).
 
-/// Bytes ahead of the numbers in use that are asked for: panels are short, and the processor
-/// guesses their ends badly (a quarter
-/// of the time at a million faces).
+/// Bytes ahead of the numbers in use that are asked for, into the second cache: panels are short,
+/// and the processor guesses their ends badly (a quarter of the time at a million faces).
 constexpr std::ptrdiff_t kAhead = 6144;
 constexpr std::size_t kLine = 64;
 

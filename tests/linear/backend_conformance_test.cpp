@@ -74,6 +74,25 @@ TEST_P(Conformance, SolvesWithHeldRows) {
   }
 }
 
+TEST_P(Conformance, SolvesForSomeRowsAlone) {
+  const auto matrix = heat();
+  const auto factor = factored(*surface.analysis, matrix);
+  const std::vector<Index> support = some_rows(3), rows = some_rows(5);
+  std::vector<char> wanted(static_cast<std::size_t>(n), 0);
+  for (const Index row : rows) wanted[row] = 1;
+  for (const Index columns : {1, 3}) {
+    Block b = Block::Zero(n, columns);
+    for (const Index row : support) b.row(row).setConstant(row + 1);
+    const Block expected = solved(*factor, b);
+    ASSERT_TRUE(factor->solve_where(b, support, wanted, {}, 2));
+    for (const Index row : rows) {
+      for (Index c = 0; c < columns; ++c) {
+        EXPECT_NEAR(b(row, c), expected(row, c), kRoundOff * expected.norm());
+      }
+    }
+  }
+}
+
 TEST_P(Conformance, OneAnalysisServesSeveralMatrices) {
   const auto first = heat(1), second = heat(25);
   const auto factor1 = factored(*surface.analysis, first);
