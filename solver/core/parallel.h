@@ -63,10 +63,11 @@ inline int piece_count(int threads, std::int64_t count, std::int64_t grain) {
 }
 
 /// Calls work(k) for all k in [0, count), 0 on this thread and the others each on one of its own,
-/// the crew's where this thread has one; what threads the system does not have is done here
-/// afterwards. `work` must not throw. Throws std::bad_alloc.
+/// the crew's where this thread has one; what is left without a thread is done here afterwards.
+/// `work` must not throw. Throws std::bad_alloc.
 template <class Work>
 void run_on_threads(int count, Work&& work) {
+  if (count <= 1) return work(0);
   const auto call = [](void* context, int k) {
     (*static_cast<std::remove_reference_t<Work>*>(context))(k);
   };

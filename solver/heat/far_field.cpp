@@ -2,8 +2,10 @@
 #include "solver/heat/far_field.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <mutex>
 
 namespace geotherm {
@@ -13,6 +15,8 @@ namespace {
 constexpr int kMostLevels = 255;
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
+/// More of them than this, and what a thread would note of each is too much to have it twice.
+constexpr Index kManyComponents = 10'000;
 /// Ranges of faces that are.
 constexpr std::int64_t kRangesOfThread = 4;
 
@@ -26,6 +30,7 @@ FarField::FarField(const LinearSystem& system, const Components& components,
       reached_(reached),
       floor_(floor),
       work_(work),
+      passes_{work.pool, components.count > kManyComponents ? 1 : work.threads},
       field_(field) {}
 
 Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range& of_columns,
@@ -50,7 +55,7 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range
     const Columns goes_on = heated(far.rows, right);  // the others are cut off by held vertices
     if (goes_on == 0) return {};
     const Range range = take(far.rows, goes_on, level, right);
-    work_.pool.give(std::move(right));
+    if (right.cols() == field_.u.cols()) work_.pool.give(std::move(right));  // else of no more use
     far = keep(below(range, far.rows), goes_on, far.count);
   }
   return {};
@@ -60,7 +65,7 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range
 FarField::Range FarField::range() const {
   Range all(components_.count, std::ssize(columns_));
   std::mutex mutex;
-  work_.for_rows(field_.u.rows(), all.largest.cols(), [&](std::int64_t begin, std::int64_t end) {
+  passes_.for_rows(field_.u.rows(), all.largest.cols(), [&](std::int64_t begin, std::int64_t end) {
     Range here(components_.count, std::ssize(columns_));
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       for (Eigen::Index k = 0; k < here.largest.cols(); ++k) {
@@ -90,7 +95,7 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
   Far far{Rows(static_cast<std::size_t>(field_.u.rows())), {}};
   far.count.resize(columns_.size());
   std::mutex mutex;
-  work_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
+  passes_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
     std::vector<std::int64_t> count(columns_.size());
     const Eigen::Index* const column = columns_.data();
     const bool whole = components_.count == 1;
@@ -166,7 +171,8 @@ FarField::Rows FarField::layer_around(const Rows& far) const {
 }
 
 /// What the heat on the far entries and on the layer of vertices that touch them asks of all
-/// others, over the floor: the right side whose answer goes on from there. Gives its rows.
+/// others, over the floor: the right side whose answer goes on from there. Gives its rows, none
+/// where it is 0.
 std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
   const Rows layer = layer_around(far);
@@ -181,6 +187,7 @@ std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const
   for (Index i = 0; i < static_cast<Index>(beside.size()); ++i) {
     if (beside[i] != 0) asked.push_back(i);
   }
+  std::atomic<bool> flows = false;
   parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {
@@ -192,20 +199,24 @@ std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const
                    for (some &= ~unsigned{far[i]}; some != 0; some &= some - 1) {
                      const int k = std::countr_zero(some);
                      const double out = outflow(i, k, level, far, layer);
-                     if (std::isfinite(out)) right(i, k) = out / floor_;
+                     if (out == 0 || !std::isfinite(out)) continue;
+                     right(i, k) = out / floor_;
+                     flows = true;
                    }
                  }
                });
+  if (!flows) asked.clear();  // held vertices cut all of it off
   return asked;
 }
 
 /// (M u)_i of one column, u restricted to these entries and at the scale of this level.
 double FarField::outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const {
   const Eigen::Index column = columns_[static_cast<std::size_t>(k)];
-  return system_.matrix().product_at(i, [&](Index j) {
+  const auto value = [&](Index j) {
     if (((far[j] | layer[j]) >> k & 1) == 0) return 0.0;
     return field_.u(j, column) * (level_of(j, column) == level ? 1.0 : 1.0 / field_.step);
-  });
+  };
+  return system_.matrix().product_at(i, std::cref(value));  // no copy on the heap
 }
 
 /// Columns whose far entries got any heat.
@@ -225,22 +236,23 @@ FarField::Range FarField::take(const Rows& far, Columns which, int level, const 
   if (field_.level.empty()) field_.level.assign(static_cast<std::size_t>(field_.u.size()), 0);
   Range all(components_.count, std::ssize(columns_));
   std::mutex mutex;
-  work_.for_rows(field_.u.rows(), std::ssize(columns_), [&](std::int64_t begin, std::int64_t end) {
-    Range here(components_.count, std::ssize(columns_));
-    for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      const std::int64_t row = i * static_cast<std::int64_t>(field_.u.cols());
-      for (unsigned some = far[i] & which; some != 0; some &= some - 1) {
-        const int k = std::countr_zero(some);
-        const std::int64_t entry = row + columns_[static_cast<std::size_t>(k)];
-        const double u = right(i, k);
-        field_.u.data()[entry] = u;
-        field_.level[static_cast<std::size_t>(entry)] = static_cast<std::uint8_t>(level);
-        here.take(components_.of[i], k, std::abs(u));
-      }
-    }
-    const std::lock_guard lock(mutex);
-    all.take(here);
-  });
+  passes_.for_rows(
+      field_.u.rows(), std::ssize(columns_), [&](std::int64_t begin, std::int64_t end) {
+        Range here(components_.count, std::ssize(columns_));
+        for (auto i = static_cast<Index>(begin); i < end; ++i) {
+          const std::int64_t row = i * static_cast<std::int64_t>(field_.u.cols());
+          for (unsigned some = far[i] & which; some != 0; some &= some - 1) {
+            const int k = std::countr_zero(some);
+            const std::int64_t entry = row + columns_[static_cast<std::size_t>(k)];
+            const double u = right(i, k);
+            field_.u.data()[entry] = u;
+            field_.level[static_cast<std::size_t>(entry)] = static_cast<std::uint8_t>(level);
+            here.take(components_.of[i], k, std::abs(u));
+          }
+        }
+        const std::lock_guard lock(mutex);
+        all.take(here);
+      });
   return all;
 }
 

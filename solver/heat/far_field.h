@@ -76,6 +76,7 @@ class FarField {
   const std::vector<std::vector<char>>& reached_;
   const double floor_;
   const Workspace& work_;
+  const Workspace passes_;  ///< for what notes something of each component in each thread
   HeatField& field_;
   std::vector<Eigen::Index> columns_;
 };

@@ -57,34 +57,37 @@ class Scatter {
     }
   }
 
-  /// One column is cut among threads by its vertices, several are by columns, which each grow at
-  /// their ends: no memory is cleared before it is written.
+  /// Columns are cut among threads by cache lines of them, and grow at their ends: no memory is
+  /// cleared before it is written. Where threads are more than that, they are cut by vertices.
   void run(int threads) {
     const std::int64_t count = std::ssize(surface_.row_of_vertex);
-    if (columns_ == 1) {
-      std::vector<double>& out = results_[0].distances;
-      make_room(out, count);
-      out.resize(static_cast<std::size_t>(count));
-      parallel_for(threads, count, kVerticesOfThread, [&](std::int64_t begin, std::int64_t end) {
-        double* to = out.data() + begin;
-        write<1>(0, begin, end, [&](Eigen::Index, const double* values, std::int64_t size) {
-          to = std::copy_n(values, size, to);
-        });
+    for (DistanceResult& result : results_) {
+      result.distances.clear();
+      result.distances.reserve(static_cast<std::size_t>(count));
+      prefer_large_pages(result.distances.data(), static_cast<std::size_t>(count) * sizeof(double));
+    }
+    threads = piece_count(threads, count * columns_, kVerticesOfThread);
+    if (threads <= columns_ / kAtOnce) {
+      parallel_for(threads, columns_ / kAtOnce, 1, [&](std::int64_t begin, std::int64_t end) {
+        const auto append = [this](Eigen::Index c, std::int64_t, const double* values,
+                                   std::int64_t size) {
+          std::vector<double>& out = results_[static_cast<std::size_t>(c)].distances;
+          out.insert(out.end(), values, values + size);
+        };
+        const bool last = end == columns_ / kAtOnce;
+        write_columns(begin * kAtOnce, last ? columns_ : end * kAtOnce, 0, count, append);
       });
       return;
     }
-    for (DistanceResult& result : results_) result.distances.clear();
-    const auto append = [this](Eigen::Index c, const double* values, std::int64_t size) {
-      std::vector<double>& out = results_[static_cast<std::size_t>(c)].distances;
-      out.insert(out.end(), values, values + size);
-    };
-    const int most = count * columns_ < kVerticesOfThread ? 1 : threads;
-    parallel_for(most, columns_, 1, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t c = begin; c < end; ++c) {
-        make_room(results_[static_cast<std::size_t>(c)].distances, count);
-      }
-      for (; begin + kAtOnce <= end; begin += kAtOnce) write<kAtOnce>(begin, 0, count, append);
-      for (; begin < end; ++begin) write<1>(begin, 0, count, append);
+    for (DistanceResult& result : results_) {
+      result.distances.resize(static_cast<std::size_t>(count));
+    }
+    parallel_for(threads, count, 1, [&](std::int64_t begin, std::int64_t end) {
+      const auto put = [this](Eigen::Index c, std::int64_t first, const double* values,
+                              std::int64_t size) {
+        std::copy_n(values, size, results_[static_cast<std::size_t>(c)].distances.data() + first);
+      };
+      write_columns(0, columns_, begin, end, put);
     });
   }
 
@@ -104,11 +107,6 @@ class Scatter {
   }
 
  private:
-  static void make_room(std::vector<double>& out, std::int64_t count) {
-    out.reserve(static_cast<std::size_t>(count));
-    prefer_large_pages(out.data(), static_cast<std::size_t>(count) * sizeof(double));
-  }
-
   static constexpr int kAtOnce = 8;  ///< columns: a cache line
   /// Vertices whose distances are gathered before they are written: columns may lie at the same
   /// places of their pages, where a cache holds few of them side by side.
@@ -130,7 +128,15 @@ class Scatter {
     return end;
   }
 
-  /// Calls sink(column, values, count) for columns from `first` on, by pieces of the vertices.
+  template <class Sink>
+  void write_columns(Eigen::Index first, Eigen::Index end_column, std::int64_t begin,
+                     std::int64_t end, const Sink& sink) {
+    for (; first + kAtOnce <= end_column; first += kAtOnce) write<kAtOnce>(first, begin, end, sink);
+    for (; first < end_column; ++first) write<1>(first, begin, end, sink);
+  }
+
+  /// Calls sink(column, first vertex, values, count) for columns from `first` on, by pieces of the
+  /// vertices.
   template <int K, class Sink>
   void write(Eigen::Index first, std::int64_t begin, std::int64_t end, const Sink& sink) {
     const auto& component = surface_.operators->components.of;
@@ -154,15 +160,16 @@ class Scatter {
         const double* const add = add_.data() + (whole ? 0 : component[row]) * columns_ + first;
         for (int c = 0; c < K; ++c) {
           const double distance = phi[c] + add[c];
-          tile[c][v - begin] = (distance > 0 ? distance : 0.0) * unit_;
-          if (add[c] == kUnreached) continue;
+          const bool reached = add[c] < kUnreached;
+          tile[c][v - begin] = reached ? (distance > 0 ? distance : 0.0) * unit_ : kUnreached;
+          if (!reached) continue;
           finite = finite && std::abs(distance) * unit_ < kUnreached;
           most[c] = distance > most[c] ? distance : most[c];
           least[c] = distance < least[c] ? distance : least[c];
         }
       }
       if (!finite && bad == end) bad = first_bad<K>(first, begin, next);
-      for (int c = 0; c < K; ++c) sink(first + c, tile[c], next - begin);
+      for (int c = 0; c < K; ++c) sink(first + c, begin, tile[c], next - begin);
     }
     const std::lock_guard lock(mutex_);
     if (bad < end && (bad_ == kNoIndex || bad < bad_)) bad_ = static_cast<Index>(bad);

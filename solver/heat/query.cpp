@@ -20,7 +20,7 @@
 namespace geotherm {
 namespace {
 
-/// Source sets solved together. Eight fill the widest registers; more would leave threads idle.
+/// Source sets solved together: two of the widest registers; the factor is read once for all.
 constexpr std::size_t kSetsAtOnce = 16;
 
 /// What an iterative query has behind it after the heat step and after the Poisson step.
@@ -208,7 +208,7 @@ class GroupRunner {
 
  private:
   void work() {
-    const ThreadCrew crew(threads_of_group_);
+    ThreadCrew crew(threads_of_group_);
     for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
       const auto count = static_cast<double>(groups_.size());
       const Progress part =

@@ -65,7 +65,7 @@ void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int thread
   TaskQueue queue(tree.tasks, direction);
   SharedFailure failure;
   const auto most = std::min<std::size_t>(static_cast<std::size_t>(threads), tree.tasks.size());
-  run_on_threads(std::max(1, static_cast<int>(most)), [&](int) noexcept {
+  run_on_threads(static_cast<int>(most), [&](int) noexcept {
     try {
       const FlushDenormals flush;
       auto worker = make_worker();

@@ -7,7 +7,7 @@ inline void widen(const float* from, Register& to) {
   typedef float Narrow __attribute__((vector_size(4 * kLanes)));
   Narrow narrow;
   __builtin_memcpy(&narrow, from, sizeof narrow);
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
   constexpr int kCurrentRounding = 4;  // as _mm512_cvtps_pd() has it; vectors convert by halves
   to = __builtin_ia32_cvtps2pd512_mask(narrow, Register{}, -1, kCurrentRounding);
 #else
@@ -20,7 +20,7 @@ inline void widen(const UpperHalf* from, Register& to) {
   typedef std::uint64_t Whole __attribute__((vector_size(8 * kLanes)));
   Half half;
   __builtin_memcpy(&half, from, sizeof half);
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) && !defined(__clang__)
   typedef int Signed __attribute__((vector_size(4 * kLanes)));
   typedef long long SignedWhole __attribute__((vector_size(8 * kLanes)));
   const Whole whole = reinterpret_cast<Whole>(__builtin_ia32_pmovzxdq512_mask(

@@ -30,7 +30,7 @@ std::set<std::thread::id> threads_of_passes(int passes, int pieces) {
 }
 
 TEST(ThreadCrew, ServesOnePassAfterAnother) {
-  const ThreadCrew crew(3);
+  ThreadCrew crew(3);
   const auto ids = threads_of_passes(50, 3);
   EXPECT_EQ(ids.size(), 3U);  // new threads might have old names, but not all fifty times
   EXPECT_EQ(threads_of_passes(50, 3), ids);
@@ -38,7 +38,7 @@ TEST(ThreadCrew, ServesOnePassAfterAnother) {
 }
 
 TEST(ThreadCrew, VisitsEveryPieceOnceWhateverTheirNumber) {
-  const ThreadCrew crew(3);
+  ThreadCrew crew(3);
   for (const int pieces : {2, 3, 9}) {
     std::vector<std::atomic<int>> visits(1000);
     for (int pass = 0; pass < 20; ++pass) {
@@ -51,14 +51,14 @@ TEST(ThreadCrew, VisitsEveryPieceOnceWhateverTheirNumber) {
 }
 
 TEST(ThreadCrew, WakesFromItsSleep) {
-  const ThreadCrew crew(2);
+  ThreadCrew crew(2);
   const auto ids = threads_of_passes(1, 2);
   std::this_thread::sleep_for(std::chrono::milliseconds(20));  // hundreds of times its patience
   EXPECT_EQ(threads_of_passes(1, 2), ids);
 }
 
 TEST(ThreadCrew, LeavesAPassWithinAPassToOtherThreads) {
-  const ThreadCrew crew(2);
+  ThreadCrew crew(2);
   std::atomic<int> visits = 0;
   parallel_for(2, 2, 1, [&](std::int64_t, std::int64_t) {
     parallel_for(2, 100, 1, [&](std::int64_t begin, std::int64_t end) {
@@ -69,7 +69,7 @@ TEST(ThreadCrew, LeavesAPassWithinAPassToOtherThreads) {
 }
 
 TEST(ThreadCrew, OutlivesFailures) {
-  const ThreadCrew crew(2);
+  ThreadCrew crew(2);
   for (int pass = 0; pass < 3; ++pass) {
     EXPECT_THROW(
         parallel_for(2, 100, 1,
@@ -82,12 +82,22 @@ TEST(ThreadCrew, OutlivesFailures) {
 TEST(ThreadCrew, WithoutHelpersIsTheCaller) {
   const NoThreads none;
   if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
-  const ThreadCrew crew(3);
+  ThreadCrew crew(3);
   EXPECT_EQ(threads_of_passes(2, 3), std::set{std::this_thread::get_id()});
 }
 
+TEST(ThreadCrew, GrowsWithItsPasses) {
+  ThreadCrew crew(4);
+  const auto two = threads_of_passes(3, 2);
+  const auto four = threads_of_passes(3, 4);
+  EXPECT_EQ(two.size(), 2U);
+  EXPECT_EQ(four.size(), 4U);
+  EXPECT_EQ(threads_of_passes(3, 2), two);
+  for (const std::thread::id id : two) EXPECT_TRUE(four.contains(id));
+}
+
 TEST(ThreadCrew, ServesTheThreadThatMadeItAlone) {
-  const ThreadCrew crew(2);
+  ThreadCrew crew(2);
   const auto ids = threads_of_passes(5, 2);
   std::set<std::thread::id> others;
   std::jthread([&] { others = threads_of_passes(1, 2); }).join();
@@ -95,10 +105,10 @@ TEST(ThreadCrew, ServesTheThreadThatMadeItAlone) {
 }
 
 TEST(ThreadCrew, EndsWithAnInnerOneInItsPlace) {
-  const ThreadCrew outer(2);
+  ThreadCrew outer(2);
   const auto ids = threads_of_passes(1, 2);
   {
-    const ThreadCrew inner(2);
+    ThreadCrew inner(2);
     EXPECT_NE(threads_of_passes(1, 2), ids);
   }
   EXPECT_EQ(threads_of_passes(1, 2), ids);

@@ -49,6 +49,29 @@ TEST_P(FarField, KeepsDirectionsThroughSeveralColumns) {
   EXPECT_LE(relative_difference(turned, left), kDirect);
 }
 
+TEST_P(FarField, OfABlockIsThatOfEachColumn) {
+  // Two strips: columns end at different levels, in one strip, in the other or in both.
+  const Index length = 2000, shorter = 700;
+  Draft draft = plane_grid(length, 2, length, 2);
+  const Index second = static_cast<Index>(draft.positions.size());
+  append(draft, plane_grid(shorter, 2, shorter, 2));
+  const HeatMethod method = method_of(finish(draft), with_backend(GetParam()));
+  const Index start = grid_vertex(length, 0, 1), middle = grid_vertex(length, length / 2, 1);
+  const Index other = second + grid_vertex(shorter, 3, 1);
+  std::vector<SourceSet> sets;
+  for (const auto& sources : std::vector<std::vector<Index>>{
+           {middle}, {start}, {other}, {start, other}, {start, middle, other}}) {
+    sets.push_back(SourceSet::of_vertices(sources));
+  }
+  const auto together = method.solve_each(sets);
+  ASSERT_TRUE(together) << together.error().message;
+  for (std::size_t c = 0; c < sets.size(); ++c) {
+    const DistanceResult alone = solve(method, sets[c]);
+    EXPECT_EQ(alone.quality.zero_gradient_faces, 0) << c;
+    EXPECT_LE(relative_difference((*together)[c].distances, alone.distances), kDirect) << c;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, FarField, testing::ValuesIn(direct_backends()),
                          backend_test_name);
 
