@@ -92,6 +92,7 @@ Result<Rates> measure_rates(std::shared_ptr<const TriangleMesh> mesh, const std:
   if (operations > 0) rates.factor_gflops = operations / *factor_ms * 1e-6;
   if (stats.bytes <= 0) return rates;
   const Block b = Block::Ones(operators->size(), 1);
+  ThreadCrew crew(threads);  // as in a query
   const auto solve_ms =
       least_time(milliseconds, [&] { return solve(**poisson.factor, b, threads); });
   if (!solve_ms) return solve_ms.error();

@@ -19,9 +19,9 @@ struct HeatField {
 };
 
 /// How far below a column's largest entry its entries can be trusted: far down for a direct
-/// solver, which keeps relative accuracy entry by entry on these matrices; not so for an iterative
-/// one, which converges in norm.
-inline constexpr double kDirectFloor = 1e-280;
+/// solver, which keeps relative accuracy entry by entry on these matrices, but for terms that have
+/// underflowed, 2e-308; not so for an iterative one, which converges in norm.
+inline constexpr double kDirectFloor = 1e-295;
 inline constexpr double kIterativeFloor = 1e-7;
 
 /// Diffuses: solves M u = b (b n x K, its nonzero rows listed in `support`) so that every entry in

@@ -2,10 +2,11 @@
 // For field_kernels.inl, which includes it inside its namespace: X of faces and its divergence, a
 // lane of the registers each.
 
-/// Differences and squares outside this range go the careful way: what has underflowed has no
-/// direction left.
+/// Squares outside this range and smaller differences go the careful way: what has underflowed has
+/// no direction left.
 constexpr double kSafeLow = 1e-280;
 constexpr double kSafeHigh = 1e280;
+constexpr double kSmallest = 1e-300;
 
 /// 1 / sqrt(x) to a few units of the last digit, for 1e-290 < x < 1e290, in a quarter of the time
 /// that a square root and a division take: a guess from halving the exponent (3.5 % off, Lomont
@@ -59,7 +60,7 @@ inline Given unit_divergence(const Shape& s, Register u0, Register du1, Register
   const Register half = -0.5 * inverse_root(square);
   const Register fx = gx * half;
   const Register fy = gy * half;
-  const Register same = kSafeLow + kEquallyWarm * size_of(u0);
+  const Register same = kSmallest + kEquallyWarm * size_of(u0);
   return {s.height * fx - s.x * fy, s.base * fy,
           reinterpret_cast<Bits>((largest <= same) | (largest != largest)) | unsafe(square)};
 }

@@ -11,7 +11,7 @@
 namespace geotherm {
 namespace {
 
-/// More levels than this many floors: 255 * 280 decades for direct solvers.
+/// More levels than this many floors: 255 * 295 decades for direct solvers.
 constexpr int kMostLevels = 255;
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
@@ -99,13 +99,14 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
     std::vector<std::int64_t> count(columns_.size());
     const Eigen::Index* const column = columns_.data();
     const bool whole = components_.count == 1;
+    const bool every = columns == field_.u.cols();  // as a rule
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       if (!candidates.empty() && candidates[i] == 0) continue;
       const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
       const double* const floors = least.data() + (whole ? 0 : components_.of[i]) * columns;
       unsigned small = 0;
       for (Eigen::Index k = 0; k < columns; ++k) {
-        small |= static_cast<unsigned>(std::abs(u[column[k]]) < floors[k]) << k;
+        small |= static_cast<unsigned>(std::abs(u[every ? k : column[k]]) < floors[k]) << k;
       }
       if (!candidates.empty()) small &= candidates[i];
       if (small == 0 || system_.matrix().is_held(i)) continue;
