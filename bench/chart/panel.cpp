@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/chart/log_axis.h"
 #include "bench/chart/svg.h"
@@ -87,27 +88,26 @@ void spread(std::vector<Label>& labels, const Box& box) {
   }
 }
 
-/// Lines that end at the right have their labels in one column; others beside their end.
+/// Lines that end at the right have their labels in one column; others beside their end, in a
+/// column with those that end there, too.
 std::string end_labels(const Panel& panel, const Axes& axes, const Box& box) {
-  std::vector<Label> column;
-  std::string out;
-  const auto draw = [&](const Label& label) {
-    out += svg::group(label.series->kind,
-                      svg::text(label.x, label.y + 4, "start", "end", label.series->end_label));
-  };
+  std::map<double, std::vector<Label>> columns;
   const double right = box.x + box.width;
   for (const PanelSeries& series : panel.series) {
     const auto last = std::find_if(series.joined.rbegin(), series.joined.rend(), has_place);
     if (last == series.joined.rend() || series.end_label.empty()) continue;
     const double x = axes.x.at(last->x), y = axes.y.at(last->y);
-    if (x > right - 0.1 * box.width) {
-      column.push_back({&series, right + kGap, y, y});
-    } else {
-      draw({&series, x + kGap, y - 2, y});
+    const double at = (x > right - 0.1 * box.width ? right : x) + kGap;
+    columns[at].push_back({&series, at, y, y});
+  }
+  std::string out;
+  for (auto& [x, column] : columns) {
+    spread(column, box);
+    for (const Label& label : column) {
+      out += svg::group(label.series->kind,
+                        svg::text(label.x, label.y + 4, "start", "end", label.series->end_label));
     }
   }
-  spread(column, box);
-  for (const Label& label : column) draw(label);
   return out;
 }
 

@@ -159,7 +159,9 @@ TEST(PerformanceChart, NamesOfAnyKindAreEscaped) {
   expect_places_on_page(elements_of(performance_chart(run)));
 }
 
-TEST(Panel, LabelsOfLinesThatEndTogetherStandApart) {
+class Panel : public testing::TestWithParam<double> {};
+
+TEST_P(Panel, LabelsOfLinesThatEndTogetherStandApart) {
   bench::Panel panel{"title",
                      "x",
                      [](double) { return std::string("1"); },
@@ -167,7 +169,7 @@ TEST(Panel, LabelsOfLinesThatEndTogetherStandApart) {
                      {}};
   for (int k = 0; k < 6; ++k) {
     bench::PanelSeries series{.kind = "k" + std::to_string(k)};
-    series.joined = {{1e4, 10.0 + k}, {1e6, 1000 + 0.1 * k}};
+    series.joined = {{1e4, 10.0 + k}, {GetParam(), 1000 + 0.1 * k}};
     series.end_label = "label";
     panel.series.push_back(series);
   }
@@ -189,6 +191,9 @@ TEST(Panel, LabelsOfLinesThatEndTogetherStandApart) {
     EXPECT_GE(heights[i] - heights[i - 1], kLetters);
   }
 }
+
+// At the right border, and half way there.
+INSTANTIATE_TEST_SUITE_P(Ends, Panel, testing::Values(1e6, 1e5));
 
 }  // namespace
 }  // namespace geotherm::test
