@@ -15,10 +15,10 @@ namespace {
 constexpr int kMostLevels = 255;
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
-/// More of them than this, and what a thread would note of each is too much to have it twice.
-constexpr Index kManyComponents = 10'000;
 /// Ranges of faces that are.
 constexpr std::int64_t kRangesOfThread = 4;
+/// Components from which on what a thread notes of each is too much to have it several times.
+constexpr Index kManyComponents = 10'000;
 
 }  // namespace
 
