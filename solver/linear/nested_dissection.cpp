@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "solver/linear/nested_dissection.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdint>
 #include <numeric>
 
 #include "solver/core/parallel.h"
@@ -16,16 +16,28 @@ namespace {
 /// Parts of fewer vertices are ordered by one thread, in less time than it takes to begin another.
 constexpr Index kWorthAThread = 2000;
 
-void order_small(const GraphPart& part, std::span<Index> out) {
-  std::array<std::uint64_t, kSmallGraph> adjacency{};
-  std::array<Index, kSmallGraph> local{};
+/// Neighbours outside of the part are its halo, the first 64 of them: most parts have fewer.
+void order_small(const SymmetricPattern& whole, const GraphPart& part, std::span<Index> out) {
+  std::array<NeighborMask, kSmallGraph> neighbors{};
+  std::array<Index, kSmallGraph> halo{}, local{};
+  std::size_t halo_size = 0;
   const auto n = static_cast<std::size_t>(part.size());
   for (std::size_t i = 0; i < n; ++i) {
-    for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
-      adjacency[i] |= 1ULL << part.neighbor[k];
+    Index k = part.start[i];
+    for (const Index j : whole.neighbors(part.vertex[i])) {
+      // Both lists ascend.
+      if (k < part.start[i + 1] && part.vertex[part.neighbor[k]] == j) {
+        neighbors[i].inner |= 1ULL << part.neighbor[k++];
+        continue;
+      }
+      const auto end = halo.begin() + halo_size;
+      const auto at = std::find(halo.begin(), end, j);
+      if (at == halo.end()) continue;
+      if (at == end) halo[halo_size++] = j;
+      neighbors[i].halo |= 1ULL << (at - halo.begin());
     }
   }
-  minimum_degree_order({adjacency.data(), n}, {local.data(), n});
+  minimum_degree_order({neighbors.data(), n}, {local.data(), n});
   for (std::size_t i = 0; i < n; ++i) out[i] = part.vertex[local[i]];
 }
 
@@ -73,9 +85,9 @@ std::array<GraphPart, 2> cut(const GraphPart& part, const Separator& separator,
   return halves;
 }
 
-void order_part(GraphPart part, std::span<Index> out, int threads) {
+void order_part(const SymmetricPattern& whole, GraphPart part, std::span<Index> out, int threads) {
   if (part.size() <= kSmallGraph) {
-    order_small(part, out);
+    order_small(whole, part, out);
     return;
   }
   const Separator separator = find_separator(part, threads);
@@ -90,8 +102,10 @@ void order_part(GraphPart part, std::span<Index> out, int threads) {
   const auto right = static_cast<std::size_t>(separator.count[kRight]);
   run_both(
       left + right >= kWorthAThread ? threads : 1,
-      [&] { order_part(std::move(halves[0]), out.subspan(0, left), threads / 2); },
-      [&] { order_part(std::move(halves[1]), out.subspan(left, right), threads - threads / 2); });
+      [&] { order_part(whole, std::move(halves[0]), out.subspan(0, left), threads / 2); },
+      [&] {
+        order_part(whole, std::move(halves[1]), out.subspan(left, right), threads - threads / 2);
+      });
 }
 
 }  // namespace
@@ -121,7 +135,7 @@ std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
                          static_cast<float>(p.z())};
   }
   std::vector<Index> order(n);
-  order_part(std::move(whole), order, threads);
+  order_part(pattern, std::move(whole), order, threads);
   return order;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "solver/core/types.h"
@@ -28,9 +29,33 @@ struct Separator {
   std::array<Index, 3> count{};   ///< by Half
 };
 
-/// Cuts a part by the plane of smallest separator among the three axes, keeping a quarter of the
-/// vertices on each side at least, and refines the cut. One half may come out empty (a clique).
-/// The result does not depend on `threads`.
+/// Calls body(i) for all vertices of the separator, ascending; it may move them.
+template <class Body>
+void for_each_of_separator(const Separator& separator, Body&& body) {
+  const std::int8_t* const begin = separator.half.data();
+  const std::int8_t* const end = begin + separator.half.size();
+  const std::int8_t* at = begin;
+  while (at != end) {
+    at = static_cast<const std::int8_t*>(std::memchr(
+        at, kSeparator, static_cast<std::size_t>(end - at)));  // few: found by registers
+    if (at == nullptr) return;
+    body(static_cast<Index>(at - begin));
+    ++at;
+  }
+}
+
+/// Each half keeps at least this share of the vertices.
+inline constexpr double kSmallestShare = 0.25;
+
+/// What unequal halves cost, as a factor of the separator's size: measured, to store least.
+inline double imbalance(Index on_left, Index size) {
+  const double off = static_cast<double>(on_left) / size - 0.5;
+  return 1 + 4 * off * off;
+}
+
+/// Cuts a part in two: refines the separators of the best planes (plane_cuts()), or of half a
+/// breadth-first search where many vertices are in one place, and takes the cheapest. One half may
+/// come out empty (a clique). The result does not depend on `threads`.
 Separator find_separator(const GraphPart& part, int threads = 1);
 
 /// One pass of vertex moves into either half, best first, kept up to the smallest separator seen
