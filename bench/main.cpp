@@ -15,6 +15,7 @@
 #include "bench/machine_limits.h"
 #include "bench/report.h"
 #include "bench/solve_bench.h"
+#include "solver/core/keep_freed_memory.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/backend.h"
 #include "solver/mesh/write_file.h"
@@ -168,6 +169,7 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    geotherm::keep_freed_memory();
     return geotherm::bench::run_command_line(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "geotherm_bench: error: %s\n", error.what());

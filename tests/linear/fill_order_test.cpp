@@ -96,13 +96,23 @@ TEST(FillOrder, DoesNotDependOnScaleOrPlace) {
 
 TEST(MinimumDegree, LeavesTheCentreOfAStarForTheEnd) {
   constexpr std::size_t kLeaves = kSmallGraph - 1;
-  std::vector<std::uint64_t> star(kSmallGraph, 1);
-  star[0] = ~1ULL;
+  std::vector<NeighborMask> star(kSmallGraph, NeighborMask{1, 0});
+  star[0] = {~1ULL, 0};
   std::vector<Index> order(kSmallGraph);
   minimum_degree_order(star, order);
   EXPECT_TRUE(is_permutation_of_all(order, kSmallGraph));
   // With one leaf left the centre has no higher degree than it.
   for (std::size_t k = 0; k + 1 < kLeaves; ++k) EXPECT_NE(order[k], 0);
+}
+
+TEST(MinimumDegree, CountsNeighboursInTheHalo) {
+  // A path 0 - 1 - 2 - 3 whose ends touch what is eliminated later: by the path alone, the ends go
+  // first. Beside four of the halo, the middle does; each takes over the halo of those before.
+  std::vector<NeighborMask> path = {
+      {0b0010, 0b1111}, {0b0101, 0}, {0b1010, 0}, {0b0100, 0b11110000}};
+  std::vector<Index> order(path.size());
+  minimum_degree_order(path, order);
+  EXPECT_EQ(order, (std::vector<Index>{1, 2, 0, 3}));
 }
 
 TEST(EliminationPath, HoldsAllAncestorsOnce) {

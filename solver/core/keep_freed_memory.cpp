@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "solver/core/keep_freed_memory.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace geotherm {
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargestBlock = 32 << 20;  // the most that glibc takes
+  constexpr int kMostKept = 512 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
+  mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
+}
+
+}  // namespace geotherm
