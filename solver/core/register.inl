@@ -15,13 +15,24 @@ typedef double Register __attribute__((vector_size(8 * kLanes)));
 typedef double LooseRegister __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 /// The bits of a register; of a comparison, all or none.
 typedef std::uint64_t Bits __attribute__((vector_size(8 * kLanes)));
+typedef long long SignedBits __attribute__((vector_size(8 * kLanes)));
 
 inline Register load(const double* from) { return *reinterpret_cast<const LooseRegister*>(from); }
 inline void store(Register value, double* to) { *reinterpret_cast<LooseRegister*>(to) = value; }
 inline Register all_lanes(double value) { return Register{} + value; }
 
-inline bool any(Bits bits) {
-  std::uint64_t all = 0;
-  for (int j = 0; j < kLanes; ++j) all |= bits[j];
-  return all != 0;
+/// Of a comparison: bit j is set where lane j holds.
+inline unsigned lane_mask(Bits bits) {
+#if defined(__AVX512DQ__) && !defined(__clang__)
+  return static_cast<unsigned char>(
+      __builtin_ia32_cvtq2mask512(reinterpret_cast<SignedBits>(bits)));
+#elif defined(__AVX2__) && !defined(__AVX512F__)
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256(reinterpret_cast<Register>(bits)));
+#elif defined(__SSE2__) && !defined(__AVX512F__)
+  return static_cast<unsigned>(__builtin_ia32_movmskpd(reinterpret_cast<Register>(bits)));
+#else
+  unsigned mask = 0;
+  for (int j = 0; j < kLanes; ++j) mask |= static_cast<unsigned>(bits[j] >> 63) << j;
+  return mask;
+#endif
 }

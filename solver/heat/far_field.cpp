@@ -2,11 +2,18 @@
 #include "solver/heat/far_field.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
+#include <utility>
+
+#include "solver/core/find_bytes.h"
+#include "solver/core/prefetch.h"
+#include "solver/heat/field_kernels.h"
 
 namespace geotherm {
 namespace {
@@ -17,8 +24,35 @@ constexpr int kMostLevels = 255;
 constexpr std::int64_t kRowsOfThread = 1000;
 /// Ranges of faces that are.
 constexpr std::int64_t kRangesOfThread = 4;
+/// Faces of which is asked together whether they are all far or all near.
+constexpr Index kFacesAtOnce = 8;
 /// Components from which on what a thread notes of each is too much to have it several times.
 constexpr Index kManyComponents = 10'000;
+
+/// How many rows have each bit set: all bits of a row are counted at once.
+class ColumnCounts {
+ public:
+  void add(std::uint16_t columns) {
+    for (std::size_t k = 0; k < kBits; ++k) {
+      short_[k] = static_cast<std::uint16_t>(short_[k] + ((columns & 1U << k) != 0 ? 1 : 0));
+    }
+    if (++added_ == std::numeric_limits<std::uint16_t>::max()) flush();
+  }
+  std::int64_t of(std::size_t column) {
+    flush();
+    return long_[column];
+  }
+
+ private:
+  static constexpr std::size_t kBits = kColumnsOfFarField;
+  void flush() {
+    for (std::size_t k = 0; k < kBits; ++k) long_[k] += std::exchange(short_[k], 0);
+    added_ = 0;
+  }
+  std::array<std::uint16_t, kBits> short_{};
+  std::array<std::int64_t, kBits> long_{};
+  std::uint16_t added_ = 0;
+};
 
 }  // namespace
 
@@ -96,27 +130,40 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
   far.count.resize(columns_.size());
   std::mutex mutex;
   passes_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<std::int64_t> count(columns_.size());
-    const Eigen::Index* const column = columns_.data();
-    const bool whole = components_.count == 1;
-    const bool every = columns == field_.u.cols();  // as a rule
+    mark_below(least, begin, end, far.rows);
+    ColumnCounts count;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
-      if (!candidates.empty() && candidates[i] == 0) continue;
-      const double* const u = field_.u.data() + std::int64_t{i} * field_.u.cols();
-      const double* const floors = least.data() + (whole ? 0 : components_.of[i]) * columns;
-      unsigned small = 0;
-      for (Eigen::Index k = 0; k < columns; ++k) {
-        small |= static_cast<unsigned>(std::abs(u[every ? k : column[k]]) < floors[k]) << k;
-      }
+      Columns small = far.rows[i];
+      if (small == 0) continue;
       if (!candidates.empty()) small &= candidates[i];
-      if (small == 0 || system_.matrix().is_held(i)) continue;
-      far.rows[i] = static_cast<Columns>(small);
-      for (; small != 0; small &= small - 1) ++count[std::countr_zero(small)];
+      if (system_.matrix().is_held(i)) small = 0;
+      far.rows[i] = small;
+      count.add(small);
     }
     const std::lock_guard lock(mutex);
-    for (std::size_t k = 0; k < count.size(); ++k) far.count[k] += count[k];
+    for (std::size_t k = 0; k < far.count.size(); ++k) far.count[k] += count.of(k);
   });
   return far;
+}
+
+/// Of rows begin to end, those entries of columns_ that are below these values of their component.
+void FarField::mark_below(const Block& least, std::int64_t begin, std::int64_t end,
+                          Rows& rows) const {
+  const auto columns = std::ssize(columns_);
+  const Eigen::Index stride = field_.u.cols();
+  if (components_.count == 1 && columns == stride) {  // as a rule
+    return mark_small(field_.u.data() + begin * stride, end - begin, static_cast<int>(columns),
+                      least.data(), rows.data() + begin);
+  }
+  for (std::int64_t i = begin; i < end; ++i) {
+    const double* const u = field_.u.data() + i * stride;
+    const double* const floors = least.data() + components_.of[i] * columns;
+    unsigned small = 0;
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      small |= unsigned{std::abs(u[columns_[k]]) < floors[k]} << k;
+    }
+    rows[i] = static_cast<Columns>(small);
+  }
 }
 
 /// Drops columns that are done, are not among these or have got no shorter; the others' bits move
@@ -141,33 +188,53 @@ FarField::Far FarField::keep(Far next, Columns which, const std::vector<std::int
   return next;
 }
 
-/// Entries that share a face with a far one and are not far. Of the faces within a range of rows
-/// only those are looked at where some of its rows are far and others are not.
-FarField::Rows FarField::layer_around(const Rows& far) const {
+/// Entries that share a face with a far one and are not far. Faces are only looked at one by one
+/// where rows are far beside others that are not.
+FarField::Layer FarField::layer_around(const Rows& far) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
-  Rows out(far.size());
-  const auto look = [&](Index first, Index end) {
-    for (Index f = first; f < end; ++f) {
-      const auto [a, b, c] = mesh.faces[f];
-      const auto some = static_cast<Columns>(far[a] | far[b] | far[c]);
-      if (some == static_cast<Columns>(far[a] & far[b] & far[c])) continue;  // as a rule
-      for (const Index i : mesh.faces[f]) out[i] |= static_cast<Columns>(some & ~far[i]);
+  Layer out{Rows(far.size()), {}};
+  const auto take = [&](const Face& face, std::vector<Index>& listed) {
+    const auto some = static_cast<Columns>(far[face[0]] | far[face[1]] | far[face[2]]);
+    for (const Index i : face) {
+      const auto near = static_cast<Columns>(some & ~far[i]);
+      if (near == 0) continue;
+      if (out.rows[i] == 0) listed.push_back(i);
+      out.rows[i] |= near;
     }
   };
+  const auto look = [&](Index first, Index end, std::vector<Index>& listed) {
+    for (Index f = first; f < end; f += kFacesAtOnce) {
+      const Index next = std::min(f + kFacesAtOnce, end);
+      unsigned some = 0, all = ~0U;
+      prefetch_ahead(mesh.faces.data() + f, kFacesAtOnce);
+      for (Index g = f; g < next; ++g) {
+        const auto [i, j, k] = mesh.faces[g];
+        const unsigned a = far[i], b = far[j], c = far[k];
+        some |= a | b | c;
+        all &= a & b & c;
+      }
+      if (some == all) continue;  // as a rule
+      for (Index g = f; g < next; ++g) take(mesh.faces[g], listed);
+    }
+  };
+  std::mutex mutex;
   // Faces of a range meet no rows of another's.
   parallel_for(work_.threads, std::ssize(mesh.ranges), kRangesOfThread,
                [&](std::int64_t begin, std::int64_t end) {
+                 std::vector<Index> listed;
                  for (; begin < end; ++begin) {
                    const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
-                   const auto rows = std::span(far).subspan(
-                       static_cast<std::size_t>(range.first_row),
-                       static_cast<std::size_t>(range.end_row - range.first_row));
-                   const bool mixed = std::ranges::any_of(
-                       rows, [&rows](Columns row) { return row != rows.front(); });
-                   if (mixed) look(range.first_face, range.end_face);
+                   unsigned some = 0, all = ~0U;
+                   for (Index i = range.first_row; i < range.end_row; ++i) {
+                     some |= far[i];
+                     all &= far[i];
+                   }
+                   if (some != all) look(range.first_face, range.end_face, listed);
                  }
+                 const std::lock_guard lock(mutex);
+                 out.listed.insert(out.listed.end(), listed.begin(), listed.end());
                });
-  look(mesh.crossing, mesh.face_count());
+  look(mesh.crossing, mesh.face_count(), out.listed);
   return out;
 }
 
@@ -176,18 +243,15 @@ FarField::Rows FarField::layer_around(const Rows& far) const {
 /// where it is 0.
 std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const {
   const OperatorMesh& mesh = system_.matrix().mesh();
-  const Rows layer = layer_around(far);
-  std::vector<char> beside(layer.size());
-  for (Index i = 0; i < static_cast<Index>(layer.size()); ++i) {
-    if (layer[i] == 0) continue;
+  const Layer layer = layer_around(far);
+  std::vector<char> beside(layer.rows.size());
+  for (const Index i : layer.listed) {
     for (const Index f : mesh.faces_at(i)) {
       for (const Index j : mesh.faces[f]) beside[j] = 1;
     }
   }
   std::vector<Index> asked;
-  for (Index i = 0; i < static_cast<Index>(beside.size()); ++i) {
-    if (beside[i] != 0) asked.push_back(i);
-  }
+  for_each_of(beside, char{1}, [&asked](Index i) { asked.push_back(i); });
   std::atomic<bool> flows = false;
   parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {
@@ -195,11 +259,11 @@ std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const
                    const Index i = asked[static_cast<std::size_t>(begin)];
                    unsigned some = 0;
                    for (const Index f : mesh.faces_at(i)) {
-                     for (const Index j : mesh.faces[f]) some |= layer[j];
+                     for (const Index j : mesh.faces[f]) some |= layer.rows[j];
                    }
                    for (some &= ~unsigned{far[i]}; some != 0; some &= some - 1) {
                      const int k = std::countr_zero(some);
-                     const double out = outflow(i, k, level, far, layer);
+                     const double out = outflow(i, k, level, far, layer.rows);
                      if (out == 0 || !std::isfinite(out)) continue;
                      right(i, k) = out / floor_;
                      flows = true;
@@ -223,13 +287,17 @@ double FarField::outflow(Index i, int k, int level, const Rows& far, const Rows&
 /// Columns whose far entries got any heat.
 FarField::Columns FarField::heated(const Rows& far, const Block& right) const {
   const unsigned all = (1U << columns_.size()) - 1;
-  unsigned found = 0;
-  for (std::size_t i = 0; i < far.size() && found != all; ++i) {
-    for (unsigned some = far[i] & ~found; some != 0; some &= some - 1) {
-      const int k = std::countr_zero(some);
-      if (std::abs(right(static_cast<Eigen::Index>(i), k)) > 0) found |= 1U << k;
+  std::atomic<unsigned> found = 0;
+  work_.for_rows(std::ssize(far), 1, [&](std::int64_t begin, std::int64_t end) {
+    unsigned seen = 0;
+    for (; begin < end && seen != all; ++begin) {
+      for (unsigned some = far[begin] & ~seen; some != 0; some &= some - 1) {
+        const int k = std::countr_zero(some);
+        if (std::abs(right(begin, k)) > 0) seen |= 1U << k;
+      }
     }
-  }
+    found |= seen;
+  });
   return static_cast<Columns>(found);
 }
 

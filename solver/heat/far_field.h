@@ -56,9 +56,15 @@ class FarField {
     Rows rows;
     std::vector<std::int64_t> count;
   };
+  /// Entries beside far ones.
+  struct Layer {
+    Rows rows;
+    std::vector<Index> listed;  ///< rows that have any, in any order
+  };
   Range range() const;
   Far below(const Range& range, const Rows& candidates) const;
-  Rows layer_around(const Rows& far) const;
+  void mark_below(const Block& least, std::int64_t begin, std::int64_t end, Rows& rows) const;
+  Layer layer_around(const Rows& far) const;
   std::vector<Index> ask(const Rows& far, int level, Block& right) const;
   double outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const;
   Columns heated(const Rows& far, const Block& right) const;

@@ -63,6 +63,11 @@ inline T field_length(T base, T x, T height, T nx, T ny, T size, T root_t, T inv
 void logarithms(const double* u, double* out, std::size_t count,
                 InstructionSet set = best_instruction_set());
 
+/// Bit k of masks[i]: |u| of row i, column k is below floors[k]; not where it is no number.
+/// u: rows x columns, 16 columns at most.
+void mark_small(const double* u, std::int64_t rows, int columns, const double* floors,
+                std::uint16_t* masks, InstructionSet set = best_instruction_set());
+
 /// Adds to b the integrated divergence of X = -grad u / |grad u| over the pass's faces, for a group
 /// of 1, 2, 4, 8 or 16 source sets.
 void add_unit_divergence(const FieldPass& pass, int group,

@@ -3,10 +3,12 @@
 // source set; with few sets several faces go side by side, so that registers are always full.
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 
+#include "solver/core/prefetch.h"
 #include "solver/heat/field_kernels.h"
 
 namespace geotherm {
@@ -19,6 +21,7 @@ namespace {
 #include "solver/core/register.inl"
 
 #include "solver/heat/face_lanes.inl"
+#include "solver/heat/small_values.inl"
 
 /// What the careful way gives.
 std::array<double, 3> divergence_of(const FieldPass& pass, Index f, int column) {
@@ -76,6 +79,8 @@ void run_wide(const FieldPass& pass) {
   const double inverse_root_t = 1 / pass.root_t;
   for (Index f = pass.first_face; f < pass.end_face; ++f) {
     if (f + kAhead < pass.end_face) ask_for<K>(pass, f + kAhead);
+    prefetch_ahead(pass.mesh->faces.data() + f, 1);
+    prefetch_ahead(pass.mesh->layout.data() + f, 1);
     const Face& face = pass.mesh->faces[f];
     const FaceLayout& p = pass.mesh->layout[f];
     Shape shape{all_lanes(p.base),      all_lanes(p.x),
@@ -89,7 +94,7 @@ void run_wide(const FieldPass& pass) {
       return load(values + face[k] * pass.stride + i * kLanes);
     };
     double d1[K], d2[K];
-    Bits careful[kRegisters], some{};
+    unsigned careful = 0;
     for (int i = 0; i < kRegisters; ++i) {
       const Register u0 = corner(pass.u, 0, i);
       Given given =
@@ -100,16 +105,14 @@ void run_wide(const FieldPass& pass) {
       }
       store(given.d1, d1 + i * kLanes);
       store(given.d2, d2 + i * kLanes);
-      careful[i] = given.careful;
-      some |= given.careful;
+      careful |= lane_mask(given.careful) << (i * kLanes);
     }
-    if (const bool mixed = has_mixed_levels<K>(pass, face); mixed || any(some)) {
-      for (int k = 0; k < K; ++k) {
-        if (!mixed && careful[k / kLanes][k % kLanes] == 0) continue;
-        const auto d = divergence_of(pass, f, k);
-        d1[k] = d[1];
-        d2[k] = d[2];
-      }
+    if (has_mixed_levels<K>(pass, face)) careful = (1U << K) - 1;
+    for (; careful != 0; careful &= careful - 1) {
+      const int k = std::countr_zero(careful);
+      const auto d = divergence_of(pass, f, k);
+      d1[k] = d[1];
+      d2[k] = d[2];
     }
     scatter<K>(pass, f, d1, d2);
   }
@@ -125,15 +128,19 @@ struct Lanes {
   double dl1[kCount], dl2[kCount];              ///< of log u
   double base[kCount], x[kCount], height[kCount], root_t[kCount];
   double d1[kCount], d2[kCount];
-  std::uint64_t careful[kCount];  ///< not 0 where the fast path does not hold
+  unsigned careful;  ///< bits of lanes where the fast path does not hold
 };
 
 template <int K>
 void load_faces(const FieldPass& pass, Index first, Lanes<K>& s) {
+  prefetch_ahead(pass.mesh->faces.data() + first, Lanes<K>::kFaces);
+  prefetch_ahead(pass.mesh->layout.data() + first, Lanes<K>::kFaces);
+  s.careful = 0;
   for (int i = 0; i < Lanes<K>::kFaces; ++i) {
     const Face& face = pass.mesh->faces[first + i];
     const FaceLayout& p = pass.mesh->layout[first + i];
-    const std::uint64_t mixed = has_mixed_levels<K>(pass, face) ? 1 : 0;
+    const unsigned mixed = has_mixed_levels<K>(pass, face) ? (1U << K) - 1 : 0;
+    s.careful |= mixed << (i * K);
     for (int k = 0; k < K; ++k) {
       const int lane = i * K + k;
       const double u0 = pass.u[face[0] * pass.stride + k];
@@ -143,7 +150,6 @@ void load_faces(const FieldPass& pass, Index first, Lanes<K>& s) {
       s.base[lane] = p.base;
       s.x[lane] = p.x;
       s.height[lane] = p.height;
-      s.careful[lane] = mixed;
     }
     if (pass.log_u == nullptr) continue;
     if (pass.root_t_of_face != nullptr) {
@@ -159,24 +165,25 @@ void load_faces(const FieldPass& pass, Index first, Lanes<K>& s) {
 }
 
 template <int K>
-bool compute(const FieldPass& pass, Lanes<K>& s) {
-  bool some = false;
+void compute(const FieldPass& pass, Lanes<K>& s) {
+  const double inverse_root_t = 1 / pass.root_t;
   for (int j = 0; j < Lanes<K>::kCount; j += kLanes) {
-    Shape shape{
-        load(s.base + j), load(s.x + j), load(s.height + j), {}, all_lanes(pass.root_t), {}};
+    Shape shape{load(s.base + j),       load(s.x + j),
+                load(s.height + j),     {},
+                all_lanes(pass.root_t), all_lanes(inverse_root_t)};
     Given given = unit_divergence(shape, load(s.u0 + j), load(s.du1 + j), load(s.du2 + j));
     if (pass.log_u != nullptr) {
-      if (pass.root_t_of_face != nullptr) shape.root_t = load(s.root_t + j);
-      shape.inverse_root_t = 1.0 / shape.root_t;
+      if (pass.root_t_of_face != nullptr) {
+        shape.root_t = load(s.root_t + j);
+        shape.inverse_root_t = 1.0 / shape.root_t;
+      }
       shape.inverse_area = 1.0 / (shape.base * shape.height);
       shorten(shape, load(s.dl1 + j), load(s.dl2 + j), given);
     }
     store(given.d1, s.d1 + j);
     store(given.d2, s.d2 + j);
-    for (int lane = 0; lane < kLanes; ++lane) s.careful[j + lane] |= given.careful[lane];
+    s.careful |= lane_mask(given.careful) << j;
   }
-  for (const std::uint64_t careful : s.careful) some = some || careful != 0;
-  return some;
 }
 
 template <int K>
@@ -189,13 +196,12 @@ void run_narrow(const FieldPass& pass) {
   for (int turn = 0; f < end; f += kFaces, turn = 1 - turn) {
     if (f + kFaces < end) load_faces<K>(pass, f + kFaces, lanes[1 - turn]);
     Lanes<K>& s = lanes[turn];
-    if (compute<K>(pass, s)) {
-      for (int j = 0; j < Lanes<K>::kCount; ++j) {
-        if (s.careful[j] == 0) continue;
-        const auto d = divergence_of(pass, f + j / K, j % K);
-        s.d1[j] = d[1];
-        s.d2[j] = d[2];
-      }
+    compute<K>(pass, s);
+    for (unsigned careful = s.careful; careful != 0; careful &= careful - 1) {
+      const int j = std::countr_zero(careful);
+      const auto d = divergence_of(pass, f + j / K, j % K);
+      s.d1[j] = d[1];
+      s.d2[j] = d[2];
     }
     for (int i = 0; i < kFaces; ++i) scatter<K>(pass, f + i, s.d1 + i * K, s.d2 + i * K);
   }
@@ -243,6 +249,9 @@ void take_logarithms(const double* u, double* out, std::size_t count) {
 
 extern void (*const kLogarithms)(const double*, double*, std::size_t);
 void (*const kLogarithms)(const double*, double*, std::size_t) = take_logarithms;
+extern void (*const kMarkSmall)(const double*, std::int64_t, int, const double*, std::uint16_t*);
+void (*const kMarkSmall)(const double*, std::int64_t, int, const double*,
+                         std::uint16_t*) = mark_small;
 extern const FieldKernel kFieldKernels[5];
 const FieldKernel kFieldKernels[5] = {run<1>, run<2>, run<4>, run<8>, run<16>};
 

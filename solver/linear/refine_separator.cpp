@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "solver/core/find_bytes.h"
 #include "solver/linear/separator.h"
 
 namespace geotherm {
@@ -64,7 +65,7 @@ void refine_separator(const GraphPart& part, Separator& s) {
     queue.push({gain(v, kLeft), v, kLeft});
     queue.push({gain(v, kRight), v, kRight});
   };
-  for_each_of_separator(s, push);
+  for_each_of(s.half, std::int8_t{kSeparator}, push);
 
   struct Change {
     Index vertex;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "solver/core/find_bytes.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/plane_cuts.h"
 
@@ -83,7 +84,7 @@ double cost_of(const Separator& s) {
 
 /// A separator vertex that touches one half only is not needed.
 void drop_unneeded(const GraphPart& part, Separator& s) {
-  for_each_of_separator(s, [&](Index i) {
+  for_each_of(s.half, std::int8_t{kSeparator}, [&](Index i) {
     const bool left = touches(part, s.half, i, kLeft);
     const bool right = touches(part, s.half, i, kRight);
     if (left && right) return;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "solver/core/types.h"
@@ -28,21 +27,6 @@ struct Separator {
   std::vector<std::int8_t> half;  ///< n, a Half each
   std::array<Index, 3> count{};   ///< by Half
 };
-
-/// Calls body(i) for all vertices of the separator, ascending; it may move them.
-template <class Body>
-void for_each_of_separator(const Separator& separator, Body&& body) {
-  const std::int8_t* const begin = separator.half.data();
-  const std::int8_t* const end = begin + separator.half.size();
-  const std::int8_t* at = begin;
-  while (at != end) {
-    at = static_cast<const std::int8_t*>(std::memchr(
-        at, kSeparator, static_cast<std::size_t>(end - at)));  // few: found by registers
-    if (at == nullptr) return;
-    body(static_cast<Index>(at - begin));
-    ++at;
-  }
-}
 
 /// Each half keeps at least this share of the vertices.
 inline constexpr double kSmallestShare = 0.25;

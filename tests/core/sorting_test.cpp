@@ -5,6 +5,7 @@
 #include <random>
 
 #include "solver/core/counting_sort.h"
+#include "solver/core/find_bytes.h"
 #include "solver/core/row_lists.h"
 #include "solver/core/short_sort.h"
 
@@ -50,6 +51,17 @@ TEST_P(SortByThreads, PutsRowsOfUnknownLengthTogether) {
     ASSERT_EQ(start[i + 1] - start[i], i % 4);
     for (auto e = start[i]; e < start[i + 1]; ++e) ASSERT_EQ(list[e], i);
   }
+}
+
+TEST(FindBytes, GoesThroughAllOfAValueAlsoThoseItChanges) {
+  std::vector<char> bytes = {1, 0, 1, 1, 2, 0, 1};
+  std::vector<Index> found;
+  for_each_of(bytes, char{1}, [&](Index i) {
+    found.push_back(i);
+    bytes[i] = 0;
+  });
+  EXPECT_EQ(found, (std::vector<Index>{0, 2, 3, 6}));
+  for_each_of(std::vector<char>(), char{1}, [](Index) { FAIL(); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, SortByThreads, testing::Values(1, 2, 3, 7));

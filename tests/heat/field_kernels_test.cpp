@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <random>
 #include <set>
 #include <tuple>
@@ -131,6 +133,38 @@ TEST_P(FieldKernels, SendFacesWithSeveralExponentsTheCarefulWay) {
     }
   }
 }
+
+class SmallValues : public testing::TestWithParam<std::tuple<int, InstructionSet>> {};
+
+TEST_P(SmallValues, AreThoseBelowTheFloorOfTheirColumn) {
+  const auto [columns, set] = GetParam();
+  constexpr std::int64_t kRows = 100;
+  constexpr double kFloor = 1e-295, kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kValues[] = {0,  kFloor, -kFloor, 0.9 * kFloor, -0.9 * kFloor, 1.1 * kFloor,
+                                -1, kNone,  5e-324,  HUGE_VAL,     -HUGE_VAL};
+  std::mt19937 random(5);
+  std::vector<double> u(static_cast<std::size_t>(kRows * columns));
+  for (double& value : u) value = kValues[random() % std::size(kValues)];
+  std::vector<double> floors(static_cast<std::size_t>(columns), kFloor);
+  floors.back() = 0;  // nothing is below that
+  floors.front() = 1;
+  std::vector<std::uint16_t> masks(kRows + 1, 0xabcd);
+  mark_small(u.data(), kRows, columns, floors.data(), masks.data(), set);
+  for (std::int64_t row = 0; row < kRows; ++row) {
+    for (int k = 0; k < columns; ++k) {
+      const double value = u[static_cast<std::size_t>(row * columns + k)];
+      EXPECT_EQ((masks[row] >> k & 1) != 0, std::abs(value) < floors[k]) << value;
+    }
+    EXPECT_EQ(masks[row] >> columns, 0);
+  }
+  EXPECT_EQ(masks.back(), 0xabcd);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, SmallValues,
+                         testing::Combine(testing::Values(1, 2, 3, 4, 8, 13, 16),
+                                          testing::Values(InstructionSet::kPlain,
+                                                          InstructionSet::kAvx2,
+                                                          InstructionSet::kAvx512)));
 
 INSTANTIATE_TEST_SUITE_P(Sets, FieldKernels,
                          testing::Combine(testing::Values(1, 2, 4, 8, 16),
