@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solver/core/keep_freed_memory.h"
 
+#include <cstdlib>  // says whether the C library is glibc
+
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif

@@ -82,6 +82,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"fcntl.h", "posix"},
     {"dirent.h", "posix"},
     {"dlfcn.h", "posix"},
+    {"malloc.h", "posix"},
     {"poll.h", "posix"},
     {"pthread.h", "posix"},
     {"sched.h", "posix"},
