@@ -79,8 +79,6 @@ void run_wide(const FieldPass& pass) {
   const double inverse_root_t = 1 / pass.root_t;
   for (Index f = pass.first_face; f < pass.end_face; ++f) {
     if (f + kAhead < pass.end_face) ask_for<K>(pass, f + kAhead);
-    prefetch_ahead(pass.mesh->faces.data() + f, 1);
-    prefetch_ahead(pass.mesh->layout.data() + f, 1);
     const Face& face = pass.mesh->faces[f];
     const FaceLayout& p = pass.mesh->layout[f];
     Shape shape{all_lanes(p.base),      all_lanes(p.x),
