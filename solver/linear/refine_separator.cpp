@@ -79,7 +79,7 @@ void refine_separator(const GraphPart& part, Separator& s) {
     ++s.count[to];
     s.half[v] = to;
   };
-  const Index patience = std::max<Index>(20, s.count[kSeparator]);
+  const Index patience = std::max<Index>(10, s.count[kSeparator] / 2);
   const Index most_moves = 4 * s.count[kSeparator] + 50;
   const auto largest_half = static_cast<Index>(part.size() * (1 - kSmallestShare));
   Index smallest = s.count[kSeparator];
