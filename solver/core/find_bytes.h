@@ -9,9 +9,9 @@
 namespace geotherm {
 
 /// Calls body(i) for all i with bytes[i] == value, ascending; the body may change that byte. For
-/// values that are rare: most of the time is a register at a time.
+/// values that are rare: the rest is skipped a register at a time.
 template <class Byte, class Body>
-void for_each_of(const std::vector<Byte>& bytes, Byte value, Body&& body) {
+void for_each_with_value(const std::vector<Byte>& bytes, Byte value, Body&& body) {
   static_assert(sizeof(Byte) == 1);
   const Byte* const begin = bytes.data();
   const Byte* const end = begin + bytes.size();

@@ -13,8 +13,14 @@ void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kLargestBlock = 32 << 20;  // the most that glibc takes
   constexpr int kMostKept = 512 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
+  if (mallopt(M_MMAP_THRESHOLD, kLargestBlock) == 0) return;
   mallopt(M_TRIM_THRESHOLD, kMostKept);
+#endif
+}
+
+void release_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
 #endif
 }
 

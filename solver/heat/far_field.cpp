@@ -2,17 +2,15 @@
 #include "solver/heat/far_field.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <mutex>
-#include <utility>
 
 #include "solver/core/find_bytes.h"
 #include "solver/core/prefetch.h"
+#include "solver/heat/bit_counts.h"
 #include "solver/heat/field_kernels.h"
 
 namespace geotherm {
@@ -28,31 +26,6 @@ constexpr std::int64_t kRangesOfThread = 4;
 constexpr Index kFacesAtOnce = 8;
 /// Components from which on what a thread notes of each is too much to have it several times.
 constexpr Index kManyComponents = 10'000;
-
-/// How many rows have each bit set: all bits of a row are counted at once.
-class ColumnCounts {
- public:
-  void add(std::uint16_t columns) {
-    for (std::size_t k = 0; k < kBits; ++k) {
-      short_[k] = static_cast<std::uint16_t>(short_[k] + ((columns & 1U << k) != 0 ? 1 : 0));
-    }
-    if (++added_ == std::numeric_limits<std::uint16_t>::max()) flush();
-  }
-  std::int64_t of(std::size_t column) {
-    flush();
-    return long_[column];
-  }
-
- private:
-  static constexpr std::size_t kBits = kColumnsOfFarField;
-  void flush() {
-    for (std::size_t k = 0; k < kBits; ++k) long_[k] += std::exchange(short_[k], 0);
-    added_ = 0;
-  }
-  std::array<std::uint16_t, kBits> short_{};
-  std::array<std::int64_t, kBits> long_{};
-  std::uint16_t added_ = 0;
-};
 
 }  // namespace
 
@@ -131,7 +104,7 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
   std::mutex mutex;
   passes_.for_rows(field_.u.rows(), columns, [&](std::int64_t begin, std::int64_t end) {
     mark_below(least, begin, end, far.rows);
-    ColumnCounts count;
+    BitCounts count;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       Columns small = far.rows[i];
       if (small == 0) continue;
@@ -251,7 +224,7 @@ std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const
     }
   }
   std::vector<Index> asked;
-  for_each_of(beside, char{1}, [&asked](Index i) { asked.push_back(i); });
+  for_each_with_value(beside, char{1}, [&asked](Index i) { asked.push_back(i); });
   std::atomic<bool> flows = false;
   parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {

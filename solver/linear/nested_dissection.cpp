@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/linear/minimum_degree.h"

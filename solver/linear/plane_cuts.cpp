@@ -2,7 +2,9 @@
 #include "solver/linear/plane_cuts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <mutex>
 #include <span>
@@ -15,21 +17,23 @@ namespace {
 constexpr int kMostBins = 512;
 /// A direction along which a part has less than this share of its greatest extent is left out.
 constexpr float kThin = 0.3F;
+/// And so is one along which it has next to none, where an inverse would overflow.
+constexpr float kShortest = 1e-30F;
 
 constexpr std::int64_t kVerticesAPiece = 20'000;
 
 using Point = std::array<float, 3>;
 
-constexpr float kHalf = 0.70710678F;
+constexpr float kRootHalf = 0.70710678F;
 constexpr std::array<Point, 9> kDirections = {{{1, 0, 0},
                                                {0, 1, 0},
                                                {0, 0, 1},
-                                               {kHalf, kHalf, 0},
-                                               {kHalf, -kHalf, 0},
-                                               {kHalf, 0, kHalf},
-                                               {kHalf, 0, -kHalf},
-                                               {0, kHalf, kHalf},
-                                               {0, kHalf, -kHalf}}};
+                                               {kRootHalf, kRootHalf, 0},
+                                               {kRootHalf, -kRootHalf, 0},
+                                               {kRootHalf, 0, kRootHalf},
+                                               {kRootHalf, 0, -kRootHalf},
+                                               {0, kRootHalf, kRootHalf},
+                                               {0, kRootHalf, -kRootHalf}}};
 
 float along(const Point& p, const Point& direction) {
   return p[0] * direction[0] + p[1] * direction[1] + p[2] * direction[2];
@@ -84,7 +88,7 @@ std::vector<Extent> find_extents(const GraphPart& part, int threads) {
   const float longest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
   const auto thin = [&](std::size_t d) {
     const float length = high[d] - low[d];
-    return !(length > 0) || length < kThin * longest;
+    return !(length > kShortest) || length < kThin * longest;
   };
   std::vector<Extent> out;
   for (std::size_t d = 0; d < kCount; ++d) {
@@ -99,15 +103,15 @@ std::vector<Extent> find_extents(const GraphPart& part, int threads) {
   return out;
 }
 
-/// Where a vertex and its neighbours lie along each direction.
-struct Reach {
-  Bins own, lowest, highest;
+/// Where the vertices lie along each direction, and how far they and their neighbours reach.
+struct Reaches {
+  std::vector<Bins> own, lowest, highest;
+  std::size_t size() const { return own.size(); }
 };
 
-/// Bins of all vertices along all directions, and those of their neighbours: one pass over the
-/// edges.
-std::vector<Reach> find_reaches(const GraphPart& part, std::span<const Extent> extents, int bins,
-                                int threads) {
+/// One pass over the edges.
+Reaches find_reaches(const GraphPart& part, std::span<const Extent> extents, int bins,
+                     int threads) {
   std::array<PerLane, 3> direction{};
   PerLane low{};
   for (std::size_t k = 0; k < extents.size(); ++k) {
@@ -116,29 +120,31 @@ std::vector<Reach> find_reaches(const GraphPart& part, std::span<const Extent> e
     low[k] = extents[k].low * scale;
   }
   const auto last = static_cast<float>(bins - 1);  // rounding leads beyond it
-  std::vector<Bins> bin(part.position.size());
+  const std::size_t size = part.position.size();
+  Reaches out{std::vector<Bins>(size), std::vector<Bins>(size), std::vector<Bins>(size)};
   parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const Point& p = part.position[i];
       for (std::size_t k = 0; k < kLanes; ++k) {
         const float at = p[0] * direction[0][k] + p[1] * direction[1][k] + p[2] * direction[2][k];
-        bin[i].lanes[k] = static_cast<std::int16_t>(std::clamp(at - low[k], 0.0F, last));
+        out.own[i].lanes[k] =
+            static_cast<std::int16_t>(std::min(std::max(at - low[k], 0.0F), last));
       }
     }
   });
-  std::vector<Reach> reach(bin.size());
   parallel_for(threads, part.size(), kVerticesAPiece, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      Bins lowest = bin[i], highest = bin[i];
+      Bins lowest = out.own[i], highest = lowest;
       for (Index n = part.start[i]; n < part.start[i + 1]; ++n) {
-        const auto other = bin[part.neighbor[n]].lanes;
+        const auto other = out.own[part.neighbor[n]].lanes;
         lowest.lanes = lowest.lanes < other ? lowest.lanes : other;
         highest.lanes = highest.lanes > other ? highest.lanes : other;
       }
-      reach[i] = {bin[i], lowest, highest};
+      out.lowest[i] = lowest;
+      out.highest[i] = highest;
     }
   });
-  return reach;
+  return out;
 }
 
 struct Plane {
@@ -150,16 +156,16 @@ struct Plane {
 
 /// Sweeps a plane through all bins of a direction, counting both separators it could leave: the
 /// left vertices with a neighbour on the right, and the other way round.
-Plane sweep(const std::vector<Reach>& reaches, std::size_t lane, int bins) {
+Plane sweep(const Reaches& reaches, std::size_t lane, int bins) {
   struct Bin {
     Index own, lowest, highest;  ///< vertices of which this is the bin of that kind
   };
   std::array<Bin, kMostBins> all;
   std::fill_n(all.begin(), bins, Bin{});
-  for (const Reach& reach : reaches) {
-    ++all[reach.own[lane]].own;
-    ++all[reach.lowest[lane]].lowest;
-    ++all[reach.highest[lane]].highest;
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    ++all[reaches.own[i][lane]].own;
+    ++all[reaches.lowest[i][lane]].lowest;
+    ++all[reaches.highest[i][lane]].highest;
   }
   Plane best{.lane = lane};
   const auto size = static_cast<Index>(reaches.size());
@@ -177,14 +183,13 @@ Plane sweep(const std::vector<Reach>& reaches, std::size_t lane, int bins) {
   return best;
 }
 
-Separator cut(const std::vector<Reach>& reaches, const Plane& plane) {
+Separator cut(const Reaches& reaches, const Plane& plane) {
   Separator out;
   out.half.resize(reaches.size());
   for (std::size_t i = 0; i < reaches.size(); ++i) {
-    const Reach& reach = reaches[i];
-    const bool right = reach.own[plane.lane] > plane.bin;
-    const bool border = plane.from == kLeft ? !right && reach.highest[plane.lane] > plane.bin
-                                            : right && reach.lowest[plane.lane] <= plane.bin;
+    const bool right = reaches.own[i][plane.lane] > plane.bin;
+    const bool border = plane.from == kLeft ? !right && reaches.highest[i][plane.lane] > plane.bin
+                                            : right && reaches.lowest[i][plane.lane] <= plane.bin;
     out.half[i] = border ? kSeparator : right ? kRight : kLeft;
     ++out.count[out.half[i]];
   }
@@ -196,7 +201,7 @@ Separator cut(const std::vector<Reach>& reaches, const Plane& plane) {
 std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) {
   const std::vector<Extent> extents = find_extents(part, threads);
   const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMostBins);
-  const std::vector<Reach> reaches = find_reaches(part, extents, bins, threads);
+  const Reaches reaches = find_reaches(part, extents, bins, threads);
   std::vector<Plane> planes(extents.size());
   parallel_for(part.size() > kVerticesAPiece ? threads : 1, std::ssize(planes), 1,
                [&](std::int64_t begin, std::int64_t end) {

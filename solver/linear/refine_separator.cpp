@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <vector>
 
 #include "solver/core/find_bytes.h"
 #include "solver/linear/separator.h"
@@ -65,7 +67,7 @@ void refine_separator(const GraphPart& part, Separator& s) {
     queue.push({gain(v, kLeft), v, kLeft});
     queue.push({gain(v, kRight), v, kRight});
   };
-  for_each_of(s.half, std::int8_t{kSeparator}, push);
+  for_each_with_value(s.half, std::int8_t{kSeparator}, push);
 
   struct Change {
     Index vertex;

@@ -2,6 +2,8 @@
 #include "solver/linear/separator.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "solver/core/find_bytes.h"
 #include "solver/core/parallel.h"
@@ -79,13 +81,14 @@ void refine(const GraphPart& part, Separator& separator) {
 }
 
 double cost_of(const Separator& s) {
+  if (s.count[kLeft] == 0 || s.count[kRight] == 0) return std::numeric_limits<double>::max();
   const Index size = s.count[kLeft] + s.count[kRight] + s.count[kSeparator];
   return s.count[kSeparator] * imbalance(s.count[kLeft] + s.count[kSeparator] / 2, size);
 }
 
 /// A separator vertex that touches one half only is not needed.
 void drop_unneeded(const GraphPart& part, Separator& s) {
-  for_each_of(s.half, std::int8_t{kSeparator}, [&](Index i) {
+  for_each_with_value(s.half, std::int8_t{kSeparator}, [&](Index i) {
     const bool left = touches(part, s.half, i, kLeft);
     const bool right = touches(part, s.half, i, kRight);
     if (left && right) return;

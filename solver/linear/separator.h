@@ -28,7 +28,8 @@ struct Separator {
   std::array<Index, 3> count{};   ///< by Half
 };
 
-/// Each half keeps at least this share of the vertices.
+/// Planes leave at least this share of the vertices on each side, the separator included; moves let
+/// no half grow beyond the rest.
 inline constexpr double kSmallestShare = 0.25;
 
 /// What unequal halves cost, as a factor of the separator's size: measured, to store least.

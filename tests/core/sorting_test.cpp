@@ -56,12 +56,12 @@ TEST_P(SortByThreads, PutsRowsOfUnknownLengthTogether) {
 TEST(FindBytes, GoesThroughAllOfAValueAlsoThoseItChanges) {
   std::vector<char> bytes = {1, 0, 1, 1, 2, 0, 1};
   std::vector<Index> found;
-  for_each_of(bytes, char{1}, [&](Index i) {
+  for_each_with_value(bytes, char{1}, [&](Index i) {
     found.push_back(i);
     bytes[i] = 0;
   });
   EXPECT_EQ(found, (std::vector<Index>{0, 2, 3, 6}));
-  for_each_of(std::vector<char>(), char{1}, [](Index) { FAIL(); });
+  for_each_with_value(std::vector<char>(), char{1}, [](Index) { FAIL(); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, SortByThreads, testing::Values(1, 2, 3, 7));
