@@ -82,7 +82,7 @@ TEST(FillOrder, OfDissectionIsLessThanThatOfMinimumDegree) {
   const auto dissected = nested_dissection(graph.pattern, graph.positions, 1);
   const auto by_degree = fill_reducing_order(graph.pattern, {}, 1);
   EXPECT_TRUE(is_permutation_of_all(by_degree, graph.pattern.size()));
-EXPECT_LE(static_cast<double>(fill_of(graph.pattern, dissected)),
+  EXPECT_LE(static_cast<double>(fill_of(graph.pattern, dissected)),
             kFill * static_cast<double>(fill_of(graph.pattern, by_degree)));
 }
 
