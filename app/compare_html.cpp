@@ -29,7 +29,7 @@ svg text { font: 12px system-ui, sans-serif; fill: var(--ink); } svg .soft { fil
 .setup { fill: var(--setup); } .query { fill: var(--query); } .grid { stroke: var(--line); }
 )";
 
-std::string cell(const std::optional<double>& value) {
+std::string figure_cell(const std::optional<double>& value) {
   return "<td>" + (value ? milliseconds(*value) : std::string("&ndash;")) + "</td>";
 }
 
@@ -39,7 +39,7 @@ std::string table_row(const CompareRow& row) {
                     grouped(row.faces) + "</td><td class=name>" + escaped(row.name()) + "</td>";
   for (const auto* value : {&row.setup_ms, &row.query_ms_median, &row.batch_query_ms,
                             &row.factor_mb, &row.peak_rss_mb}) {
-    out += cell(*value);
+    out += figure_cell(*value);
   }
   const std::string difference =
       row.max_difference ? significant(*row.max_difference, 2) : std::string("&ndash;");

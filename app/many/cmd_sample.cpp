@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/machine.h"
+#include "app/many/many_work.h"
 #include "app/many/sample_report.h"
 #include "app/outputs.h"
 #include "app/solve_steps.h"
@@ -19,8 +20,6 @@
 
 namespace geotherm::app {
 namespace {
-
-constexpr double kSetupShare = 0.1;
 
 Result<Index> number_in_option(const std::string& text, const char* option, Index least,
                                const char* what) {

@@ -13,7 +13,7 @@
 namespace geotherm::app {
 namespace {
 
-Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
+Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   if (arguments.outputs.size() != 1) {
     return Error{ErrorCode::kBadInput,
@@ -80,7 +80,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  if (auto expected = expect_rows(arguments, outputs); !expected) return expected.error();
   auto work = begin_many(arguments, progress);
   if (!work) return work.error();
 

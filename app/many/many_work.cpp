@@ -18,8 +18,6 @@
 namespace geotherm::app {
 namespace {
 
-/// Set-up's share of the bar.
-constexpr double kSetupShare = 0.1;
 /// Warnings of answers that are shown; they are alike from source to source.
 constexpr std::size_t kMostWarnings = 5;
 

@@ -22,6 +22,9 @@
 // stream.
 namespace geotherm::app {
 
+/// Set-up's share of the bar.
+inline constexpr double kSetupShare = 0.1;
+
 /// The work before its method is set up.
 struct ManySources {
   Model model;

@@ -18,11 +18,11 @@ namespace geotherm::app {
 namespace {
 
 /// A table of more columns fits no terminal.
-constexpr std::size_t kMostShown = 10;
+constexpr std::size_t kMostInTable = 10;
 
 bool is_npy(const std::string& path) { return io::file_extension(path) == ".npy"; }
 
-Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
+Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
     if (path != "-" && !is_npy(path) && io::file_extension(path) != ".csv") {
@@ -143,7 +143,7 @@ std::string pairs_table(const ManySources& work, const ManyFigures& figures,
                                                 counted(count * (count - 1) / 2, "pair", "pairs") +
                                                 ", up to " + significant(most)},
                                  {"directions differ by", directions}});
-  if (pairs.size() <= kMostShown) text += '\n' + matrix_table(pairs);
+  if (pairs.size() <= kMostInTable) text += '\n' + matrix_table(pairs);
   return text;
 }
 
@@ -182,7 +182,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  if (auto expected = expect_matrix(arguments, outputs); !expected) return expected.error();
   auto work = begin_many(arguments, progress);
   if (!work) return work.error();
   PairMatrix pairs;

@@ -33,10 +33,10 @@ TEST(PictureLines, LieInTheSceneAsTheyDoOnTheMesh) {
   app::add_line(data, points, "heat");
   ASSERT_EQ(data.lines.size(), 2U);
   ASSERT_EQ(data.lines[0].points.size(), 2U);
-  constexpr float kFloat = 1e-6F;  // of scene space, which has radius 1
+  constexpr float kSceneFloat = 1e-6F;  // of scene space, which has radius 1
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(data.lines[0].points[i][k], data.positions[i][k], kFloat);
+      EXPECT_NEAR(data.lines[0].points[i][k], data.positions[i][k], kSceneFloat);
     }
   }
   EXPECT_EQ(data.lines[0].name, "geodesic");

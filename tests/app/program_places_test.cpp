@@ -12,7 +12,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr const char* kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+constexpr const char* kUnitSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 
 void expect_one_line(const ProgramRun& run, const std::string& part) {
   EXPECT_EQ(run.code, 1);
@@ -27,7 +27,7 @@ class OddName : public testing::TestWithParam<const char*> {};
 TEST_P(OddName, IsReadAndWritten) {
   const TemporaryDirectory folder;
   const std::string name = GetParam();
-  folder.write(name + ".obj", kSquare);
+  folder.write(name + ".obj", kUnitSquare);
   const ProgramRun run = run_program(
       folder.path("."), {"solve", name + ".obj", "-s", "0", "-o", name + ".csv", "--json", "-"});
   EXPECT_EQ(run.code, 0) << run.err;

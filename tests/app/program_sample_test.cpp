@@ -14,7 +14,7 @@ namespace geotherm::test {
 namespace {
 
 /// Of the largest distance: several sources are solved as one block, which rounds otherwise.
-constexpr double kRoundOff = 1e-12;
+constexpr double kRoundOffOfDistances = 1e-12;
 
 /// On the unit sphere.
 double great_circle(const Vec3& a, const Vec3& b) {
@@ -58,7 +58,7 @@ TEST_F(Program, PairsAreTheSameInEveryFileAndFromSingleSolves) {
     EXPECT_EQ(lines[i + 1].substr(0, from.size() + 1), from + ",");
     for (std::size_t j = 0; j < 3; ++j) {
       const std::size_t to = std::vector<std::size_t>{3, 99, 512}[j];
-      EXPECT_NEAR(matrix[3 * i + j], single[to], kRoundOff * most);
+      EXPECT_NEAR(matrix[3 * i + j], single[to], kRoundOffOfDistances * most);
       EXPECT_EQ(report["distances"][i][j].get<double>(), matrix[3 * i + j]);
       apart = std::max(apart, std::abs(matrix[3 * i + j] - matrix[3 * j + i]));
     }

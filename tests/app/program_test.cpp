@@ -12,7 +12,7 @@ namespace geotherm::test {
 namespace {
 
 /// One rounding in each of two factors.
-constexpr double kRoundOff = 1e-15;
+constexpr double kLastDigits = 1e-15;
 
 TEST_F(Program, SolveShowsATable) {
   const ProgramRun result = run({"solve", "bunny", "-s", "17"});
@@ -51,7 +51,7 @@ TEST_F(Program, SolveJsonHasTheKeysOfTheContract) {
 TEST_F(Program, SolveJsonHoldsTheTimeStepToRoundOff) {
   const Json edge = json({"solve", "bunny", "-s", "1", "-m", "3", "--json", "-"});
   const double h = edge["model"]["mean_edge_length"];
-  EXPECT_NEAR(edge["options"]["t"].get<double>(), 3 * h * h, 3 * h * h * kRoundOff);
+  EXPECT_NEAR(edge["options"]["t"].get<double>(), 3 * h * h, 3 * h * h * kLastDigits);
   EXPECT_EQ(edge["options"]["time_factor"], 3.0);
   const Json area =
       json({"solve", "bunny", "-s", "1", "--time-step", "mean-face-area", "--json", "-"});

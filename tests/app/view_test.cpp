@@ -13,7 +13,7 @@
 namespace geotherm::test {
 namespace {
 
-class View : public testing::Test {
+class ViewCommand : public testing::Test {
  protected:
   int run(const std::vector<std::string>& arguments) {
     testing::internal::CaptureStdout();
@@ -45,14 +45,14 @@ class View : public testing::Test {
   std::string out, err;
 };
 
-TEST_F(View, AModelAloneOpensTheWindow) {
+TEST_F(ViewCommand, AModelAloneOpensTheWindow) {
   EXPECT_EQ(run({"bunny"}), 0) << err;
   EXPECT_EQ(start().model, "bunny");
   EXPECT_EQ(start().sources, std::vector<std::string>{"random:1"});
   EXPECT_EQ(start().picture.camera.fit, app::PictureFit::kSphere);
 }
 
-TEST_F(View, EveryOptionOfSolveAndRenderReachesTheWindow) {
+TEST_F(ViewCommand, EveryOptionOfSolveAndRenderReachesTheWindow) {
   folder.write("ids.txt", "3\n4\n");
   EXPECT_EQ(run({"view",
                  "bunny",
@@ -153,14 +153,14 @@ TEST_F(View, EveryOptionOfSolveAndRenderReachesTheWindow) {
   EXPECT_TRUE(window.started->validation);
 }
 
-TEST_F(View, AWindowThatCannotOpenIsOneLineAndNoOutput) {
+TEST_F(ViewCommand, AWindowThatCannotOpenIsOneLineAndNoOutput) {
   window.failure = Error{ErrorCode::kNoDevice, "no window can be opened; geotherm render can"};
   EXPECT_EQ(run({"bunny"}), 1);
   EXPECT_EQ(out, "");
   EXPECT_EQ(err, "geotherm: error: no window can be opened; geotherm render can\n");
 }
 
-TEST_F(View, AScriptGoesToTheWindowUnlessItIsHeadless) {
+TEST_F(ViewCommand, AScriptGoesToTheWindowUnlessItIsHeadless) {
   EXPECT_EQ(run({"view", "--script", "a.geotherm"}), 0) << err;
   EXPECT_EQ(window.started->script, "a.geotherm");
   window.started.reset();
@@ -171,7 +171,7 @@ TEST_F(View, AScriptGoesToTheWindowUnlessItIsHeadless) {
   EXPECT_TRUE(drawing.calls.empty()) << "nothing was to be drawn";
 }
 
-TEST_F(View, AReplayWritesNothingButTheOutput) {
+TEST_F(ViewCommand, AReplayWritesNothingButTheOutput) {
   folder.write("log.geotherm", "open bunny\nsource set 5\nsave distances " + folder.path("d.csv") +
                                    "\nsave picture " + folder.path("p.png") + "\nquit\n");
   EXPECT_EQ(run({"view", "--replay", folder.path("log.geotherm"), "-o", folder.path("o.png")}), 0)
@@ -182,7 +182,7 @@ TEST_F(View, AReplayWritesNothingButTheOutput) {
   EXPECT_NE(out.find("not written: save distances"), std::string::npos);
 }
 
-TEST_F(View, AFailingScriptLeavesNoPictureAndSaysItsLine) {
+TEST_F(ViewCommand, AFailingScriptLeavesNoPictureAndSaysItsLine) {
   folder.write("bad.geotherm", "open bunny\nredo\n");
   EXPECT_EQ(run({"view", "--script", folder.path("bad.geotherm"), "-o", folder.path("o.png")}), 2);
   EXPECT_NE(err.find("bad.geotherm: line 2: "), std::string::npos) << err;
@@ -190,14 +190,14 @@ TEST_F(View, AFailingScriptLeavesNoPictureAndSaysItsLine) {
   EXPECT_FALSE(exists("o.png"));
 }
 
-TEST_F(View, ABadLineStopsTheScriptBeforeItsFirstCommand) {
+TEST_F(ViewCommand, ABadLineStopsTheScriptBeforeItsFirstCommand) {
   folder.write("bad.geotherm", "save log " + folder.path("x") + "\nopen\n");
   EXPECT_EQ(run({"view", "--headless", "--script", folder.path("bad.geotherm")}), 1);
   EXPECT_NE(err.find("line 2, column 5: expected open MODEL"), std::string::npos) << err;
   EXPECT_FALSE(exists("x"));
 }
 
-TEST_F(View, ThePictureHasTheSizeOfTheCommandOrOfTheState) {
+TEST_F(ViewCommand, ThePictureHasTheSizeOfTheCommandOrOfTheState) {
   folder.write("s.geotherm", "open bunny\nsize 320x200\nsave picture " + folder.path("a.png") +
                                  "\nsave picture " + folder.path("b.png") + " 64x48\n");
   EXPECT_EQ(run({"view", "--headless", "--script", folder.path("s.geotherm")}), 0) << err;
@@ -205,13 +205,13 @@ TEST_F(View, ThePictureHasTheSizeOfTheCommandOrOfTheState) {
   EXPECT_TRUE(exists("a.png"));
 }
 
-TEST_F(View, PanelsNeedAWindow) {
+TEST_F(ViewCommand, PanelsNeedAWindow) {
   folder.write("s.geotherm", "open bunny\nsave picture " + folder.path("a.png") + " panels\n");
   EXPECT_EQ(run({"view", "--headless", "--script", folder.path("s.geotherm")}), 2);
   EXPECT_NE(err.find("no panels without a window"), std::string::npos) << err;
 }
 
-TEST_F(View, TheDifferenceIsDrawnWithASymmetricRange) {
+TEST_F(ViewCommand, TheDifferenceIsDrawnWithASymmetricRange) {
   folder.write("s.geotherm",
                "open bunny\nsource set 5\nkeep\ntime-factor 30\nshow difference\nsave picture " +
                    folder.path("a.png") + "\n");
