@@ -12,7 +12,6 @@
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
 #include "app/main_window/make_window.h"
-#include "solver/core/keep_freed_memory.h"
 #include "solver/mesh/unfinished_files.h"
 
 namespace {
@@ -74,7 +73,6 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   occupy_closed_streams();
   end_tidily_by_signals();
-  geotherm::keep_freed_memory();
   const int code = run(argc, argv);
   std::fflush(nullptr);
   // Without the handlers of exit(): OpenBLAS waits there for its threads, and these wait for memory

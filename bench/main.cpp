@@ -169,7 +169,7 @@ int run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    geotherm::keep_freed_memory();
+    geotherm::keep_freed_memory();  // as `geotherm solve --each` does; all contenders alike
     return geotherm::bench::run_command_line(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "geotherm_bench: error: %s\n", error.what());

@@ -6,9 +6,7 @@
 #include <sstream>
 #include <string>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
+#include "solver/core/keep_freed_memory.h"
 
 namespace geotherm::bench {
 namespace {
@@ -29,9 +27,7 @@ double status_megabytes(const std::string& key) {
 }  // namespace
 
 PeakMemory::PeakMemory() {
-#ifdef __GLIBC__
-  malloc_trim(0);  // what was freed must not serve what is measured
-#endif
+  release_freed_memory();                       // must not serve what is measured
   std::ofstream("/proc/self/clear_refs") << 5;  // the peak starts anew
   before_ = status_megabytes("VmRSS:");
 }

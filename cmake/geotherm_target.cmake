@@ -12,7 +12,7 @@ if(GEOTHERM_SANITIZE)
   endif()
 endif()
 
-option(GEOTHERM_PCH "Precompile the headers of Eigen and the standard library" ON)
+option(GEOTHERM_PCH "Precompile headers, and compile some sources together" ON)
 
 # What every target of the project has in common.
 function(geotherm_target name)
@@ -47,9 +47,10 @@ function(geotherm_reuse_precompiled name from)
   geotherm_precompiled_with_ccache(${name})
 endfunction()
 
-# geotherm_compile_together(TARGET): six sources at a time, for targets whose headers (CLI11, JSON,
-# Dear ImGui, GoogleTest) take longer to compile than their sources: half of the time. Names in
-# anonymous namespaces must differ within such a target. Off where precompiled headers are.
+# geotherm_compile_together(TARGET): six sources of its list at a time, for targets whose headers
+# (CLI11, JSON, Dear ImGui, GoogleTest) take longer to compile than their sources: half of the time.
+# Names in anonymous namespaces must differ among neighbours in the list: one compiler error tells.
+# Off where GEOTHERM_PCH is off.
 function(geotherm_compile_together name)
   if(GEOTHERM_PCH)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)

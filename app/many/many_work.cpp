@@ -10,6 +10,7 @@
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/core/free_memory.h"
+#include "solver/core/keep_freed_memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_method.h"
@@ -85,6 +86,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const Progress& progress, const Announce& announce) {
   auto method = build_method(work.model.mesh, work.options, part_of(progress, 0.0, kSetupShare));
   if (!method) return about_model(work.model.name, method.error());
+  keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
   figures.method = *std::move(method);
   add_warnings(figures.warnings, work.model.notes);

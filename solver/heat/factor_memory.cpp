@@ -5,7 +5,6 @@
 #include <string>
 
 #include "solver/core/free_memory.h"
-#include "solver/core/keep_freed_memory.h"
 #include "solver/core/number_text.h"
 #include "solver/heat/precision.h"
 
@@ -68,11 +67,7 @@ Result<void> check_factor_memory(const Analysis& analysis, std::string_view back
   }
   const double missing = one * plan.missing;
   if (missing + work <= kUnasked) return {};
-  auto free = free_memory();
-  if (free && missing + work > static_cast<double>(*free)) {
-    release_freed_memory();  // counts as taken until then
-    free = free_memory();
-  }
+  const auto free = free_memory();
   if (!free || missing + work <= static_cast<double>(*free)) return {};
   return too_large(backend, missing, work, plan.missing,
                    size_text(static_cast<double>(*free)) + " are free",

@@ -77,8 +77,8 @@ class NativeAnalysis final : public Analysis {
     return tree_->value_start.back() * bytes_of(storage_for(storage));
   }
   std::int64_t work_bytes() const override {
-    // The matrix, and half of what it is put together from (FemOperator::assembled()): measured,
-    // the heap uses the memory of the other half again.
+    // The matrix, and half of what an operator on faces puts it together from: measured, the heap
+    // uses the memory of the other half again.
     constexpr std::int64_t kWeightBytes = 6;
     constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Index) + kWeightBytes;
     return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, (threads_ + 1) / 2);

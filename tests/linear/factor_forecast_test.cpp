@@ -96,6 +96,7 @@ TEST_P(FactorForecastSlow, WithTheWorkIsNearWhatResidentMemoryGrowsBy) {
       [&] { poisson = factor(1e-6, FactorStorage::kSingle); });
   const double grown = memory_status("VmHWM") - before;
   ASSERT_TRUE(heat && poisson);
+  if (grown <= 0) GTEST_SKIP() << "the system does not say how much was resident at most";
   const auto forecast = static_cast<double>(
       surface.analysis->factor_bytes(FactorStorage::kWideExponent) +
       surface.analysis->factor_bytes(FactorStorage::kSingle) + 2 * surface.analysis->work_bytes());
