@@ -22,6 +22,10 @@ namespace {
 /// the batch.
 constexpr double kSlowBudget = 5000;
 
+/// The faster one counts: the first has the system clear the memory that it asks for, which says
+/// more of who comes first in the table than of the solver.
+constexpr int kBatches = 2;
+
 /// Answers that are kept for the differences; all of them would fill the memory with 20,000
 /// queries.
 constexpr std::size_t kCompared = 10;
@@ -136,13 +140,14 @@ class Runner {
                            milliseconds(*row.query_ms_median * count / 1000) + " s");
       return;
     }
-    const Stopwatch watch;
-    const auto results =
-        method.solve_each(task_.batch, {.quality = false, .fields = false}, progress_);
-    if (results) {
-      row.batch_query_ms = watch.milliseconds() / count;
-    } else {
-      fail(row, results.error());
+    for (int run = 0; run < kBatches; ++run) {
+      const Stopwatch watch;
+      const auto results =
+          method.solve_each(task_.batch, {.quality = false, .fields = false}, progress_);
+      if (!results) return fail(row, results.error());
+      const double milliseconds = watch.milliseconds() / count;
+      row.batch_query_ms = std::min(row.batch_query_ms.value_or(milliseconds), milliseconds);
+      if (slow_) return;
     }
   }
 
