@@ -27,9 +27,9 @@ double status_megabytes(const std::string& key) {
 }  // namespace
 
 PeakMemory::PeakMemory() {
-  release_freed_memory();                       // must not serve what is measured
-  std::ofstream("/proc/self/clear_refs") << 5;  // the peak starts anew
-  before_ = status_megabytes("VmRSS:");
+  release_freed_memory();  // must not serve what is measured
+  std::ofstream refs("/proc/self/clear_refs");
+  if (refs << 5 << std::flush) before_ = status_megabytes("VmRSS:");  // the peak starts anew
 }
 
 double PeakMemory::megabytes() const { return std::max(0.0, status_megabytes("VmHWM:") - before_); }

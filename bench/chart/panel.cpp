@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLineHeight = 15;  // of labels
 constexpr double kGap = 9;          // between a line's end and its label
+constexpr double kLetterWidth = 7;  // about
 
 bool has_place(const PanelPoint& p) {
   return p.x > 0 && std::isfinite(p.x) && p.y > 0 && std::isfinite(p.y);
@@ -89,7 +90,7 @@ void spread(std::vector<Label>& labels, const Box& box) {
 }
 
 /// Lines that end at the right have their labels in one column; others beside their end, in a
-/// column with those that end there, too.
+/// column with those that end there, too, or with those at the right where they reach as far.
 std::string end_labels(const Panel& panel, const Axes& axes, const Box& box) {
   std::map<double, std::vector<Label>> columns;
   const double right = box.x + box.width;
@@ -98,7 +99,8 @@ std::string end_labels(const Panel& panel, const Axes& axes, const Box& box) {
     if (last == series.joined.rend() || series.end_label.empty()) continue;
     const double x = axes.x.at(last->x), y = axes.y.at(last->y);
     const double at = (x > right - 0.1 * box.width ? right : x) + kGap;
-    columns[at].push_back({&series, at, y, y});
+    const double end = at + kLetterWidth * static_cast<double>(series.end_label.size());
+    columns[end > right ? right + kGap : at].push_back({&series, at, y, y});
   }
   std::string out;
   for (auto& [x, column] : columns) {

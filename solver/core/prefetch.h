@@ -6,16 +6,25 @@
 
 namespace geotherm {
 
-/// Asks for what a pass along memory reads 4 kB from now, as many numbers as it reads now: what the
-/// processor itself asks for ahead ends with the page. May reach beyond the end.
+/// Asks for as many numbers that lie so many bytes from these, into the second cache. They may lie
+/// beyond the array. Never a function of its own: kernels of all instruction sets include it.
 template <class T>
-inline void prefetch_ahead(const T* now, std::ptrdiff_t count) {
-  constexpr std::uintptr_t kAhead = 4096, kLine = 64;
-  const std::uintptr_t begin = reinterpret_cast<std::uintptr_t>(now) + kAhead;
-  const std::uintptr_t end = begin + static_cast<std::uintptr_t>(count) * sizeof(T);
-  for (std::uintptr_t at = begin; at < end; at += kLine) {
-    __builtin_prefetch(reinterpret_cast<const void*>(at), 0, 2);
+[[gnu::always_inline]] inline void prefetch_beside(const T* values, std::ptrdiff_t bytes,
+                                                   std::ptrdiff_t count) {
+  constexpr std::size_t kLine = 64;
+  const auto first = reinterpret_cast<std::uintptr_t>(values) + static_cast<std::size_t>(bytes);
+  const std::size_t size = static_cast<std::size_t>(count) * sizeof(T);
+  for (std::size_t k = 0; k < size; k += kLine) {
+    __builtin_prefetch(reinterpret_cast<const void*>(first + k), 0, 2);
   }
+}
+
+/// For a pass along memory that reads `count` numbers now: what the processor itself asks for ahead
+/// ends with the page.
+template <class T>
+[[gnu::always_inline]] inline void prefetch_ahead(const T* now, std::ptrdiff_t count) {
+  constexpr std::ptrdiff_t kAhead = 4096;
+  prefetch_beside(now, kAhead, count);
 }
 
 }  // namespace geotherm

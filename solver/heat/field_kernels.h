@@ -73,4 +73,12 @@ void mark_small(const double* u, std::int64_t rows, int columns, const double* f
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 
+/// What these three call, of one instruction set.
+struct FieldKernels {
+  void (*add_unit_divergence[5])(const FieldPass& pass);  ///< by the binary logarithm of the group
+  void (*logarithms)(const double* u, double* out, std::size_t count);
+  void (*mark_small)(const double* u, std::int64_t rows, int columns, const double* floors,
+                     std::uint16_t* masks);
+};
+
 }  // namespace geotherm

@@ -11,10 +11,6 @@
 #include "solver/core/prefetch.h"
 #include "solver/heat/field_kernels.h"
 
-namespace geotherm {
-using FieldKernel = void (*)(const FieldPass&);
-}
-
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
@@ -245,12 +241,8 @@ void take_logarithms(const double* u, double* out, std::size_t count) {
 
 }  // namespace
 
-extern void (*const kLogarithms)(const double*, double*, std::size_t);
-void (*const kLogarithms)(const double*, double*, std::size_t) = take_logarithms;
-extern void (*const kMarkSmall)(const double*, std::int64_t, int, const double*, std::uint16_t*);
-void (*const kMarkSmall)(const double*, std::int64_t, int, const double*,
-                         std::uint16_t*) = mark_small;
-extern const FieldKernel kFieldKernels[5];
-const FieldKernel kFieldKernels[5] = {run<1>, run<2>, run<4>, run<8>, run<16>};
+extern const FieldKernels kFieldKernels;
+const FieldKernels kFieldKernels = {
+    {run<1>, run<2>, run<4>, run<8>, run<16>}, take_logarithms, mark_small};
 
 }  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE

@@ -9,15 +9,6 @@ using Slab = Group<kSlab>;
 /// Bytes ahead of the numbers in use that are asked for, into the second cache: panels are short,
 /// and the processor guesses their ends badly (a quarter of the time at a million faces).
 constexpr std::ptrdiff_t kAhead = 6144;
-constexpr std::size_t kLine = 64;
-
-template <int N, class T>
-inline void ask_for_tile(const T* values, std::ptrdiff_t ahead) {
-  const auto address = reinterpret_cast<std::uintptr_t>(values) + static_cast<std::size_t>(ahead);
-  for (std::size_t k = 0; k < kSlab * N * sizeof(T); k += kLine) {
-    __builtin_prefetch(reinterpret_cast<const void*>(address + k), 0, 2);
-  }
-}
 
 /// A tile in doubles, in memory: from there a processor multiplies with one number at no cost, from
 /// within registers it has to be moved about, which compilers prefer unless kept from it.
@@ -40,7 +31,7 @@ template <int N, class T>
 inline const T* add_rows(const T* values, Index rows, const Slab (&x)[N], double* y, bool fresh) {
   for (; rows > 0; rows -= kSlab, y += kSlab) {
     const Index here = rows < kSlab ? rows : kSlab;
-    ask_for_tile<N>(values, kAhead);
+    prefetch_beside(values, kAhead, kSlab * N);
     Slab sum = fresh ? Slab::zero() : Slab::load(y);
     if (here == kSlab) {
       add_tile<N>(values, kSlab, x, sum);
@@ -67,7 +58,7 @@ inline const T* add_columns(const T* values, Index rows, const double* z, Slab (
   }
   for (Index t = 0; t < whole; ++t) {
     values -= kSlab * N;
-    ask_for_tile<N>(values, -kAhead);
+    prefetch_beside(values, -kAhead, kSlab * N);
     z -= kSlab;
     const Slab at = Slab::load(z);
 #pragma GCC unroll 8

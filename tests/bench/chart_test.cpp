@@ -192,6 +192,30 @@ TEST_P(Panel, LabelsOfLinesThatEndTogetherStandApart) {
   }
 }
 
+TEST(PanelLabels, ThatReachTheRightStandApartFromThoseThere) {
+  bench::Panel panel{"title",
+                     "x",
+                     [](double) { return std::string("1"); },
+                     [](double) { return std::string("1"); },
+                     {}};
+  panel.series.push_back({.kind = "a", .joined = {{1e4, 1}, {1e6, 100}}, .end_label = "right"});
+  panel.series.push_back(
+      {.kind = "b", .joined = {{1e4, 10}, {5e5, 100}}, .end_label = "a long label"});
+  panel.series.push_back({.kind = "c", .joined = {{1e4, 100}}, .end_label = "left"});
+  std::map<std::string, double> height;
+  const auto elements =
+      elements_of("<svg>" + bench::panel_svg(panel, {100, 100, 300, 200}) + "</svg>");
+  for (const Element& e : elements) {
+    const auto kind = e.attributes.find("class");
+    if (e.name == "text" && kind != e.attributes.end() && kind->second == "end") {
+      height[e.text] = std::stod(e.attributes.at("y"));
+    }
+  }
+  ASSERT_EQ(height.size(), 3u);
+  EXPECT_GE(std::abs(height["right"] - height["a long label"]), 13);
+  EXPECT_EQ(height["left"], std::min(height["right"], height["a long label"]));  // not moved
+}
+
 // At the right border, and half way there.
 INSTANTIATE_TEST_SUITE_P(Ends, Panel, testing::Values(1e6, 1e5));
 
