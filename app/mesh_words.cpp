@@ -15,6 +15,7 @@ constexpr double kNeedle = 0.01;
 
 LaplacianChoice auto_laplacian(const MeshReport& mesh) {
   const LaplacianKind kind = auto_kind(mesh);
+  if (kind == LaplacianKind::kRefined) return {kind, refinement_in_words(mesh.refinement)};
   if (kind == LaplacianKind::kTufted) {
     return {kind, grouped(mesh.tufted_components) + " of " +
                       counted(mesh.components, "component is", "components are") +
@@ -24,6 +25,22 @@ LaplacianChoice auto_laplacian(const MeshReport& mesh) {
     return {kind, counted(mesh.non_delaunay_edges, "edge is", "edges are") + " not Delaunay"};
   }
   return {kind, "every inner edge is Delaunay"};
+}
+
+std::string refinement_in_words(const RefinementCounts& refinement) {
+  std::string text = counted(refinement.points, "vertex", "vertices") + " inserted";
+  if (refinement.border_splits > 0) {
+    text += " (" + grouped(refinement.border_splits) + " on the border)";
+  }
+  std::vector<std::string> reasons;
+  if (refinement.large_faces > 0) {
+    reasons.push_back(counted(refinement.large_faces, "large face", "large faces"));
+  }
+  if (refinement.obtuse_border > 0) {
+    reasons.push_back(
+        counted(refinement.obtuse_border, "obtuse border edge", "obtuse border edges"));
+  }
+  return text + " for " + joined(reasons, " and ");
 }
 
 std::string mesh_in_words(const MeshSummary& mesh) {

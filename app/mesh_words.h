@@ -17,6 +17,10 @@ struct LaplacianChoice {
 };
 LaplacianChoice auto_laplacian(const MeshReport& mesh);
 
+/// "31 vertices inserted (4 on the border) for 40 large faces and 3 obtuse border edges".
+/// Precondition: there are some.
+std::string refinement_in_words(const RefinementCounts& refinement);
+
 /// "2,002 vertices, 4,000 faces, 1 component, no boundary".
 std::string mesh_in_words(const MeshSummary& mesh);
 

@@ -72,7 +72,8 @@ void add_study_method_options(CLI::App& command, MethodArguments& a) {
   const auto add = [&command](const char* names, std::string& value, const char* type,
                               const char* help) { add_word(command, names, value, type, help); };
   add("--heat", a.heat, "MODE", "unit (default), diffuse, hold");
-  add("--laplacian", a.laplacian, "KIND", "auto (default), cotan, intrinsic-delaunay, tufted");
+  add("--laplacian", a.laplacian, "KIND",
+      "auto (default), cotan, intrinsic-delaunay, tufted, refined");
   add("--variant", a.variant, "NAME", "corrected (default), classic: as first published");
   add("--precision", a.precision, "NAME",
       "compact (default): factors at half the size where the backend can; refined: the same with a "

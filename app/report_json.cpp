@@ -154,7 +154,10 @@ Json full_model_json(const std::string& name, const MeshReport& mesh) {
                {"lengthened_edges", mesh.mollified.edges},
                {"lengthened_components", mesh.mollified.components},
                {"lengthened_by", mesh.mollified.most},
-               {"tufted_components", mesh.tufted_components}});
+               {"tufted_components", mesh.tufted_components},
+               {"large_faces", mesh.refinement.large_faces},
+               {"obtuse_border_edges", mesh.refinement.obtuse_border},
+               {"inserted_vertices", mesh.refinement.points}});
   const LaplacianChoice choice = auto_laplacian(mesh);
   json["auto_laplacian"] = {{"kind", to_text(choice.kind)}, {"why", choice.why}};
   return json;
@@ -182,6 +185,15 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
     json.push_back(std::move(one));
   }
   return json;
+}
+
+/// What was inserted into the triangulation, why, and by how much t follows.
+Json refinement_json(const HeatMethod& heat) {
+  const RefinementCounts& refinement = heat.refinement();
+  return {
+      {"points", refinement.points},           {"border_splits", refinement.border_splits},
+      {"large_faces", refinement.large_faces}, {"obtuse_border_edges", refinement.obtuse_border},
+      {"complete", refinement.complete},       {"grading", heat.grading()}};
 }
 
 Json options_json(const DistanceMethod& method, const MethodOptions& asked,
@@ -216,7 +228,8 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
           {"refine", asked.refine},
           {"variant", to_text(options.variant)},
           {"precision", to_text(options.precision)},
-          {"flips", heat->flips()}};
+          {"flips", heat->flips()},
+          {"refinement", refinement_json(*heat)}};
 }
 
 Json solve_json(const SolveFigures& f) {

@@ -33,6 +33,11 @@ std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, boo
                                  : "";
   switch (step.rule) {
     case TimeRule::kMeanEdge:
+      if (!other_edge && method.grading() != 1) {
+        return significant(method.t()) + " = " + significant(method.relative_t()) +
+               " h^2, mean edge h = " + significant(mesh.mean_edge_length) + ", for m = " + factor +
+               " and faces of many sizes";
+      }
       return significant(method.t()) + " = " + factor + " h^2, mean edge h = " +
              significant(other_edge ? std::sqrt(method.t() / step.factor) : mesh.mean_edge_length) +
              of;
@@ -48,6 +53,7 @@ std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, boo
 std::string laplacian_in_words(const HeatMethod& method) {
   std::string name = to_text(method.laplacian());
   if (method.laplacian() == LaplacianKind::kCotan) return name;
+  if (method.refinement().points > 0) name += ": " + refinement_in_words(method.refinement());
   return name + ", " + counted(method.flips(), "edge", "edges") + " flipped";
 }
 

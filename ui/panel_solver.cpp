@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "app/explore/settings.h"
+#include "app/mesh_words.h"
 #include "app/method_words.h"
 #include "app/text.h"
 #include "ui/number.h"
@@ -154,12 +155,15 @@ void draw_failure(Frame& frame) {
 
 std::string laplacian_tip(const Frame& frame) {
   std::string tip =
-      "auto flips edges where weights would be negative, on the tufted cover where "
-      "edges have three faces; cotan takes the mesh as it is.";
+      "auto flips edges where weights would be negative, on the tufted cover where edges have "
+      "three faces, and inserts vertices (refined) where faces are too large or the border is "
+      "obtuse; cotan takes the mesh as it is.";
   const app::Answer* answer = frame.answer();
   if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
     tip += "\nNow: " + app::laplacian_name(*heat) + ", " +
-           app::counted(heat->flips(), "flip", "flips") + ".";
+           app::counted(heat->flips(), "flip", "flips");
+    if (heat->refinement().points > 0) tip += ", " + app::refinement_in_words(heat->refinement());
+    tip += ".";
   }
   return tip;
 }

@@ -135,7 +135,7 @@ const std::vector<Setting>& all() {
        [](const State& s) { return to_text(s.options.laplacian); },
        [](State& s, const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
        [] {
-         return Names{"auto", "cotan", "intrinsic-delaunay", "tufted"};
+         return Names{"auto", "cotan", "intrinsic-delaunay", "tufted", "refined"};
        }},
       {"variant", "how the method is discretised", true,
        [](const State& s) { return to_text(s.options.variant); },

@@ -25,17 +25,7 @@ double weight(const IntrinsicMesh& mesh, Side side) {
          opposite_cotangent(mesh.lengths[face_of(other)], corner_of(other));
 }
 
-void set_face(IntrinsicMesh& mesh, Index f, const Face& corners,
-              const std::array<double, 3>& lengths, const std::array<Side, 3>& twins) {
-  mesh.faces[f] = corners;
-  mesh.lengths[f] = lengths;
-  for (int k = 0; k < 3; ++k) {
-    mesh.twin[3 * f + k] = twins[k];
-    if (twins[k] != kNoSide) mesh.twin[twins[k]] = 3 * f + k;
-  }
-}
-
-Flip flip(IntrinsicMesh& mesh, Side side) {
+Edit flip(IntrinsicMesh& mesh, Side side) {
   const Side other = mesh.twin[side];
   const Index f = face_of(side);
   const Index g = face_of(other);
@@ -47,15 +37,16 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
   const Index d = mesh.faces[g][previous_corner(j)];
   const auto& lf = mesh.lengths[f];
   const auto& lg = mesh.lengths[g];
-  Flip out{f,
+  Edit out{f,
            g,
+           Edit::Kind::kFlip,
            static_cast<std::int8_t>(i),
            static_cast<std::int8_t>(j),
            {lf[i], lf[next_corner(i)], lf[previous_corner(i)], lg[next_corner(j)],
             lg[previous_corner(j)]}};
-  const FlipDiamond diamond = unfold(out.lengths);
+  const FlipDiamond diamond = unfold(out.numbers);
   const double cd = (diamond.c - diamond.d).norm();
-  const auto [ab, bc, ca, ad, db] = out.lengths;
+  const auto [ab, bc, ca, ad, db] = out.numbers;
 
   // A twin may be a side of these two faces themselves; then it moves with the flip.
   const Side old_bc = 3 * f + next_corner(i);
@@ -73,9 +64,28 @@ Flip flip(IntrinsicMesh& mesh, Side side) {
   const Side twin_ca = moved(mesh.twin[old_ca]);
   const Side twin_ad = moved(mesh.twin[old_ad]);
   const Side twin_db = moved(mesh.twin[old_db]);
-  set_face(mesh, f, {c, a, d}, {ca, ad, cd}, {twin_ca, twin_ad, 3 * g + 2});
-  set_face(mesh, g, {d, b, c}, {db, bc, cd}, {twin_db, twin_bc, 3 * f + 2});
+  mesh.set_face(f, {c, a, d}, {ca, ad, cd}, {twin_ca, twin_ad, 3 * g + 2});
+  mesh.set_face(g, {d, b, c}, {db, bc, cd}, {twin_db, twin_bc, 3 * f + 2});
   return out;
+}
+
+/// Each flip lowers the Dirichlet energy, so that flipping ends; the bound guards against
+/// round-off.
+std::size_t most_flips(const IntrinsicMesh& mesh) { return 100 * mesh.twin.size() + 1000; }
+
+/// Takes a side from the queue and flips its edge if that is not Delaunay. Whether it did.
+bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>& edits) {
+  const Side side = queue.back();
+  queue.pop_back();
+  const Side other = mesh.twin[side];
+  if (other == kNoSide || face_of(other) == face_of(side)) return false;
+  if (!(weight(mesh, side) < -kTolerance)) return false;
+  const Edit made = flip(mesh, side);
+  edits.push_back(made);
+  for (const Index face : {made.f, made.g}) {
+    for (int k = 0; k < 2; ++k) queue.push_back(3 * face + k);
+  }
+  return true;
 }
 
 }  // namespace
@@ -108,50 +118,27 @@ Index count_non_delaunay(const IntrinsicMesh& mesh, int threads) {
   return static_cast<Index>(non_delaunay_sides(mesh, threads).size());
 }
 
-Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress) {
+Result<std::vector<Edit>> flip_to_delaunay(IntrinsicMesh& mesh, const Progress& progress) {
   return flip_to_delaunay(mesh, non_delaunay_sides(mesh), progress);
 }
 
-Result<std::vector<Flip>> flip_to_delaunay(IntrinsicMesh& mesh, std::vector<Side> queue,
+Result<std::vector<Edit>> flip_to_delaunay(IntrinsicMesh& mesh, std::vector<Side> queue,
                                            const Progress& progress) {
-  std::vector<Flip> flips;
-  // Each flip lowers the Dirichlet energy, so the loop ends; the bound guards against round-off.
-  const std::size_t most = 100 * mesh.twin.size() + 1000;
-  while (!queue.empty() && flips.size() < most) {
-    const Side side = queue.back();
-    queue.pop_back();
-    const Side other = mesh.twin[side];
-    if (other == kNoSide || face_of(other) == face_of(side)) continue;
-    if (!(weight(mesh, side) < -kTolerance)) continue;
-    if (flips.size() % kFlipsBetweenCalls == 0 && !report(progress, "operators", 0.0)) {
+  std::vector<Edit> flips;
+  const std::size_t most = most_flips(mesh);
+  for (std::size_t call = 0; !queue.empty() && flips.size() < most;) {
+    if (!flip_next(mesh, queue, flips)) continue;
+    if (++call % kFlipsBetweenCalls == 1 && !report(progress, "operators", 0.0)) {
       return cancelled_error();
-    }
-    const Flip made = flip(mesh, side);
-    flips.push_back(made);
-    for (const Index face : {made.f, made.g}) {
-      for (int k = 0; k < 2; ++k) queue.push_back(3 * face + k);
     }
   }
   return flips;
 }
 
-SurfacePoint carry_through_flips(const std::vector<Flip>& flips, SurfacePoint point) {
-  for (const Flip& flip : flips) {
-    if (point.face != flip.f && point.face != flip.g) continue;
-    const bool in_f = point.face == flip.f;
-    const int start = in_f ? flip.start_f : flip.start_g;
-    const FlipDiamond q = unfold(flip.lengths);
-    const double w0 = point.weights[start];
-    const double w1 = point.weights[next_corner(start)];
-    const double w2 = point.weights[previous_corner(start)];
-    const Eigen::Vector2d p = in_f ? Eigen::Vector2d(w0 * q.a + w1 * q.b + w2 * q.c)
-                                   : Eigen::Vector2d(w0 * q.b + w1 * q.a + w2 * q.d);
-    const bool side_of_a = cross(q.c - q.d, p - q.d) >= 0;
-    point.face = side_of_a ? flip.f : flip.g;
-    point.weights =
-        side_of_a ? clipped_weights(q.c, q.a, q.d, p) : clipped_weights(q.d, q.b, q.c, p);
-  }
-  return point;
+bool restore_delaunay(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>& edits) {
+  const std::size_t most = edits.size() + most_flips(mesh);
+  while (!queue.empty() && edits.size() < most) flip_next(mesh, queue, edits);
+  return queue.empty();
 }
 
 }  // namespace geotherm

@@ -10,7 +10,7 @@
 namespace geotherm {
 
 /// The quadrilateral of a flip in the plane: a at the origin, b on the positive x axis, c above,
-/// d below. Names as in Flip.
+/// d below. Names as in Edit.
 struct FlipDiamond {
   Eigen::Vector2d a, b, c, d;
 };

@@ -29,6 +29,18 @@ struct IntrinsicMesh {
   std::vector<Index> back;
 
   Index face_count() const { return static_cast<Index>(faces.size()); }
+
+  /// Face f gets these corners, lengths and twins, and the twins are told. Precondition: f is below
+  /// face_count().
+  void set_face(Index f, const Face& corners, const std::array<double, 3>& sides,
+                const std::array<Side, 3>& twins) {
+    faces[f] = corners;
+    lengths[f] = sides;
+    for (int k = 0; k < 3; ++k) {
+      twin[3 * f + k] = twins[k];
+      if (twins[k] != kNoSide) twin[twins[k]] = 3 * f + k;
+    }
+  }
 };
 
 /// Mean length over the edges (each counted once), model units; 0 where there are none. The same

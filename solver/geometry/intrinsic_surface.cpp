@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/core/disjoint_sets.h"
 #include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
@@ -14,6 +15,9 @@ namespace {
 
 /// Faces a thread must have to be worth starting.
 constexpr std::int64_t kGrain = 1 << 15;
+
+/// Vertices are inserted up to as many as there are, and so many more on small meshes.
+constexpr Index kFewInserted = 1000;
 
 void note_mollification(const IntrinsicMesh& intrinsic, std::vector<std::string>& warnings) {
   const Mollification& mollified = intrinsic.mollified;
@@ -27,6 +31,14 @@ void note_mollification(const IntrinsicMesh& intrinsic, std::vector<std::string>
         ", by up to " + rounded_text(mollified.most) +
         " mean edge lengths; distances across them may be too long by as much");
   }
+}
+
+void note_refinement(const RefinementCounts& refinement, std::vector<std::string>& warnings) {
+  if (refinement.complete) return;
+  warnings.push_back(
+      counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
+      " inserted into the triangulation, which is the most for this mesh; where faces are still "
+      "large or the border obtuse, distances may be wrong: use --method wavefront");
 }
 
 /// A flag per clean face, empty where none is to be doubled.
@@ -61,6 +73,55 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
             ", mean edge length " + rounded_text(mean_edge) + "); check how it was exported"};
   }
   return {};
+}
+
+/// A mean edge below this, in those of the whole mesh, is that of a point.
+constexpr double kPoint = 1e-60;
+
+/// The faces of a part that is a point were given areas (mollify.h), and these say how long its
+/// edges are.
+void measure_points(IntrinsicSurface& surface) {
+  std::vector<double> area(surface.part_edge.size(), 0.0);
+  std::vector<Index> faces(area.size(), 0);
+  for (Index f = 0; f < surface.intrinsic.face_count(); ++f) {
+    const Index part = surface.parts.of[surface.intrinsic.faces[f][0]];
+    const FaceLayout p = lay_out(surface.intrinsic.lengths[f]);
+    area[part] += p.base * p.height / 2;
+    ++faces[part];
+  }
+  for (std::size_t c = 0; c < area.size(); ++c) {
+    double& edge = surface.part_edge[c];
+    if (!(edge > kPoint)) edge = std::sqrt(area[c] / faces[c]);
+  }
+}
+
+/// Parts of the surface and the mean lengths of their edges; that of the only one is exactly 1.
+void name_parts(const CleanFaces& clean, IntrinsicSurface& surface) {
+  DisjointSets sets(static_cast<std::size_t>(surface.mesh->vertex_count()));
+  for (const Face& face : clean.faces) {
+    sets.join(face[0], face[1]);
+    sets.join(face[1], face[2]);
+  }
+  Components& parts = surface.parts;
+  parts.of.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kNoIndex);
+  for (Index v = 0; v < surface.mesh->vertex_count(); ++v) {
+    if (clean.corners.at(v).empty()) continue;
+    const Index lowest = sets.root(v);
+    parts.of[v] = lowest == v ? parts.count++ : parts.of[lowest];
+  }
+  surface.part_edge.assign(static_cast<std::size_t>(parts.count), 1.0);
+  if (parts.count == 1) return;
+  std::vector<double> sum(surface.part_edge.size(), 0.0);
+  std::vector<Index> count(sum.size(), 0);
+  const auto positions = surface.mesh->positions();
+  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
+    const Vec3 &low = positions[clean.edges.low(e)], &high = positions[clean.edges.high(e)];
+    const Index part = parts.of[clean.edges.low(e)];
+    sum[part] += safe_norm(low - high) / surface.mean_edge;
+    ++count[part];
+  }
+  for (std::size_t c = 0; c < sum.size(); ++c) surface.part_edge[c] = sum[c] / count[c];
+  if (std::ranges::min(surface.part_edge) <= kPoint) measure_points(surface);
 }
 
 }  // namespace
@@ -98,8 +159,8 @@ void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface, int threads) 
 }
 
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
-                                                 FlipRule rule, const Progress& progress,
-                                                 CoverRule cover, int threads) {
+                                                 const SurfaceRules& rules,
+                                                 const Progress& progress, int threads) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   Stopwatch watch;
   IntrinsicSurface out;
@@ -116,24 +177,34 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   out.warnings = cleaning_notes(clean);
   note_mollification(out.intrinsic, out.warnings);
   const Index vertices = out.mesh->vertex_count();
-  const std::vector<char> doubled = faces_to_double(clean, vertices, cover);
+  const std::vector<char> doubled = faces_to_double(clean, vertices, rules.cover);
   out.tufted = !doubled.empty();
   if (out.tufted) make_tufted_cover(out.intrinsic, positions, clean, doubled);
 
   if (!report(progress, "operators", 0.75)) return cancelled_error();
   out.times.intrinsic = watch.lap();
   std::vector<Side> sides;
-  if (rule != FlipRule::kNever) sides = non_delaunay_sides(out.intrinsic, threads);
-  out.delaunay = rule == FlipRule::kAlways || !sides.empty();
+  if (rules.flip != FlipRule::kNever) sides = non_delaunay_sides(out.intrinsic, threads);
+  out.delaunay = rules.flip == FlipRule::kAlways || !sides.empty();
   if (!sides.empty()) {
     auto flips = flip_to_delaunay(out.intrinsic, std::move(sides), part_of(progress, 0.75, 1.0));
     if (!flips) return flips.error();
-    out.flips = std::move(*flips);
+    out.edits = std::move(*flips);
   }
+  if (rules.parts || rules.refine != RefineRule::kNever) name_parts(clean, out);
+  if (rules.refine != RefineRule::kNever) {
+    auto refined =
+        refine_triangulation(out.intrinsic, out.edits, out.parts, out.part_edge, positions,
+                             vertices + kFewInserted, threads, part_of(progress, 0.75, 1.0));
+    if (!refined) return refined.error();
+    out.refinement = *std::move(refined);
+    note_refinement(out.refinement, out.warnings);
+  }
+  out.flips = static_cast<Index>(std::ranges::count(out.edits, Edit::Kind::kFlip, &Edit::kind));
   out.times.flips = watch.lap();
   keep_clean_faces(std::move(clean), out, threads);
-  if (!out.flips.empty() || out.tufted) {
-    out.corners = CornerTable(vertices, out.intrinsic.faces, threads);
+  if (!out.edits.empty() || out.tufted) {
+    out.corners = CornerTable(out.vertex_count(), out.intrinsic.faces, threads);
   }
   out.times.clean += watch.lap();
   return out;

@@ -10,6 +10,7 @@
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/intrinsic_mesh.h"
+#include "solver/geometry/intrinsic_refinement.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -22,6 +23,17 @@ enum class FlipRule { kNever, kWhereNeeded, kAlways };
 /// their edges, or all.
 enum class CoverRule { kNever, kWhereNeeded, kAlways };
 
+/// Whether vertices are inserted where a triangulation cannot carry the heat method.
+enum class RefineRule { kNever, kWhereNeeded };
+
+/// How a mesh becomes an IntrinsicSurface.
+struct SurfaceRules {
+  FlipRule flip = FlipRule::kNever;
+  CoverRule cover = CoverRule::kNever;
+  RefineRule refine = RefineRule::kNever;
+  bool parts = false;  ///< name connected parts; where it is refined they are named in any case
+};
+
 /// A mesh made ready for numerical work: cleaned, and triangulated intrinsically. Immutable; every
 /// distance method begins with one; only the heat method asks for covers.
 struct IntrinsicSurface {
@@ -30,27 +42,33 @@ struct IntrinsicSurface {
   EdgeTable clean_edges;             ///< of clean_faces
   std::vector<Index> clean_of_face;  ///< F of the mesh: number in clean_faces, or kNoIndex
   std::vector<char> on_surface;      ///< V: the vertex is a corner of a clean face
-  IntrinsicMesh intrinsic;           ///< after flips; its vertices are the mesh's
+  IntrinsicMesh intrinsic;           ///< after all edits; vertices from V on were inserted
   CornerTable corners;               ///< of intrinsic.faces; for the set-up, which may drop it
-  std::vector<Flip> flips;
-  bool delaunay = false;  ///< flips were asked for or needed
-  bool tufted = false;    ///< some component is its tufted cover
-  double mean_edge = 0;   ///< of the mesh, model units; also the unit of `intrinsic`
+  std::vector<Edit> edits;           ///< from clean_faces (and backs) to intrinsic.faces
+  Index flips = 0;                   ///< edits that are flips
+  Refinement refinement;             ///< what was inserted
+  /// Which connected part a vertex (V and inserted ones) belongs to, kNoIndex where in no face.
+  Components parts;
+  std::vector<double> part_edge;  ///< per part: mean length of the mesh's edges, in units
+  bool delaunay = false;          ///< flips were asked for or needed
+  bool tufted = false;            ///< some component is its tufted cover
+  double mean_edge = 0;           ///< of the mesh, model units; also the unit of `intrinsic`
+  /// V and inserted vertices.
+  Index vertex_count() const { return mesh->vertex_count() + refinement.points; }
   std::vector<std::string> warnings;
 
   struct Times {           ///< milliseconds
     double clean = 0;      ///< faces, edges, orientation
     double intrinsic = 0;  ///< lengths, mollification, cover
-    double flips = 0;      ///< looking for edges to flip, and flips
+    double flips = 0;      ///< looking for edges to flip, and flips; refinement
   } times;
 };
 
 /// `progress` is asked as stage "operators". Errors: kBadInput (no face with area, edges that
-/// cannot be added up), kCancelled. The same bits with any number of threads. Cost: O(F + flips).
+/// cannot be added up), kCancelled. The same bits with any number of threads. Cost: O(F + edits).
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
-                                                 FlipRule rule, const Progress& progress = {},
-                                                 CoverRule cover = CoverRule::kNever,
-                                                 int threads = 1);
+                                                 const SurfaceRules& rules,
+                                                 const Progress& progress = {}, int threads = 1);
 
 /// What was left out, one sentence each.
 std::vector<std::string> cleaning_notes(const CleanFaces& clean);

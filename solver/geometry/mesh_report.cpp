@@ -11,6 +11,7 @@
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/face_shape.h"
 #include "solver/geometry/intrinsic_mesh.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "solver/geometry/mesh_summary.h"
 #include "solver/geometry/tufted_cover.h"
 
@@ -146,6 +147,15 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
   report.tufted_components = count_flagged(clean, vertices, faces_that_need_cover(clean, vertices));
 }
 
+/// As LaplacianKind::kAuto has it.
+RefinementCounts count_refinement(const TriangleMesh& mesh) {
+  const std::shared_ptr<const TriangleMesh> view(std::shared_ptr<void>(), &mesh);  // owns nothing
+  const auto surface = build_intrinsic_surface(
+      view, {FlipRule::kWhereNeeded, CoverRule::kWhereNeeded, RefineRule::kWhereNeeded});
+  if (!surface) return {};
+  return surface->refinement;
+}
+
 }  // namespace
 
 double triangle_quality(const std::array<Vec3, 3>& corners) {
@@ -166,6 +176,7 @@ MeshReport inspect_mesh(const TriangleMesh& mesh) {
   report.nonmanifold_vertices = count_split_vertices(mesh, clean);
   inspect_shapes(mesh, clean, report);
   inspect_edges(mesh.positions(), clean, report);
+  report.refinement = count_refinement(mesh);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "solver/core/types.h"
+#include "solver/geometry/intrinsic_refinement.h"
 #include "solver/geometry/mollify.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -38,6 +39,7 @@ struct MeshReport : MeshSummary {
   Index non_delaunay_edges = 0;           ///< edges with a negative cotangent weight
   Index tufted_components = 0;            ///< that are no oriented manifold along all their edges
   Mollification mollified;                ///< what will be added to edges, model units
+  RefinementCounts refinement;            ///< what LaplacianKind::kAuto inserts
   std::int64_t euler_characteristic = 0;  ///< V - E + F, of what the faces use
 
   double shortest_edge = 0, longest_edge = 0;           ///< model units

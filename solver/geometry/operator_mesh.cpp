@@ -118,9 +118,8 @@ class Builder {
       }
     }
     out_.doubled.assign(static_cast<std::size_t>(parts.count), 0);
-    for (std::size_t f = 0; f < out_.faces.size() && !mesh_.back.empty(); ++f) {
-      const bool is_back = static_cast<std::size_t>(out_.intrinsic_face[f]) >= mesh_.back.size();
-      if (is_back) out_.doubled[out_.components.of[out_.faces[f][0]]] = 1;
+    for (std::size_t f = 0; f < mesh_.back.size(); ++f) {
+      if (mesh_.back[f] != kNoIndex) out_.doubled[out_.components.of[renamed_[f][0]]] = 1;
     }
   }
 
@@ -145,14 +144,15 @@ class Builder {
 std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mesh,
                                                         const SymmetricPattern& pattern,
                                                         std::span<const Index> local,
-                                                        std::span<const Index> order, int threads) {
+                                                        std::span<const Index> order,
+                                                        const Components& parts, int threads) {
   auto out = std::make_shared<OperatorMesh>();
   out->lower = permuted_lower(pattern, order, threads);
   out->pattern = pattern_hash(out->lower, threads);
   Builder builder(mesh, local, order, threads, *out);
   builder.sort_faces();
   builder.add_up_faces();
-  builder.name_components(connected_components(pattern), order);
+  builder.name_components(parts, order);
   return out;
 }
 

@@ -48,13 +48,14 @@ struct OperatorMesh {
   Index face_count() const { return static_cast<Index>(faces.size()); }
 };
 
-/// `local`: number of each mesh vertex in `pattern`, kNoIndex where it has none. `order`: the
-/// elimination order of `pattern`. The same bits with any number of threads. Cost: O(F).
+/// `local`: number of each vertex of the mesh in `pattern`, kNoIndex where it has none. `order`:
+/// the elimination order of `pattern`; `parts`: its connected components. The same bits with any
+/// number of threads. Cost: O(F).
 std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mesh,
                                                         const SymmetricPattern& pattern,
                                                         std::span<const Index> local,
                                                         std::span<const Index> order,
-                                                        int threads = 1);
+                                                        const Components& parts, int threads = 1);
 
 /// Off-diagonal entries of a face's stiffness matrix for its pairs of corners (0,1), (1,2), (2,0):
 /// minus half the cotangent of the angle opposite (Pinkall, Polthier 1993).

@@ -106,9 +106,4 @@ void make_tufted_cover(IntrinsicMesh& mesh, std::span<const Vec3> positions,
   }
 }
 
-SurfacePoint on_back(const IntrinsicMesh& mesh, const SurfacePoint& point) {
-  const auto& w = point.weights;
-  return SurfacePoint::in_face(mesh.back[point.face], {w[0], w[2], w[1]});
-}
-
 }  // namespace geotherm

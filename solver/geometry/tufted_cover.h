@@ -29,7 +29,4 @@ std::vector<char> faces_that_need_cover(const CleanFaces& clean, Index vertex_co
 void make_tufted_cover(IntrinsicMesh& mesh, std::span<const Vec3> positions,
                        const CleanFaces& clean, const std::vector<char>& doubled);
 
-/// The same point on the back of a face that has one (IntrinsicMesh::back).
-SurfacePoint on_back(const IntrinsicMesh& mesh, const SurfacePoint& point);
-
 }  // namespace geotherm

@@ -12,9 +12,9 @@ namespace {
 double unit_time(const Surface& surface, const ComponentSize& size, const TimeStep& step) {
   switch (step.rule) {
     case TimeRule::kMeanEdge:
-      return step.factor * size.mean_edge * size.mean_edge;
+      return step.factor * size.grading * size.mean_edge * size.mean_edge;
     case TimeRule::kMeanFaceArea:
-      return step.factor * size.area / static_cast<double>(size.faces);
+      return step.factor * size.grading * size.area / static_cast<double>(size.faces);
     case TimeRule::kAbsolute:
       break;
   }
@@ -41,6 +41,7 @@ Result<DiffusionTimes> diffusion_times(const Surface& surface, const TimeStep& s
   const double edge = surface.mean_edge;
   DiffusionTimes out;
   out.relative_t = relative[largest];
+  out.grading = surface.components[largest].grading;
   out.model_t = step.rule == TimeRule::kAbsolute ? step.absolute : t[largest] * edge * edge;
   out.extreme =
       *std::ranges::max_element(relative, {}, [](double each) { return std::abs(std::log(each)); });

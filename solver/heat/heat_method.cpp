@@ -197,13 +197,15 @@ Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> se
 const HeatOptions& HeatMethod::options() const { return state_->options; }
 double HeatMethod::t() const { return state_->times.model_t; }
 double HeatMethod::relative_t() const { return state_->times.relative_t; }
+double HeatMethod::grading() const { return state_->times.grading; }
 std::array<double, 2> HeatMethod::t_range() const {
   const double edge = state_->surface->mean_edge;
   if (state_->times.t.same()) return {t(), t()};
   return {state_->times.t.least() * edge * edge, state_->times.t.most() * edge * edge};
 }
 LaplacianKind HeatMethod::laplacian() const { return state_->surface->laplacian; }
-Index HeatMethod::flips() const { return static_cast<Index>(state_->surface->flips.size()); }
+Index HeatMethod::flips() const { return state_->surface->flips; }
+const RefinementCounts& HeatMethod::refinement() const { return state_->surface->refinement; }
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }
 double HeatMethod::memory_mb() const {
   const std::int64_t bytes = state_->heat->stats().bytes + state_->poisson->stats().bytes;

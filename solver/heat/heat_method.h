@@ -9,6 +9,7 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
+#include "solver/geometry/intrinsic_refinement.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/fallback.h"
 #include "solver/mesh/surface_point.h"
@@ -60,13 +61,19 @@ class HeatMethod final : public DistanceMethod {
   const HeatOptions& options() const;              ///< with the backend at work
   const std::vector<Fallback>& fallbacks() const;  ///< backends that failed before it
   /// Diffusion time, model units squared. Rules that follow h or A/F follow those of each
-  /// component; then this is the time of the component with most faces (of several, the first).
+  /// component, times its Refinement::grading; then this is the time of the component with most
+  /// faces (of several, the first).
   double t() const;
   double relative_t() const;  ///< the same in squares of that component's mean edge
+  /// Of that component, Refinement::grading: with m = 1 what relative_t() is.
+  double grading() const;
   /// The least and the largest time of a component, model units squared.
   std::array<double, 2> t_range() const;
-  LaplacianKind laplacian() const;             ///< what kAuto became
-  Index flips() const;                         ///< Delaunay edge flips made
+  LaplacianKind laplacian() const;  ///< what kAuto became
+  Index flips() const;              ///< Delaunay edge flips made
+  /// What was inserted into the triangulation, never into the mesh. The same for every time step:
+  /// with() keeps it.
+  const RefinementCounts& refinement() const;
   const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
   double memory_mb() const override;           ///< of all factors
   double forecast_mb() const;                  ///< the same, as it was foreseen

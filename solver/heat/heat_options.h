@@ -61,11 +61,14 @@ enum class Variant {
 
 /// Which triangulation of the surface carries the operators.
 enum class LaplacianKind {
-  kAuto,               ///< kTufted where the surface is no oriented manifold, else
-                       ///< kIntrinsicDelaunay where an edge has a negative weight, else kCotan
+  kAuto,               ///< kRefined where that inserts vertices, else kTufted where the surface is
+                       ///< no oriented manifold, else kIntrinsicDelaunay where an edge has a
+                       ///< negative weight, else kCotan
   kCotan,              ///< the mesh as it is
   kIntrinsicDelaunay,  ///< after intrinsic edge flips (Bobenko, Springborn 2007)
   kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
+  kRefined,            ///< Delaunay flips, on the cover where needed, and inserted vertices where
+                       ///< faces are too large for t or the border is obtuse
 };
 
 /// How accurately systems are solved (docs/numerics.md, "Precision"). Iterative backends, which

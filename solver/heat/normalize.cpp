@@ -17,6 +17,11 @@ constexpr double kRoundOff = 1e-6;
 /// Vertices worth a thread, with one column.
 constexpr std::int64_t kVerticesOfThread = 1 << 15;
 
+/// Whether a row is a vertex of the mesh, not one that was inserted.
+bool is_of_mesh(const Surface& surface, Eigen::Index row) {
+  return surface.vertex_of_row[static_cast<std::size_t>(row)] < surface.mesh->vertex_count();
+}
+
 /// What makes the mean of phi on the anchors of each component theirs: 0 where no source is.
 void shift_to_mean(const Components& components, PoissonAnswer& answer,
                    std::span<const SourceAnchors> anchors) {
@@ -60,7 +65,7 @@ class Scatter {
   /// Columns are cut among threads by cache lines of them, and grow at their ends: no memory is
   /// cleared before it is written. Where threads are more than that, they are cut by vertices.
   void run(int threads) {
-    const std::int64_t count = std::ssize(surface_.row_of_vertex);
+    const std::int64_t count = surface_.mesh->vertex_count();
     for (DistanceResult& result : results_) {
       result.distances.clear();
       result.distances.reserve(static_cast<std::size_t>(count));
@@ -100,6 +105,7 @@ class Scatter {
     const auto c = static_cast<Eigen::Index>(column);
     Index count = 0;
     for (Eigen::Index i = 0; i < phi_.rows(); ++i) {
+      if (!is_of_mesh(surface_, i)) continue;
       count +=
           phi_(i, c) + add_(surface_.operators->components.of[i], c) < -kRoundOff * most_[column];
     }
@@ -221,7 +227,8 @@ Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
       const double off = std::abs(phi - anchor.offset) * unit;
       if (!(off <= result.quality.max_source_distance)) result.quality.max_source_distance = off;
       // Held: what was off is the solve's round-off.
-      if (pinned) result.distances[surface.vertex_of_row[anchor.row]] = anchor.offset * unit;
+      if (!pinned || !is_of_mesh(surface, anchor.row)) continue;
+      result.distances[surface.vertex_of_row[anchor.row]] = anchor.offset * unit;
     }
     if (scatter.has_negative(c)) result.quality.clamped_vertices = scatter.count_negative(c);
   }
@@ -247,7 +254,8 @@ std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& 
   for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
     const bool far =
         !heat.level.empty() && heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)] > 0;
-    if (!far && largest > 0) out[surface.vertex_of_row[i]] = heat.u(i, column) / largest;
+    if (!far && largest > 0 && is_of_mesh(surface, i))
+      out[surface.vertex_of_row[i]] = heat.u(i, column) / largest;
   }
   return out;
 }
@@ -258,7 +266,7 @@ std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatFie
   const double largest = std::log(heat.u.col(column).cwiseAbs().maxCoeff());
   const double step = std::log(heat.step);
   for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
-    if (!(heat.u(i, column) > 0)) continue;
+    if (!(heat.u(i, column) > 0) || !is_of_mesh(surface, i)) continue;
     const int level =
         heat.level.empty() ? 0 : heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)];
     out[surface.vertex_of_row[i]] = std::log(heat.u(i, column)) + level * step - largest;

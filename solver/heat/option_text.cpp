@@ -28,11 +28,12 @@ constexpr Names<HeatMode, 3> kHeatModes = {
 constexpr Names<BoundaryRule, 3> kBoundaryRules = {{{BoundaryRule::kNeumann, "neumann"},
                                                     {BoundaryRule::kDirichlet, "dirichlet"},
                                                     {BoundaryRule::kAverage, "average"}}};
-constexpr Names<LaplacianKind, 4> kLaplacians = {
+constexpr Names<LaplacianKind, 5> kLaplacians = {
     {{LaplacianKind::kAuto, "auto"},
      {LaplacianKind::kCotan, "cotan"},
      {LaplacianKind::kIntrinsicDelaunay, "intrinsic-delaunay"},
-     {LaplacianKind::kTufted, "tufted"}}};
+     {LaplacianKind::kTufted, "tufted"},
+     {LaplacianKind::kRefined, "refined"}}};
 
 constexpr Names<Variant, 2> kVariants = {
     {{Variant::kCorrected, "corrected"}, {Variant::kClassic, "classic"}}};

@@ -16,10 +16,9 @@ Result<std::vector<Index>> choose_pins(const Surface& surface, const Constraint&
   const bool last_of_file = constraint.mode == ConstraintMode::kPenalty;
   for (Index row = 0; row < surface.operators->size(); ++row) {
     Index& pin = pins[components.of[row]];
-    if (pin == kNoIndex || !last_of_file ||
-        surface.vertex_of_row[row] > surface.vertex_of_row[pin]) {
-      pin = row;
-    }
+    const Index v = surface.vertex_of_row[row];
+    if (v >= surface.mesh->vertex_count()) continue;  // inserted
+    if (pin == kNoIndex || !last_of_file || v > surface.vertex_of_row[pin]) pin = row;
   }
   if (constraint.mode == ConstraintMode::kPinVertex && constraint.pin_vertex != kNoIndex) {
     const Index v = constraint.pin_vertex;

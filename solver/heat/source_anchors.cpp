@@ -7,12 +7,13 @@
 #include <set>
 
 #include "solver/core/number_text.h"
-#include "solver/geometry/tufted_cover.h"
+#include "solver/geometry/edit.h"
 
 namespace geotherm {
 namespace {
 
 using Point2 = Eigen::Vector2d;
+using Weights = std::array<double, 3>;
 
 std::array<Point2, 3> corners(const FaceLayout& p) {
   return {Point2(0, 0), Point2(p.base, 0), Point2(p.x, p.height)};
@@ -20,7 +21,8 @@ std::array<Point2, 3> corners(const FaceLayout& p) {
 
 double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
   const Point2 ab = b - a;
-  const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+  const double square = ab.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - a).dot(ab) / square, 0.0, 1.0) : 0.0;
   return (p - a - t * ab).norm();
 }
 
@@ -31,26 +33,24 @@ class Placer {
   void add(const SurfacePoint& given) {
     const SurfacePoint point = clean_point(surface_, given);
     if (point.is_vertex()) return add_vertex(point.vertex);
-    add_in_face(point, true);
+    add_piece({point.face, point.weights, point.weights}, true);
     for (int k = 0; k < 3; ++k) {
       if (point.weights[previous_corner(k)] > kAtCorner) continue;
-      add_beyond(3 * point.face + k, point.weights[k]);
+      add_beyond(3 * point.face + k, {point.weights[k], point.weights[k]});
     }
   }
 
+  /// All of an edge. Where it is still one, its faces measure from all of it; where flips or
+  /// splits have cut it up, its pieces do.
   void add_edge(const std::array<Index, 2>& edge) {
     for (const Index v : edge) add_vertex(v);
     if (edge[0] == edge[1]) return;
-    const Index a = surface_.row_of_vertex[edge[0]];
-    const Index b = surface_.row_of_vertex[edge[1]];
-    for (const Index f : surface_.operators->faces_at(a)) {
-      const Face& face = surface_.operators->faces[f];
-      if (std::find(face.begin(), face.end(), b) != face.end()) {
-        edges_.insert({std::min(a, b), std::max(a, b)});
-        return;
-      }
-    }
-    add_flipped_edge(edge);
+    const Index e = find_clean_edge(surface_, edge[0], edge[1]);
+    const Side side = surface_.clean_edges.sides(e).front();
+    FacePiece piece{face_of(side), {}, {}};
+    piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
+    add_piece(piece, true);
+    add_beyond(side, {1, 0});
   }
 
   SourceAnchors finish() {
@@ -78,74 +78,106 @@ class Placer {
 
   void add_vertex(Index v) { anchors_[surface_.row_of_vertex[v]] = {0.0, 1.0}; }
 
-  /// A point of clean_faces, and the same on the face's back where there is one.
-  void add_in_face(const SurfacePoint& point, bool heats) {
-    add_carried(carry_through_flips(surface_.flips, point), heats);
+  /// A piece of clean_faces, and the same on the face's back where there is one.
+  void add_piece(const FacePiece& piece, bool heats) {
+    add_carried(piece, heats);
     const IntrinsicMesh& intrinsic = surface_.intrinsic;
-    if (intrinsic.back.empty() || intrinsic.back[point.face] == kNoIndex) return;
-    add_carried(carry_through_flips(surface_.flips, on_back(intrinsic, point)), false);
+    if (intrinsic.back.empty() || intrinsic.back[piece.face] == kNoIndex) return;
+    const auto turned = [](const Weights& w) { return Weights{w[0], w[2], w[1]}; };
+    add_carried({intrinsic.back[piece.face], turned(piece.from), turned(piece.to)}, false);
   }
 
-  /// A point on a side of clean_faces, `weight` of the side's first corner, as the other faces at
-  /// the edge see it: where flips do not pass the edge, no twin leads there.
-  void add_beyond(Side side, double weight) {
+  /// A piece on a side of clean_faces, from and to where the side's first corner has these weights,
+  /// as the other faces at the edge see it: where edits do not pass the edge, no twin leads there.
+  void add_beyond(Side side, const std::array<double, 2>& weights) {
     const Face& face = surface_.clean_faces[face_of(side)];
     const Index from = face[corner_of(side)], to = face[next_corner(corner_of(side))];
     const auto sides = surface_.clean_edges.sides(find_clean_edge(surface_, from, to));
     if (sides.size() == 2 && sides_agree(surface_.clean_faces, sides[0], sides[1])) return;
     for (const Side other : sides) {
       if (other == side) continue;
-      const int k = corner_of(other);
+      const int k = corner_of(other), l = next_corner(k);
       const bool same = surface_.clean_faces[face_of(other)][k] == from;
-      SurfacePoint point = SurfacePoint::in_face(face_of(other), {});
-      point.weights[k] = same ? weight : 1 - weight;
-      point.weights[next_corner(k)] = same ? 1 - weight : weight;
-      add_in_face(point, false);
+      FacePiece piece{face_of(other), {}, {}};
+      piece.from[same ? k : l] = weights[0];
+      piece.from[same ? l : k] = 1 - weights[0];
+      piece.to[same ? k : l] = weights[1];
+      piece.to[same ? l : k] = 1 - weights[1];
+      add_piece(piece, false);
     }
   }
 
-  /// The point as its face sees it and, where it lies on an edge, as the face beyond does: which
-  /// of the two was named makes no difference.
-  void add_carried(const SurfacePoint& point, bool heats) {
-    add_to_face(point, heats);
-    for (int k = 0; k < 3; ++k) {
-      if (point.weights[k] > kAtCorner) continue;
-      const Side twin = surface_.intrinsic.twin[3 * point.face + next_corner(k)];
-      if (twin == kNoSide) continue;
-      SurfacePoint beyond = SurfacePoint::in_face(face_of(twin), {});
-      beyond.weights[corner_of(twin)] = point.weights[previous_corner(k)];
-      beyond.weights[next_corner(corner_of(twin))] = point.weights[next_corner(k)];
-      add_to_face(beyond, false);
-    }
-  }
-
-  void add_to_face(const SurfacePoint& point, bool heats) {
-    const OperatorMesh& mesh = *surface_.operators;
-    const Index first = surface_.row_of_vertex[surface_.intrinsic.faces[point.face][0]];
-    for (const Index f : mesh.faces_at(first)) {
-      if (mesh.intrinsic_face[f] != point.face) continue;
-      const auto at = corners(mesh.layout[f]);
-      const Point2 p =
-          point.weights[0] * at[0] + point.weights[1] * at[1] + point.weights[2] * at[2];
+  /// The pieces that it is in the triangulation: as their faces see them and, where they lie on an
+  /// edge, as the face beyond does; which of the two was named makes no difference.
+  void add_carried(const FacePiece& given, bool heats) {
+    for (const FacePiece& piece : carried(given)) {
+      if (is_edge(piece)) continue;
+      add_to_face(piece, heats);
       for (int k = 0; k < 3; ++k) {
-        Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
-        if (entry.offset == 0) continue;  // a source itself, with all its heat
-        entry.offset = std::min(entry.offset, (p - at[k]).norm());
-        if (heats) entry.heat += point.weights[k];
+        if (piece.from[k] > 0 || piece.to[k] > 0) continue;
+        const Side twin = surface_.intrinsic.twin[3 * piece.face + next_corner(k)];
+        if (twin == kNoSide) continue;
+        const auto beyond = [&](const Weights& w) {
+          Weights out{};
+          out[corner_of(twin)] = w[previous_corner(k)];
+          out[next_corner(corner_of(twin))] = w[next_corner(k)];
+          return out;
+        };
+        add_to_face({face_of(twin), beyond(piece.from), beyond(piece.to)}, false);
       }
-      touched_.insert(f);
-      return;
     }
   }
 
-  /// An edge of the mesh that the flips removed crosses other faces: its middle stands for it.
-  void add_flipped_edge(const std::array<Index, 2>& edge) {
-    const Index e = find_clean_edge(surface_, edge[0], edge[1]);
-    const Side side = surface_.clean_edges.sides(e).front();
-    SurfacePoint middle = SurfacePoint::in_face(face_of(side), {});
-    middle.weights[corner_of(side)] = middle.weights[next_corner(corner_of(side))] = 0.5;
-    add_in_face(middle, true);
-    add_beyond(side, 0.5);
+  std::vector<FacePiece> carried(const FacePiece& piece) const {
+    return carry_pieces(surface_.edits, surface_.intrinsic.face_count(), {piece});
+  }
+
+  /// Takes note of a piece that is a whole edge: both ends are sources, and what their faces
+  /// measure is measured from all of it.
+  bool is_edge(const FacePiece& piece) {
+    const Face& face = surface_.intrinsic.faces[piece.face];
+    for (int k = 0; k < 3; ++k) {
+      for (const int l : {next_corner(k), previous_corner(k)}) {
+        if (piece.from[k] < 1 || piece.to[l] < 1) continue;
+        add_vertex(face[k]);
+        add_vertex(face[l]);
+        const Index a = surface_.row_of_vertex[face[k]], b = surface_.row_of_vertex[face[l]];
+        edges_.insert({std::min(a, b), std::max(a, b)});
+        return true;
+      }
+    }
+    return false;
+  }
+
+  Index face_number(Index intrinsic_face) const {
+    const OperatorMesh& mesh = *surface_.operators;
+    const Index first = surface_.row_of_vertex[surface_.intrinsic.faces[intrinsic_face][0]];
+    for (const Index f : mesh.faces_at(first)) {
+      if (mesh.intrinsic_face[f] == intrinsic_face) return f;
+    }
+    return kNoIndex;
+  }
+
+  void add_to_face(const FacePiece& piece, bool heats) {
+    const OperatorMesh& mesh = *surface_.operators;
+    const Index f = face_number(piece.face);
+    const auto at = corners(mesh.layout[f]);
+    const auto place = [&at](const Weights& w) {
+      return Point2(w[0] * at[0] + w[1] * at[1] + w[2] * at[2]);
+    };
+    const Point2 from = place(piece.from), to = place(piece.to);
+    for (int k = 0; k < 3; ++k) {
+      Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
+      if (entry.offset == 0) continue;  // a source itself, with all its heat
+      const double offset = distance_to_segment(at[k], from, to);
+      if (piece.from[k] == 1 || piece.to[k] == 1) {
+        entry = {0.0, 1.0};
+        continue;
+      }
+      entry.offset = std::min(entry.offset, offset);
+      if (heats) entry.heat += (piece.from[k] + piece.to[k]) / 2;
+    }
+    touched_.insert(f);
   }
 
   /// Straight distances to the sources within the faces that touch one.

@@ -18,6 +18,7 @@ FlipRule flip_rule(LaplacianKind laplacian) {
   switch (laplacian) {
     case LaplacianKind::kIntrinsicDelaunay:
     case LaplacianKind::kTufted:
+    case LaplacianKind::kRefined:
       return FlipRule::kAlways;
     case LaplacianKind::kAuto:
       return FlipRule::kWhereNeeded;
@@ -31,57 +32,79 @@ CoverRule cover_rule(LaplacianKind laplacian) {
     case LaplacianKind::kTufted:
       return CoverRule::kAlways;
     case LaplacianKind::kAuto:
+    case LaplacianKind::kRefined:
       return CoverRule::kWhereNeeded;
     default:
       return CoverRule::kNever;
   }
 }
 
-/// Numbers the vertices that faces use; `vertices` lists them.
-std::vector<Index> number_used(const std::vector<char>& on_surface, std::vector<Index>& vertices) {
-  std::vector<Index> local(on_surface.size(), kNoIndex);
-  for (std::size_t v = 0; v < on_surface.size(); ++v) {
-    if (!on_surface[v]) continue;
-    local[v] = static_cast<Index>(vertices.size());
-    vertices.push_back(static_cast<Index>(v));
-  }
-  return local;
+RefineRule refine_rule(LaplacianKind laplacian) {
+  const bool may = laplacian == LaplacianKind::kAuto || laplacian == LaplacianKind::kRefined;
+  return may ? RefineRule::kWhereNeeded : RefineRule::kNever;
 }
 
-/// A mean edge below this, in those of the whole mesh, is that of a point: its faces were given
-/// areas (mollify.h), and these say how long its edges are.
-constexpr double kPoint = 1e-60;
+/// The vertices that faces use, inserted ones last, as the pattern numbers them.
+struct UsedVertices {
+  std::vector<Index> vertices;
+  std::vector<Index> local;  ///< number of a vertex in `vertices`, or kNoIndex
+  std::vector<Vec3> positions;
+  Components parts;
+
+  explicit UsedVertices(const IntrinsicSurface& surface)
+      : local(static_cast<std::size_t>(surface.vertex_count()), kNoIndex) {
+    const auto own = static_cast<std::size_t>(surface.mesh->vertex_count());
+    for (std::size_t v = 0; v < local.size(); ++v) {
+      if (v < own && !surface.on_surface[v]) continue;
+      local[v] = static_cast<Index>(vertices.size());
+      vertices.push_back(static_cast<Index>(v));
+      positions.push_back(v < own ? surface.mesh->positions()[v]
+                                  : surface.refinement.positions[v - own]);
+      parts.of.push_back(surface.parts.of[v]);
+    }
+    parts.count = surface.parts.count;
+  }
+};
+
+/// Which rows lie on the border: an edge of the mesh with one face, or such an edge where it was
+/// split.
+std::vector<char> find_border(const Surface& surface) {
+  std::vector<char> on_border(surface.vertex_of_row.size(), 0);
+  const EdgeTable& edges = surface.clean_edges;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides(e).size() != 1) continue;
+    on_border[surface.row_of_vertex[edges.low(e)]] = 1;
+    on_border[surface.row_of_vertex[edges.high(e)]] = 1;
+  }
+  const Index own = surface.mesh->vertex_count();
+  for (Index p = 0; p < surface.refinement.points; ++p) {
+    if (surface.refinement.on_border[p]) on_border[surface.row_of_vertex[own + p]] = 1;
+  }
+  return on_border;
+}
 
 /// Sizes of the components; of the only one the mean edge is exactly 1.
 std::vector<ComponentSize> measure_components(const Surface& surface) {
   const OperatorMesh& mesh = *surface.operators;
   std::vector<ComponentSize> sizes(static_cast<std::size_t>(mesh.components.count));
-  for (Index i = 0; i < mesh.size(); ++i) sizes[mesh.components.of[i]].area += mesh.mass[i];
-  for (const Face& face : mesh.faces) ++sizes[mesh.components.of[face[0]]].faces;
-  for (std::size_t c = 0; c < sizes.size(); ++c) {
-    if (!mesh.is_doubled(static_cast<Index>(c))) continue;
-    sizes[c].area /= 2;
-    sizes[c].faces /= 2;
+  for (Index i = 0; i < mesh.size(); ++i) {
+    ComponentSize& size = sizes[mesh.components.of[i]];
+    const Index part = surface.parts.of[surface.vertex_of_row[i]];
+    size.area += mesh.mass[i];
+    size.mean_edge = surface.part_edge[part];
+    if (!surface.refinement.grading.empty()) size.grading = surface.refinement.grading[part];
   }
-  if (sizes.size() == 1) return sizes;
-  const EdgeTable& edges = surface.clean_edges;
-  std::vector<double> sum(sizes.size(), 0.0);
-  std::vector<Index> count(sizes.size(), 0);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    const Vec3& low = surface.mesh->positions()[edges.low(e)];
-    const Vec3& high = surface.mesh->positions()[edges.high(e)];
-    const Index c = mesh.components.of[surface.row_of_vertex[edges.low(e)]];
-    sum[c] += safe_norm(low - high) / surface.mean_edge;
-    ++count[c];
+  for (const Face& face : surface.clean_faces) {
+    ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].faces;
   }
   for (std::size_t c = 0; c < sizes.size(); ++c) {
-    const double mean = sum[c] / count[c];
-    sizes[c].mean_edge = mean > kPoint ? mean : std::sqrt(sizes[c].area / sizes[c].faces);
+    if (mesh.is_doubled(static_cast<Index>(c))) sizes[c].area /= 2;
   }
   return sizes;
 }
 
 LaplacianKind kind_of(const IntrinsicSurface& surface) {
+  if (surface.refinement.points > 0) return LaplacianKind::kRefined;
   if (surface.tufted) return LaplacianKind::kTufted;
   return surface.delaunay ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
 }
@@ -93,49 +116,41 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress) {
   Stopwatch watch, stage;
-  auto built =
-      build_intrinsic_surface(std::move(mesh), flip_rule(laplacian),
-                              part_of(progress, 0.0, kAnalyzeFrom), cover_rule(laplacian), threads);
+  auto built = build_intrinsic_surface(
+      std::move(mesh), {flip_rule(laplacian), cover_rule(laplacian), refine_rule(laplacian), true},
+      part_of(progress, 0.0, kAnalyzeFrom), threads);
   if (!built) return built.error();
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
   out->laplacian = kind_of(*out);
-  const auto positions = out->mesh->positions();
-  const EdgeTable& edges = out->clean_edges;
 
   stage.lap();
-  std::vector<Index> used;
-  const std::vector<Index> local = number_used(out->on_surface, used);
+  const UsedVertices used(*out);
   const SymmetricPattern pattern =
-      surface_pattern(out->intrinsic, out->corners, used, local, threads);
+      surface_pattern(out->intrinsic, out->corners, used.vertices, used.local, threads);
   out->corners = {};
-  std::vector<Vec3> used_positions(used.size());
-  for (std::size_t i = 0; i < used.size(); ++i) used_positions[i] = positions[used[i]];
   SetupTiming& timing = out->timing;
   timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, stage.lap(), 0};
   timing.operators = watch.lap();
 
   if (!report(progress, "analyze", kAnalyzeFrom)) return cancelled_error();
-  auto analysis = backend.analyze(pattern, used_positions, threads);
+  auto analysis = backend.analyze(pattern, used.positions, threads);
   if (!analysis) return analysis.error();
   out->analysis = std::move(*analysis);
   timing.analyze = watch.lap();
 
   if (!report(progress, "operators", kAnalyzeTo)) return cancelled_error();
   const std::span<const Index> order = out->analysis->order();
-  out->operators = build_operator_mesh(out->intrinsic, pattern, local, order, threads);
-  out->vertex_of_row.resize(used.size());
-  out->row_of_vertex.assign(local.size(), kNoIndex);
+  out->operators =
+      build_operator_mesh(out->intrinsic, pattern, used.local, order, used.parts, threads);
+  out->vertex_of_row.resize(order.size());
+  out->row_of_vertex.assign(used.local.size(), kNoIndex);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    out->vertex_of_row[k] = used[order[k]];
-    out->row_of_vertex[used[order[k]]] = static_cast<Index>(k);
+    const Index vertex = used.vertices[order[k]];
+    out->vertex_of_row[k] = vertex;
+    out->row_of_vertex[vertex] = static_cast<Index>(k);
   }
-  out->on_boundary.assign(used.size(), 0);
-  for (Index e = 0; e < edges.edge_count(); ++e) {
-    if (edges.sides(e).size() != 1) continue;
-    out->on_boundary[out->row_of_vertex[edges.low(e)]] = 1;
-    out->on_boundary[out->row_of_vertex[edges.high(e)]] = 1;
-  }
+  out->on_boundary = find_border(*out);
   out->components = measure_components(*out);
   if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};

@@ -17,7 +17,8 @@ namespace geotherm {
 struct ComponentSize {
   double mean_edge = 1;
   double area = 0;
-  Index faces = 0;  ///< each once, also where operators have it twice
+  Index faces = 0;     ///< of the mesh that were not left out
+  double grading = 1;  ///< the diffusion time that its triangulation resolves over mean_edge^2
 };
 
 /// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a
@@ -26,9 +27,11 @@ struct ComponentSize {
 struct Surface : IntrinsicSurface {
   LaplacianKind laplacian = LaplacianKind::kCotan;
 
-  std::vector<Index> row_of_vertex;  ///< V: elimination number, kNoIndex when in no face
+  /// V, then inserted vertices (IntrinsicSurface::vertex_count()): elimination number, kNoIndex
+  /// when in no face.
+  std::vector<Index> row_of_vertex;
   std::vector<Index> vertex_of_row;  ///< n
-  std::vector<char> on_boundary;     ///< n: the vertex is an end of an edge with one face
+  std::vector<char> on_boundary;     ///< n: the vertex lies on an edge with one face
   std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<const OperatorMesh> operators;
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "solver/wave/carry_pieces.h"
+#include "solver/geometry/edit.h"
 #include "solver/wave/wave_surface.h"
 
 namespace geotherm {
@@ -34,7 +34,7 @@ class Seeder {
     for (std::size_t i = 0; i < sources_.points.size(); ++i) add_point(i);
     for (std::size_t i = 0; i < sources_.edges.size(); ++i) add_edge(i);
     const auto carried =
-        carry_pieces(surface_.base.flips, surface_.face_count(), std::move(pieces_));
+        carry_pieces(surface_.base.edits, surface_.face_count(), std::move(pieces_));
     for (const FacePiece& piece : carried) add_carried(piece);
     return std::move(seeds_);
   }

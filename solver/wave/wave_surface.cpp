@@ -84,8 +84,8 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
   const Index faces = mesh->face_count();
   try {
-    auto base = build_intrinsic_surface(std::move(mesh), FlipRule::kAlways,
-                                        part_of(progress, 0.0, 0.9), CoverRule::kNever, threads);
+    auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
+                                        part_of(progress, 0.0, 0.9), threads);
     if (!base) return base.error();
     if (!report(progress, "operators", 0.9)) return cancelled_error();
     auto surface = std::make_shared<WaveSurface>();

@@ -13,7 +13,7 @@ namespace geotherm::test {
 namespace {
 
 IntrinsicSurface surface_of(Draft draft) {
-  auto surface = build_intrinsic_surface(finish(std::move(draft)), FlipRule::kNever);
+  auto surface = build_intrinsic_surface(finish(std::move(draft)), {});
   EXPECT_TRUE(surface) << surface.error().message;
   return surface ? *std::move(surface) : IntrinsicSurface{};
 }

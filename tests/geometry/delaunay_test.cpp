@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "solver/mesh/surface_point.h"
 #include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/operators.h"
@@ -107,7 +108,9 @@ class DelaunayFlipsInThePlane : public DelaunayFlips {
   void expect_carried_in_place(const std::array<double, 3>& weights) const {
     for (Index f = 0; f < before.mesh.face_count(); ++f) {
       const SurfacePoint point = SurfacePoint::in_face(f, weights);
-      const SurfacePoint carried = carry_through_flips(after.flips, point);
+      const FacePiece piece =
+          carry_pieces(after.flips, after.mesh.face_count(), {{f, weights, weights}}).front();
+      const SurfacePoint carried = SurfacePoint::in_face(piece.face, piece.from);
       EXPECT_LE((place(after.mesh.faces, carried) - place(before.mesh.faces, point)).norm(),
                 kLengthRoundOff * size())
           << "face " << f;

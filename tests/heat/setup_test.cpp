@@ -37,7 +37,9 @@ TEST_P(Setup, TakesTheTimeFromTheMeanEdge) {
   const double mean = sum / in.clean.edges.edge_count();
   HeatOptions options;
   options.time_step.factor = 2.5;
-  EXPECT_NEAR(method_of(mesh, options).t(), 2.5 * mean * mean, kRoundOff * mean * mean);
+  const HeatMethod method = method_of(mesh, options);
+  EXPECT_NEAR(method.t(), 2.5 * mean * mean * method.grading(), kRoundOff * mean * mean);
+  if (method.refinement().large_faces == 0) EXPECT_EQ(method.grading(), 1);
 }
 
 TEST_P(Setup, TakesTheTimeAsGiven) {
@@ -49,7 +51,9 @@ TEST_P(Setup, TakesTheTimeAsGiven) {
 TEST_P(Setup, FlipsEdgesWhereNeededUnlessToldNotTo) {
   const bool needed = count_non_delaunay(in.mesh) > 0;
   const HeatMethod chosen = method_of(mesh);
-  if (faces_that_need_cover(in.clean, mesh->vertex_count()).empty()) {
+  if (chosen.refinement().points > 0) {
+    EXPECT_EQ(chosen.laplacian(), LaplacianKind::kRefined);
+  } else if (faces_that_need_cover(in.clean, mesh->vertex_count()).empty()) {
     EXPECT_EQ(chosen.flips() > 0, needed);
     EXPECT_EQ(chosen.laplacian(),
               needed ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan);

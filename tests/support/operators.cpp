@@ -42,7 +42,8 @@ std::shared_ptr<const OperatorMesh> operators_of(const TriangleMesh& mesh, const
   const Numbering numbers = numbering_of(mesh, in.clean);
   std::vector<Index> order(numbers.vertex.size());
   std::iota(order.begin(), order.end(), 0);
-  return build_operator_mesh(in.mesh, pattern_of(in.mesh, numbers), numbers.local, order);
+  const SymmetricPattern pattern = pattern_of(in.mesh, numbers);
+  return build_operator_mesh(in.mesh, pattern, numbers.local, order, connected_components(pattern));
 }
 
 Analysed analysed(const TriangleMesh& mesh, const Backend& backend, bool flip) {
@@ -56,7 +57,8 @@ Analysed analysed(const TriangleMesh& mesh, const Backend& backend, bool flip) {
     ADD_FAILURE() << analysis.error().message;
     return {};
   }
-  return {*analysis, build_operator_mesh(in.mesh, pattern, numbers.local, (*analysis)->order())};
+  return {*analysis, build_operator_mesh(in.mesh, pattern, numbers.local, (*analysis)->order(),
+                                         connected_components(pattern))};
 }
 
 }  // namespace geotherm::test

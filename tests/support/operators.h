@@ -15,7 +15,7 @@ namespace geotherm::test {
 struct Intrinsic {
   CleanFaces clean;
   IntrinsicMesh mesh;
-  std::vector<Flip> flips;  ///< empty unless asked for
+  std::vector<Edit> flips;  ///< empty unless asked for
 };
 Intrinsic intrinsic_of(const TriangleMesh& mesh, bool flip);
 

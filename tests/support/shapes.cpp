@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <set>
 #include <utility>
 
 namespace geotherm::test {
@@ -76,6 +77,59 @@ Draft jittered_plane(Index n, double amount, unsigned seed) {
     draft.faces[f + 1] = {b, c, d};
   }
   return draft;
+}
+
+Draft random_delaunay(Index count, unsigned seed) {
+  constexpr double kFar = 1e5;  // the first triangle's corners, which are left out in the end
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Draft out;
+  for (Index i = 0; i < count; ++i) {
+    const double x = uniform(random), y = uniform(random);
+    out.add({x, y, 0});
+  }
+  for (const Vec3& far : {Vec3(-kFar, -kFar, 0), Vec3(2 * kFar, -kFar, 0), Vec3(0, 2 * kFar, 0)}) {
+    out.add(far);
+  }
+  const auto in_circle = [&](const Face& f, const Vec3& p) {
+    Eigen::Matrix3d m;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 d = out.positions[f[k]] - p;
+      m.row(k) << d.x(), d.y(), d.squaredNorm();
+    }
+    return m.determinant() > 0;
+  };
+  std::vector<Face> faces{{count, count + 1, count + 2}};
+  for (Index p = 0; p < count; ++p) {
+    std::set<std::pair<Index, Index>> hole;
+    std::vector<Face> kept;
+    for (const Face& f : faces) {
+      if (!in_circle(f, out.positions[p])) {
+        kept.push_back(f);
+        continue;
+      }
+      for (int k = 0; k < 3; ++k) {
+        const Index a = f[k], b = f[(k + 1) % 3];
+        if (hole.erase({b, a}) == 0) hole.emplace(a, b);
+      }
+    }
+    for (const auto& [a, b] : hole) kept.push_back({a, b, p});
+    faces = std::move(kept);
+  }
+  for (const Face& f : faces) {
+    if (std::max({f[0], f[1], f[2]}) < count) out.faces.push_back(f);
+  }
+  out.positions.resize(static_cast<std::size_t>(count));
+  return out;
+}
+
+Draft graded_plane(Index n, double ratio) {
+  Draft out = plane_grid(n, n, 1, 1);
+  for (Vec3& p : out.positions) {
+    for (int axis = 0; axis < 2; ++axis)
+      p[axis] = std::expm1(std::log(ratio) * p[axis]) / (ratio - 1);
+  }
+  return out;
 }
 
 Draft sphere(int level) {

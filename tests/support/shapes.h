@@ -34,6 +34,14 @@ inline Index grid_vertex(Index nx, Index i, Index j) { return j * (nx + 1) + i; 
 /// diagonal of each cell at random.
 Draft jittered_plane(Index n, double amount, unsigned seed);
 
+/// The Delaunay triangulation of `count` random points in the unit square: thin obtuse faces lie
+/// along its border. Source: Bowyer, Watson 1981.
+Draft random_delaunay(Index count, unsigned seed);
+
+/// A rectangle of n x n cells whose widths and heights grow from one corner to the other, `ratio`
+/// times in all.
+Draft graded_plane(Index n, double ratio);
+
 /// Icosahedron, each triangle cut into 4^level, vertices on the unit sphere.
 Draft sphere(int level);
 

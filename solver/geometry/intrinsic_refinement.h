@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/geometry/edit.h"
+#include "solver/geometry/intrinsic_mesh.h"
+#include "solver/linear/symmetric_pattern.h"
+
+namespace geotherm {
+
+/// How much refine_triangulation() had to do, and did.
+struct RefinementCounts {
+  Index large_faces = 0;    ///< faces that were too large for the diffusion
+  Index obtuse_border = 0;  ///< border edges opposite an obtuse angle
+  Index points = 0;         ///< inserted vertices, numbered from the mesh's vertex count on
+  Index border_splits = 0;  ///< those of them that split a border edge
+  bool complete = true;     ///< false: the limit on inserted vertices was reached
+};
+
+/// What refine_triangulation() did.
+struct Refinement : RefinementCounts {
+  std::vector<double>
+      grading;  ///< per part: that t over its squared mean edge; 1 without large faces
+  std::vector<Vec3> positions;  ///< points x 3: near where they lie, for elimination orders
+  std::vector<char> on_border;  ///< points: the vertex lies on the border
+};
+
+/// Inserts vertices into a Delaunay triangulation, never into the mesh, until it can carry the heat
+/// method with one diffusion time per part: no face has an edge above 2.6 sqrt(t), on which heat
+/// would underflow to no direction, and no border edge lies opposite an obtuse angle (above 96
+/// degrees), where its weight would be negative. Large faces get their circumcentre (Chew 1993; on
+/// intrinsic triangulations Sharp, Soliman, Crane 2019, section 4.2); where the way to it leaves
+/// over the border, and where a border edge is obtuse, the edge is split.
+///
+/// t is h^2, h the mean length of the part's edges but for those above 2.6 times their mean, or as
+/// much more as keeps the expected number of vertices inserted for it below a quarter of the
+/// part's.
+///
+/// `mesh` must be Delaunay, its faces of vertices below parts.of.size(); `parts` names the
+/// connected part of each vertex and is continued for inserted ones; `part_edge`: the mean edge
+/// length of each part in units of `mesh`; `most`: vertices to insert at most. Edits are appended.
+/// Where there is nothing to insert, nothing changes. The same bits with any number of threads.
+/// Error: kCancelled. Cost: one pass over the faces, by all threads, and about two microseconds an
+/// inserted vertex.
+Result<Refinement> refine_triangulation(IntrinsicMesh& mesh, std::vector<Edit>& edits,
+                                        Components& parts, std::span<const double> part_edge,
+                                        std::span<const Vec3> positions, Index most, int threads,
+                                        const Progress& progress = {});
+
+}  // namespace geotherm

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+// Distances where faces differ in size or the border has slivers: what the default does about it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "solver/method/build_method.h"
+#include "solver/method/distance_error.h"
+#include "tests/support/solve.h"
+
+namespace geotherm::test {
+namespace {
+
+// On regular grids of as many faces the heat method has a largest error of 3 to 6 % of the range,
+// in the corners.
+constexpr double kOfRange = 0.065;
+// What inserted vertices leave of the mean error of the same triangulation without them, at most.
+constexpr double kLeft = 0.5;
+// The same numbers by two ways but for the round-off of compact factors.
+constexpr double kSolved = 1e-6;
+
+Draft stretched_delaunay() {
+  Draft draft = random_delaunay(500, 2);
+  for (Vec3& p : draft.positions) p.x() *= 30;
+  return draft;
+}
+
+struct Case {
+  const char* name;
+  Draft (*draft)();
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+std::string case_name(const testing::TestParamInfo<Case>& info) { return info.param.name; }
+
+/// Convex regions of the plane: the distance is the straight line.
+class RefinedPlane : public testing::TestWithParam<Case> {
+ protected:
+  MeshPtr mesh = finish(GetParam().draft());
+  HeatMethod method = method_of(mesh);
+  Vec3 at(Index v) const { return mesh->positions()[v]; }
+
+  template <class Distance>
+  DistanceError error(const HeatMethod& of, const SourceSet& sources,
+                      const Distance& distance) const {
+    std::vector<double> right;
+    for (const Vec3& p : mesh->positions()) right.push_back(distance(p));
+    return distance_error(solve(of, sources).distances, right);
+  }
+  template <class Distance>
+  DistanceError error(const SourceSet& sources, const Distance& distance) const {
+    return error(method, sources, distance);
+  }
+};
+
+TEST_P(RefinedPlane, IsRightFromVertices) {
+  ASSERT_EQ(method.laplacian(), LaplacianKind::kRefined);
+  HeatOptions options;
+  options.laplacian = LaplacianKind::kIntrinsicDelaunay;
+  const HeatMethod without = method_of(mesh, options);
+  double sum = 0, sum_without = 0;
+  for (Index v = 1; v < mesh->vertex_count(); v += mesh->vertex_count() / 6) {
+    const SourceSet source = SourceSet::of_vertices({v});
+    const auto distance = [&](const Vec3& p) { return (p - at(v)).norm(); };
+    const DistanceError e = error(source, distance);
+    EXPECT_LE(e.max_of_range, kOfRange) << v;
+    sum += e.mean_relative;
+    sum_without += error(without, source, distance).mean_relative;
+  }
+  EXPECT_LE(sum, kLeft * sum_without);
+}
+
+TEST_P(RefinedPlane, IsRightFromPointsInFaces) {
+  for (Index f = 2; f < mesh->face_count(); f += mesh->face_count() / 6) {
+    const Face& face = mesh->faces()[f];
+    const Vec3 point = 0.2 * at(face[0]) + 0.3 * at(face[1]) + 0.5 * at(face[2]);
+    const SourceSet sources{{SurfacePoint::in_face(f, {0.2, 0.3, 0.5})}, {}};
+    const DistanceError e = error(sources, [&](const Vec3& p) { return (p - point).norm(); });
+    EXPECT_LE(e.max_of_range, kOfRange) << f;
+  }
+}
+
+TEST_P(RefinedPlane, IsRightFromEdgesAlongTheBorder) {
+  std::vector<std::array<Index, 2>> border;
+  const IntrinsicSurface surface = *build_intrinsic_surface(mesh, {});
+  const EdgeTable& edges = surface.clean_edges;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides(e).size() == 1) border.push_back({edges.low(e), edges.high(e)});
+  }
+  const auto to_border = [&](const Vec3& p) {
+    double least = kUnreached;
+    for (const auto& [a, b] : border) {
+      const Vec3 ab = at(b) - at(a);
+      const double t = std::clamp((p - at(a)).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+      least = std::min(least, (p - at(a) - t * ab).norm());
+    }
+    return least;
+  };
+  // Of the larger side: the range itself is half the smaller one.
+  double size = 0;
+  for (const Vec3& p : mesh->positions()) size = std::max(size, p.norm());
+  EXPECT_LE(error({{}, border}, to_border).max, kOfRange * size / 2);
+}
+
+TEST_P(RefinedPlane, KeepsVerticesAndSources) {
+  const auto result = solve(method, SourceSet::of_vertices({3, 7}), {.fields = true});
+  const auto count = static_cast<std::size_t>(mesh->vertex_count());
+  EXPECT_EQ(result.distances.size(), count);
+  EXPECT_EQ(result.heat.size(), count);
+  EXPECT_EQ(result.log_heat.size(), count);
+  EXPECT_EQ(result.distances[3], 0);
+  EXPECT_EQ(result.distances[7], 0);
+}
+
+TEST_P(RefinedPlane, KeepsItsVerticesWhenTheTimeChanges) {
+  HeatOptions other;
+  other.time_step.factor = 3;
+  const HeatMethod changed = *method.with(other);
+  EXPECT_EQ(changed.refinement().points, method.refinement().points);
+  EXPECT_EQ(changed.timing().analyze, 0);
+  EXPECT_DOUBLE_EQ(changed.t(), 3 * method.t());
+  EXPECT_EQ(solve(changed, SourceSet::of_vertices({5})).distances,
+            solve(method_of(mesh, other), SourceSet::of_vertices({5})).distances);
+}
+
+TEST_P(RefinedPlane, AnswersTheSameWithEveryBackendAndConstraint) {
+  const auto right = solve(method, SourceSet::of_vertices({11})).distances;
+  for (const std::string& name : direct_backends()) {
+    for (const ConstraintMode mode :
+         {ConstraintMode::kPinSources, ConstraintMode::kPinVertex, ConstraintMode::kConserveEnergy,
+          ConstraintMode::kPseudoInverse}) {
+      HeatOptions options = with_backend(name);
+      options.constraint.mode = mode;
+      EXPECT_LE(relative_difference(solve(mesh, {11}, options).distances, right), kSolved)
+          << name << static_cast<int>(mode);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, RefinedPlane,
+                         testing::Values(Case{"delaunay", [] { return random_delaunay(500, 1); }},
+                                         Case{"stretched", stretched_delaunay},
+                                         Case{"graded", [] { return graded_plane(24, 30); }}),
+                         case_name);
+
+Draft spiky_sphere() {
+  Draft draft = sphere(3);
+  for (const Index v : {5, 300}) draft.positions[v] *= 12;
+  return draft;
+}
+
+/// Three graded pages along one edge.
+Draft graded_book() {
+  Draft draft;
+  const Index n = 20;
+  for (int page = 0; page < 3; ++page) {
+    Draft leaf = graded_plane(n, 60);
+    const double angle = 2.1 * page;
+    for (Vec3& p : leaf.positions) p = {p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()};
+    append(draft, leaf);
+  }
+  const Index leaf = (n + 1) * (n + 1);
+  for (Face& face : draft.faces) {
+    for (Index& v : face) {
+      if (v % leaf % (n + 1) == 0) v %= leaf;  // the spine is the first page's
+    }
+  }
+  return draft;
+}
+
+/// Surfaces in space, against the exact method.
+class RefinedSurface : public testing::TestWithParam<Case> {};
+
+TEST_P(RefinedSurface, IsRight) {
+  const MeshPtr mesh = finish(GetParam().draft());
+  const HeatMethod method = method_of(mesh);
+  ASSERT_GT(method.refinement().points, 0);
+  MethodOptions exact;
+  exact.method = MethodKind::kExact;
+  const auto reference = *build_method(mesh, exact);
+  for (const Index v : {Index{10}, Index{5}, mesh->vertex_count() / 2}) {
+    const SourceSet source = SourceSet::of_vertices({v});
+    const DistanceError e =
+        distance_error(solve(method, source).distances, reference->solve(source)->distances);
+    EXPECT_LE(e.max_of_range, kOfRange) << v;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, RefinedSurface,
+                         testing::Values(Case{"spiky", spiky_sphere}, Case{"book", graded_book}),
+                         case_name);
+
+TEST(RefinedGoodMeshes, PayNothing) {
+  for (const auto& draft : {torus(40, 20, 0.4), plane_grid(20, 20, 1, 1)}) {
+    const MeshPtr mesh = finish(draft);
+    const HeatMethod method = method_of(mesh);
+    EXPECT_EQ(method.refinement().points, 0);
+    HeatOptions plain;
+    plain.laplacian = method.laplacian();
+    ASSERT_NE(plain.laplacian, LaplacianKind::kRefined);
+    EXPECT_EQ(solve(method, SourceSet::of_vertices({3})).distances,
+              solve(mesh, {3}, plain).distances);
+  }
+}
+
+TEST(RefinedTime, IsAsGivenWhereItIsAbsolute) {
+  HeatOptions options;
+  options.time_step = {TimeRule::kAbsolute, 1, 0.01};
+  const HeatMethod method = method_of(finish(graded_plane(24, 30)), options);
+  EXPECT_GT(method.refinement().points, 0);
+  EXPECT_EQ(method.t(), 0.01);
+}
+
+}  // namespace
+}  // namespace geotherm::test
