@@ -184,6 +184,12 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
   return json;
 }
 
+/// The least and the largest time of a component; once where they are one, as with one component.
+Json times_json(const HeatMethod& heat) {
+  const auto [least, most] = heat.t_range();
+  return least < most ? Json{least, most} : Json::array({least});
+}
+
 Json options_json(const DistanceMethod& method, const MethodOptions& asked,
                   const DistanceResult& answer) {
   const HeatMethod* const heat = method.heat();
@@ -207,7 +213,7 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
           {"time_step", to_text(options.time_step)},
           {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
           {"t", heat->t()},
-          {"t_of_components", heat->t_range()},
+          {"t_of_components", times_json(*heat)},
           {"constraint", to_text(options.constraint)},
           {"heat", to_text(options.heat)},
           {"boundary", to_text(options.boundary)},
