@@ -187,6 +187,7 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
   return json;
 }
 
+<<<<<<< HEAD
 /// What was inserted into the triangulation, why, and by how much t follows.
 Json refinement_json(const HeatMethod& heat) {
   const RefinementCounts& refinement = heat.refinement();
@@ -194,6 +195,12 @@ Json refinement_json(const HeatMethod& heat) {
       {"points", refinement.points},           {"border_splits", refinement.border_splits},
       {"large_faces", refinement.large_faces}, {"obtuse_border_edges", refinement.obtuse_border},
       {"complete", refinement.complete},       {"grading", heat.grading()}};
+=======
+/// The least and the largest time of a component; once where they are one, as with one component.
+Json times_json(const HeatMethod& heat) {
+  const auto [least, most] = heat.t_range();
+  return least < most ? Json{least, most} : Json::array({least});
+>>>>>>> wt-exact
 }
 
 Json options_json(const DistanceMethod& method, const MethodOptions& asked,
@@ -219,7 +226,7 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
           {"time_step", to_text(options.time_step)},
           {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
           {"t", heat->t()},
-          {"t_of_components", heat->t_range()},
+          {"t_of_components", times_json(*heat)},
           {"constraint", to_text(options.constraint)},
           {"heat", to_text(options.heat)},
           {"boundary", to_text(options.boundary)},

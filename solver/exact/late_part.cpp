@@ -10,6 +10,10 @@
 namespace geotherm {
 namespace {
 
+/// Windows at edges with many faces grow narrower without end where they run round a vertex; what
+/// is in no order on them is a share of their own width then.
+constexpr double kShareOfWindow = 1e-3;
+
 /// Places where two windows may change order; more than there are do no harm.
 struct Places {
   std::array<double, 2> at{};
@@ -48,7 +52,7 @@ Places ties(const Window& p, const Window& q) {
 
 bool cut_late_ends(Window& w, const Window& other, double length) {
   const double begin = std::max(w.begin, other.begin), end = std::min(w.end, other.end);
-  const double margin = kOrder * length;
+  const double margin = std::min(kOrder * length, kShareOfWindow * (w.end - w.begin));
   if (end - begin <= margin) return true;
   // Between these the order does not change.
   std::array<double, 4> stop = {begin};

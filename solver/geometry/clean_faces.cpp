@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/core/parallel.h"
+#include "solver/geometry/orient_by_shape.h"
 #include "solver/mesh/repeats_corner.h"
 
 namespace geotherm {
@@ -173,6 +174,10 @@ CleanFaces clean_faces(const TriangleMesh& mesh, int threads) {
     out.reoriented = orient(out.faces, out.edges);
     list_edges(mesh.vertex_count(), threads, out);
     flaws = find_flaws(out.faces, out.edges, threads);
+    if (flaws.inconsistent) {
+      orient_by_shape(mesh.positions(), out.faces, out.edges);
+      list_edges(mesh.vertex_count(), threads, out);
+    }
   }
   out.oriented_manifold = !flaws.inconsistent && !flaws.fans;
   return out;

@@ -83,7 +83,7 @@ Result<HeatField> diffuse(const LinearSystem& system, const Components& componen
   const Extremes extremes = extremes_of(field.u, work);
   std::vector<Eigen::Index> small;  // columns with an entry below the floor
   for (std::size_t c = 0; c < extremes.largest.size(); ++c) {
-    if (extremes.smallest[c] < floor * extremes.largest[c]) {
+    if (extremes.smallest[c] < least_trusted(floor, extremes.largest[c])) {
       small.push_back(static_cast<Eigen::Index>(c));
     }
   }
@@ -120,7 +120,7 @@ HeatField average(HeatField a, const HeatField& b) {
     if (difference > 0) theirs *= std::pow(a.step, difference);
     if (difference < 0) {
       ours *= std::pow(a.step, -difference);
-      a.level[e] = static_cast<std::uint8_t>(their_level);
+      a.level[e] = static_cast<HeatField::Level>(their_level);
     }
     ours = 0.5 * (ours + theirs);
   }

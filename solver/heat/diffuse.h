@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace geotherm {
 /// u for K source sets, with an exponent of its own where doubles do not reach: the value at row i
 /// of column c is u(i, c) * step^level[i * K + c]. `level` is empty when every level is 0.
 struct HeatField {
+  using Level = std::uint16_t;
   Block u;
-  std::vector<std::uint8_t> level;
+  std::vector<Level> level;
   double step = 1.0;
   int iterations = 0;
 };
@@ -23,6 +25,12 @@ struct HeatField {
 /// underflowed, 2e-308; not so for an iterative one, which converges in norm.
 inline constexpr double kDirectFloor = 1e-295;
 inline constexpr double kIterativeFloor = 1e-7;
+
+/// The size below which entries are solved again, where the largest is `largest`. Underflow does
+/// not ask how large the others are: whatever the solver, no entry below kDirectFloor is kept.
+inline double least_trusted(double floor, double largest) {
+  return std::max(floor * largest, kDirectFloor);
+}
 
 /// Diffuses: solves M u = b (b n x K, its nonzero rows listed in `support`) so that every entry in
 /// the reached components is right relative to itself, however small.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
 
 #include "solver/core/find_bytes.h"
@@ -16,8 +17,8 @@
 namespace geotherm {
 namespace {
 
-/// More levels than this many floors: 255 * 295 decades for direct solvers.
-constexpr int kMostLevels = 255;
+/// With direct solvers some 50 million edges at t = h^2: more than fit in memory.
+constexpr int kMostLevels = std::numeric_limits<HeatField::Level>::max();
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
 /// Ranges of faces that are.
@@ -45,7 +46,9 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range
   columns_.assign(columns.begin(), columns.end());
   const auto all = static_cast<Columns>((1U << columns.size()) - 1);
   const std::vector<std::int64_t> rows(columns.size(), std::int64_t{field_.u.rows()} + 1);
-  Far far = keep(below(components_.count == 1 ? of_columns : range(), {}), all, rows);
+  const Range whole = components_.count == 1 ? of_columns : range();
+  first_ = whole.largest;
+  Far far = keep(below(whole, {}), all, rows);
   for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
@@ -85,8 +88,17 @@ FarField::Range FarField::range() const {
   return all;
 }
 
-/// Those of these entries, or of all, reached and free, whose value is below the floor times the
-/// largest of their component: sizes of components differ, and with them the heat in them.
+/// Where this level ends: the floor below the first level's largest entry. Measured from its own
+/// largest, each level would begin and end lower than the one before by up to what one edge costs,
+/// and after some fifty of them sink into underflow. Only where a level begins below that, because
+/// the heat has fallen that far over one edge, it counts from where it begins.
+double FarField::end_of_level(double first, double largest) const {
+  const double end = least_trusted(floor_, first);
+  return end < largest ? end : floor_ * largest;
+}
+
+/// Those of these entries, or of all, reached and free, that lie below the end of the level of
+/// their component: sizes of components differ, and with them the heat in them.
 FarField::Far FarField::below(const Range& range, const Rows& candidates) const {
   const auto columns = std::ssize(columns_);
   Block least(components_.count, columns);
@@ -94,7 +106,8 @@ FarField::Far FarField::below(const Range& range, const Rows& candidates) const 
   for (Index component = 0; component < components_.count; ++component) {
     for (Eigen::Index k = 0; k < columns; ++k) {
       const bool reached = reached_[static_cast<std::size_t>(columns_[k])][component] != 0;
-      least(component, k) = reached ? floor_ * range.largest(component, k) : 0.0;
+      least(component, k) =
+          reached ? end_of_level(first_(component, k), range.largest(component, k)) : 0.0;
       none = none && !(range.smallest(component, k) < least(component, k));
     }
   }
@@ -150,6 +163,7 @@ FarField::Far FarField::keep(Far next, Columns which, const std::vector<std::int
   for (std::size_t to = 0; to < kept.size(); ++to) {
     columns_[to] = columns_[kept[to]];
     next.count[to] = next.count[kept[to]];
+    first_.col(static_cast<Eigen::Index>(to)) = first_.col(static_cast<Eigen::Index>(kept[to]));
   }
   columns_.resize(kept.size());
   next.count.resize(kept.size());
@@ -288,7 +302,7 @@ FarField::Range FarField::take(const Rows& far, Columns which, int level, const 
             const std::int64_t entry = row + columns_[static_cast<std::size_t>(k)];
             const double u = right(i, k);
             field_.u.data()[entry] = u;
-            field_.level[static_cast<std::size_t>(entry)] = static_cast<std::uint8_t>(level);
+            field_.level[static_cast<std::size_t>(entry)] = static_cast<HeatField::Level>(level);
             here.take(components_.of[i], k, std::abs(u));
           }
         }

@@ -62,6 +62,7 @@ class FarField {
     std::vector<Index> listed;  ///< rows that have any, in any order
   };
   Range range() const;
+  double end_of_level(double first, double largest) const;
   Far below(const Range& range, const Rows& candidates) const;
   void mark_below(const Block& least, std::int64_t begin, std::int64_t end, Rows& rows) const;
   Layer layer_around(const Rows& far) const;
@@ -85,6 +86,7 @@ class FarField {
   const Workspace passes_;  ///< for what notes something of each component in each thread
   HeatField& field_;
   std::vector<Eigen::Index> columns_;
+  Block first_;  ///< components x columns_: the largest |u| of the first level
 };
 
 }  // namespace geotherm

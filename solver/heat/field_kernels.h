@@ -17,8 +17,8 @@ struct FieldPass {
   const OperatorMesh* mesh;
   Index first_face, end_face;  ///< those to be walked
   const double* u;
-  const double* log_u;        ///< null: X keeps length 1
-  const std::uint8_t* level;  ///< null, or exponents of u: faces with several are done carefully
+  const double* log_u;         ///< null: X keeps length 1
+  const std::uint16_t* level;  ///< null, or exponents of u: faces with several are done carefully
   double* b;
   std::ptrdiff_t stride;
   double root_t;                 ///< sqrt(t), for field_length(), where all faces have one

@@ -62,9 +62,10 @@ inline void ask_for(const FieldPass& pass, Index f) {
 template <int K>
 inline bool has_mixed_levels(const FieldPass& pass, const Face& face) {
   if (pass.level == nullptr) return false;
-  const std::uint8_t* const first = pass.level + face[0] * pass.stride;
-  return std::memcmp(first, pass.level + face[1] * pass.stride, K) != 0 ||
-         std::memcmp(first, pass.level + face[2] * pass.stride, K) != 0;
+  constexpr std::size_t kBytes = K * sizeof(*pass.level);
+  const auto* const first = pass.level + face[0] * pass.stride;
+  return std::memcmp(first, pass.level + face[1] * pass.stride, kBytes) != 0 ||
+         std::memcmp(first, pass.level + face[2] * pass.stride, kBytes) != 0;
 }
 
 /// Many columns: they fill registers, and the shape is the same in all lanes.

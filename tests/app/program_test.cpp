@@ -65,6 +65,17 @@ TEST_F(Program, SolveJsonHoldsTheTimeStepToRoundOff) {
   EXPECT_EQ(given["warnings"], Json::array());
 }
 
+TEST_F(Program, SolveJsonHoldsTheTimeOfOneComponentOnceAndTheExtremesOfSeveral) {
+  const Json one = json({"solve", "bunny", "-s", "1", "--json", "-"})["options"];
+  EXPECT_EQ(one["t_of_components"], Json::array({one["t"]}));
+  folder.write("two.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 8 0 0\nv 5 3 0\nf 1 2 3\nf 4 5 6\n");
+  const Json two = json({"solve", "two.obj", "-s", "0", "--json", "-"})["options"];
+  ASSERT_EQ(two["t_of_components"].size(), 2U);
+  const double least = two["t_of_components"][0], most = two["t_of_components"][1];
+  EXPECT_NEAR(most, 9 * least, most * kLastDigits);  // edges are three times as long
+}
+
 TEST_F(Program, SaysThatATimeFactorBesideAnAbsoluteTimeIsNotUsed) {
   const std::vector<std::string> options = {"--time-step", "absolute:0.01", "-m", "3"};
   const auto with = [&options](std::vector<std::string> words) {

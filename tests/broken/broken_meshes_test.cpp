@@ -40,6 +40,8 @@ constexpr int kScatter = 4;
 // Exact distances against ways that cross sides at a few places: those are longer by part of an
 // edge, and shorter where degenerate faces were mollified.
 constexpr int kCuts = 6;
+/// Of 200,000 meshes exact distances gave one up, whose slivers let windows wind ever on.
+constexpr int kExactOnes = 50'000;
 constexpr double kWaysLonger = 0.25, kMollified = 0.01;
 
 struct Named {
@@ -261,7 +263,7 @@ TEST_P(BrokenMeshes, AreAnsweredOrRefusedOnTwoThreads) {
   for (const auto& [method, components] : components_) {
     EXPECT_LE(poor_[method], components / 10 + kScatter) << method << ", of " << components;
   }
-  EXPECT_LE(unanswered_, count / 500 + 1) << "exact distances";
+  EXPECT_LE(unanswered_, count / kExactOnes) << "exact distances";
   EXPECT_LE(lost_, count / 1000 + 1) << "distances by heat";
 }
 

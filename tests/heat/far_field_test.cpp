@@ -2,8 +2,10 @@
 // At t = h^2 heat falls below the range of doubles after some 700 edges. Directions must not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "solver/heat/option_text.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {
@@ -28,6 +30,52 @@ TEST_P(FarField, OfAStripOfThousandsOfEdgesIsLinear) {
     ASSERT_NEAR(at(i + 1) - at(i), 1, kSlope) << "edge " << i;
   }
   EXPECT_NEAR(at(kLength), kLength, 1);
+}
+
+/// Faces without direction, and the farthest that a vertex of a strip one face wide is off the
+/// straight distance from one of its corners.
+struct StripErrors {
+  Index faces;
+  double most;
+};
+StripErrors strip_errors(Index length, const HeatOptions& options) {
+  const Draft draft = plane_grid(length, 1, length, 1);
+  const auto result = solve(finish(draft), {0}, options);
+  StripErrors out{result.quality.zero_gradient_faces, 0};
+  for (std::size_t v = 0; v < draft.positions.size(); ++v) {
+    const double straight = (draft.positions[v] - draft.positions[0]).norm();
+    out.most = std::max(out.most, std::abs(result.distances[v] - straight));
+  }
+  return out;
+}
+
+TEST_P(FarField, OfAStripOneFaceWideIsRightToTheEnd) {
+  // What is off is off beside the source and at the strip's end, and nothing is added on the way: a
+  // direction that is lost on one face takes up to an edge away.
+  constexpr double kEdges = 0.7;
+  for (const Variant variant : {Variant::kClassic, Variant::kCorrected}) {
+    HeatOptions options = with_backend(GetParam());
+    options.variant = variant;
+    const StripErrors errors = strip_errors(60'000, options);
+    EXPECT_EQ(errors.faces, 0);
+    EXPECT_LE(errors.most, kEdges) << to_text(variant);
+  }
+}
+
+TEST_P(FarField, GoesOnBeyondAByteOfRestarts) {
+  // At a small t the heat falls by two decades an edge, and 40,000 edges take 270 restarts. The
+  // waves are no longer round then: the distance is not judged.
+  HeatOptions options = with_backend(GetParam());
+  options.variant = Variant::kClassic;
+  options.time_step.factor = 0.01;
+  EXPECT_EQ(strip_errors(40'000, options).faces, 0);
+}
+
+TEST_P(FarField, OfTwoHundredThousandEdgesIsRightToTheEndSlow) {
+  constexpr double kEdges = 0.7;
+  const StripErrors errors = strip_errors(200'000, with_backend(GetParam()));
+  EXPECT_EQ(errors.faces, 0);
+  EXPECT_LE(errors.most, kEdges);
 }
 
 TEST_P(FarField, KeepsDirectionsThroughSeveralColumns) {

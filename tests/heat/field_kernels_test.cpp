@@ -60,7 +60,7 @@ class FieldKernels : public testing::TestWithParam<KernelCase> {
   }
 
   /// The divergence of faces from `first` on; notes which went the careful way.
-  std::vector<double> run(Index first, const std::uint8_t* level) {
+  std::vector<double> run(Index first, const std::uint16_t* level) {
     std::vector<double> b(u.size(), 0.0);
     FieldPass pass{};
     pass.mesh = mesh.get();
@@ -120,7 +120,7 @@ TEST_P(FieldKernels, SendFacesWithoutADirectionTheCarefulWay) {
 
 TEST_P(FieldKernels, SendFacesWithSeveralExponentsTheCarefulWay) {
   // One level everywhere is no reason, a corner that is of another is.
-  std::vector<std::uint8_t> level(u.size(), 3);
+  std::vector<std::uint16_t> level(u.size(), 3);
   const Index vertex = mesh->faces[20][1];
   level[static_cast<std::size_t>(vertex * group + group - 1)] = 2;
   run(0, level.data());

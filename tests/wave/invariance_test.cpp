@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string>
 #include <tuple>
 
+#include "tests/support/broken_mesh.h"
 #include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/wave/wave_fixture.h"
@@ -52,6 +55,37 @@ TEST_P(WaveInvariance, UnderRenumbering) {
   for (std::size_t v = 0; v < d.size(); ++v) back[v] = d[number[v]];
   EXPECT_LE(relative_difference(back, reference), kRoundOff);
 }
+
+/// Surfaces that no turning of faces orients: which edges stay in disagreement, and are not
+/// flipped, has to follow from the shape.
+class OneSided : public testing::TestWithParam<std::tuple<std::uint64_t, MethodKind>> {};
+
+TEST_P(OneSided, DistancesDoNotHangOnTheNumbering) {
+  const auto& [seed, kind] = GetParam();
+  const BrokenMesh mesh = broken_mesh(seed, {0, false});
+  ASSERT_TRUE(mesh.recipe.find("Moebius") != std::string::npos ||
+              mesh.recipe.find("Klein") != std::string::npos)
+      << mesh.recipe;
+  const Index source = mesh.draft.faces[0][0];
+  const auto reference = distances(finish(mesh.draft), kind, SourceSet::of_vertices({source}));
+  for (const unsigned numbering : {1, 2, 3, 4, 5}) {
+    std::vector<Index> number;
+    const Draft other = renumbered(mesh.draft, numbering, number);
+    const auto d = distances(finish(other), kind, SourceSet::of_vertices({number[source]}));
+    std::vector<double> back(d.size());
+    for (std::size_t v = 0; v < d.size(); ++v) back[v] = d[number[v]];
+    EXPECT_LE(relative_difference(back, reference), kRoundOff) << "numbering " << numbering;
+  }
+}
+
+// Klein bottles, Moebius strips, and of these two that are regular, so that many edges rank alike.
+INSTANTIATE_TEST_SUITE_P(BrokenMeshes, OneSided,
+                         testing::Combine(testing::Values(3, 8, 13, 23, 32, 42, 98, 258, 389),
+                                          testing::ValuesIn(kWaveKinds)),
+                         [](const auto& each) {
+                           return std::to_string(std::get<0>(each.param)) + "_" +
+                                  kind_name(std::get<1>(each.param));
+                         });
 
 TEST_P(WaveInvariance, UnderRotation) {
   EXPECT_LE(relative_difference(moved(1, Vec3::Zero(), true), reference),
