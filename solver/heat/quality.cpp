@@ -32,14 +32,25 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
 }
 
 double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
-                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors) {
+                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors,
+                        int threads) {
   std::vector<double> product(phi.size(), 0.0);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Face& face = mesh.faces[f];
-    const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
-    const auto d = divergence(mesh.layout[f], g[0], g[1]);
-    for (int k = 0; k < 3; ++k) product[face[k]] += d[k];
-  }
+  const auto add_faces = [&](Index first, Index end) {
+    for (Index f = first; f < end; ++f) {
+      const Face& face = mesh.faces[f];
+      const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
+      const auto d = divergence(mesh.layout[f], g[0], g[1]);
+      for (int k = 0; k < 3; ++k) product[face[k]] += d[k];
+    }
+  };
+  // Faces of a range meet no rows of another's.
+  parallel_for(threads, std::ssize(mesh.ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (; begin < end; ++begin) {
+      const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
+      add_faces(range.first_face, range.end_face);
+    }
+  });
+  add_faces(mesh.crossing, mesh.face_count());
   double error = 0, norm = 0;
   auto anchor = anchors.anchors.begin();
   for (std::size_t i = 0; i < phi.size(); ++i) {

@@ -13,8 +13,10 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
                      Eigen::Index column);
 
 /// |L phi - b| / |b| over the rows that are not anchors; `phi` in elimination order, any shift.
+/// The same bits with any number of threads.
 double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
-                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors);
+                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors,
+                        int threads);
 
 /// Faces in the components that hold a source, and those of them where the heat has no direction,
 /// whether or not it could have one.

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <thread>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
@@ -105,6 +104,19 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
   }
 }
 
+/// About how long a query takes one thread, in nanoseconds, as measured from 1,000 faces to a
+/// million.
+double query_nanoseconds(const QueryPipeline& p, bool quality) {
+  constexpr double kEntry = 1;  // the factors are read three times
+  constexpr double kIteration = 75, kIterations = 2;
+  constexpr double kFace = 10, kFaceJudged = 70;
+  const double faces = p.surface.operators->face_count();
+  const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
+  const double solves =
+      entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
+  return solves + (kFace + (quality ? kFaceJudged : 0)) * faces;
+}
+
 /// `threads`: of this group alone.
 Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
                          const QueryOptions& query, const Workspace& work,
@@ -147,21 +159,11 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     if (query.quality) {
       const std::vector<double> phi = shifted_phi(p.surface, *answer, anchors[c], mode, column);
       result.quality.heat_residual = heat->residual[c];
-      FaceCounts faces;
-      Quality of_faces = result.quality;
-      run_both(
-          work.threads,
-          [&] {
-            result.quality.poisson_residual =
-                poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
-                                 mode == ConstraintMode::kPinSources);
-          },
-          [&] {
-            faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
-                                  held_at_zero(p), work.threads, of_faces);
-          });
-      result.quality.zero_gradient_faces = of_faces.zero_gradient_faces;
-      result.quality.eikonal_error_mean = of_faces.eikonal_error_mean;
+      result.quality.poisson_residual =
+          poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
+                           mode == ConstraintMode::kPinSources, work.threads);
+      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
+                                             held_at_zero(p), work.threads, result.quality);
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -179,28 +181,24 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
 class GroupRunner {
  public:
   GroupRunner(const QueryPipeline& pipeline, const std::vector<Group>& groups,
-              const QueryOptions& query, std::span<DistanceResult> results,
+              const QueryOptions& query, int threads, std::span<DistanceResult> results,
               const Progress& progress)
       : pipeline_(pipeline),
         groups_(groups),
         query_(query),
+        threads_(threads),
         results_(results),
         progress_(progress),
         watch_(progress_.function()) {}
 
-  /// What ended for want of memory is thrown.
+  /// `threads`: for groups side by side, up to those of the query. What ended for want of memory is
+  /// thrown.
   std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
-    const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
-    threads_of_group_ = std::max(1, thread_count(pipeline_.options.threads) /
-                                        static_cast<int>(std::max<std::size_t>(workers, 1)));
-    {
-      std::vector<std::jthread> helpers;
-      for (std::size_t w = 1; w < workers; ++w) {
-        helpers.push_back(try_thread([this] { work(); }));
-        if (!helpers.back().joinable()) break;
-      }
-      work();
-    }
+    const int workers =
+        static_cast<int>(std::clamp<std::ptrdiff_t>(std::ssize(groups_), 1, std::max(threads, 1)));
+    threads_of_group_ = std::max(1, threads_ / workers);
+    const ThreadCrew crew(workers, &pipeline_.helpers);
+    run_calls(workers, workers, [this](int) noexcept { work(); });
     if (memory_ended_) throw std::bad_alloc();
     if (!failure_) return std::nullopt;
     return Trial<std::vector<DistanceResult>>{*failure_, successor_};
@@ -208,7 +206,7 @@ class GroupRunner {
 
  private:
   void work() {
-    ThreadCrew crew(threads_of_group_);
+    const ThreadCrew crew(threads_of_group_, &pipeline_.helpers);
     for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
       const auto count = static_cast<double>(groups_.size());
       const Progress part =
@@ -239,6 +237,7 @@ class GroupRunner {
   const QueryPipeline& pipeline_;
   const std::vector<Group>& groups_;
   const QueryOptions& query_;
+  const int threads_;  ///< of the query
   std::span<DistanceResult> results_;
   SharedProgress progress_;
   const Progress watch_;
@@ -261,10 +260,12 @@ Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   if (!groups) return {groups.error()};
   std::vector<DistanceResult> results(sets.size());
   const double placing = watch.milliseconds();
-  GroupRunner runner(pipeline, *groups, query, results, progress);
-  const auto fitting = threads_in_memory(
-      pipeline, *groups,
-      std::min<int>(thread_count(pipeline.options.threads), static_cast<int>(groups->size())));
+  const int worth =
+      threads_worth(thread_count(pipeline.options.threads),
+                    query_nanoseconds(pipeline, query.quality) * static_cast<double>(sets.size()));
+  GroupRunner runner(pipeline, *groups, query, worth, results, progress);
+  const auto fitting =
+      threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
   if (!fitting) return {fitting.error(), Successor::kFactorless};
   const int threads = *fitting;
   if (auto failure = runner.run(threads)) return *std::move(failure);

@@ -14,6 +14,9 @@
 namespace geotherm {
 namespace {
 
+/// What a query takes at least for each face.
+constexpr double kFaceNanoseconds = 100;
+
 /// Fronts kept between queries: fresh memory would be handed out and cleared page by page, which at
 /// a million faces takes as long as a tenth of the query. Grows to one for each thread.
 class FrontPool {
@@ -48,7 +51,7 @@ class FrontPool {
 struct WavefrontMethod::State {
   std::shared_ptr<const WaveSurface> surface;
   Samples samples = Samples::kMidpoint;
-  int threads = 0;
+  SetThreads threads;
   WaveTables tables;
   SetupTiming timing;
   std::unique_ptr<FrontPool> pool;
@@ -113,7 +116,8 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     auto state = std::make_unique<State>();
     state->surface = std::move(surface);
     state->samples = samples;
-    state->threads = threads;
+    state->threads.most = threads;
+    state->threads.nanoseconds = kFaceNanoseconds * faces;
     state->tables = build_wave_tables(*state->surface);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
