@@ -65,7 +65,12 @@ Json quality_json(const Quality& q, bool heat) {
           {"zero_gradient_faces", of_heat(q.zero_gradient_faces)},
           {"iterations_heat", of_heat(q.iterations_heat)},
           {"iterations_poisson", of_heat(q.iterations_poisson)},
-          {"clamped_vertices", of_heat(q.clamped_vertices)}};
+          {"clamped_vertices", of_heat(q.clamped_vertices)},
+          {"clamped_reach", of_heat(q.clamped_reach)},
+          {"below_straight_line", q.below_straight_line},
+          {"most_below_straight_line", q.most_below_straight_line},
+          {"steep_edges", q.steep_edges},
+          {"steepest_edge", q.steepest_edge}};
 }
 
 /// Offsets in the order of `sources`: vertices ascending, then points in faces.

@@ -118,9 +118,10 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
 }
 
 /// `threads`: of this group alone.
-Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
-                         const QueryOptions& query, const Workspace& work,
-                         std::span<DistanceResult> results, const Progress& progress) {
+Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets,
+                         const std::vector<SourceAnchors>& anchors, const QueryOptions& query,
+                         const Workspace& work, std::span<DistanceResult> results,
+                         const Progress& progress) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
@@ -148,6 +149,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
   const auto share = static_cast<double>(anchors.size());
+  const BoundTolerance tolerance = bound_tolerance(MethodKind::kHeat);
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     DistanceResult& result = results[c];
     const auto column = static_cast<Eigen::Index>(c);
@@ -162,8 +164,10 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
       result.quality.poisson_residual =
           poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
                            mode == ConstraintMode::kPinSources, work.threads);
-      const FaceCounts faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
+      const FaceCounts faces = inspect_faces(*p.surface.operators, p.surface.intrinsic.twin,
+                                             SteepSides(tolerance), field, phi, column, anchors[c],
                                              held_at_zero(p), work.threads, result.quality);
+      check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -180,10 +184,11 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
 /// Hands out groups to threads until all are done, one has failed or the caller has had enough.
 class GroupRunner {
  public:
-  GroupRunner(const QueryPipeline& pipeline, const std::vector<Group>& groups,
-              const QueryOptions& query, int threads, std::span<DistanceResult> results,
-              const Progress& progress)
+  GroupRunner(const QueryPipeline& pipeline, std::span<const SourceSet> sets,
+              const std::vector<Group>& groups, const QueryOptions& query, int threads,
+              std::span<DistanceResult> results, const Progress& progress)
       : pipeline_(pipeline),
+        sets_(sets),
         groups_(groups),
         query_(query),
         threads_(threads),
@@ -213,9 +218,9 @@ class GroupRunner {
           part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
       const Group& group = groups_[g];
       try {
-        const auto done =
-            solve_group(pipeline_, group.anchors, query_, {pipeline_.pool, threads_of_group_},
-                        results_.subspan(group.first, group.anchors.size()), part);
+        const auto done = solve_group(pipeline_, sets_.subspan(group.first, group.anchors.size()),
+                                      group.anchors, query_, {pipeline_.pool, threads_of_group_},
+                                      results_.subspan(group.first, group.anchors.size()), part);
         if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
       } catch (const std::bad_alloc&) {
         memory_ended_ = true;
@@ -235,6 +240,7 @@ class GroupRunner {
   }
 
   const QueryPipeline& pipeline_;
+  std::span<const SourceSet> sets_;
   const std::vector<Group>& groups_;
   const QueryOptions& query_;
   const int threads_;  ///< of the query
@@ -263,7 +269,7 @@ Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   const int worth =
       threads_worth(thread_count(pipeline.options.threads),
                     query_nanoseconds(pipeline, query.quality) * static_cast<double>(sets.size()));
-  GroupRunner runner(pipeline, *groups, query, worth, results, progress);
+  GroupRunner runner(pipeline, sets, *groups, query, worth, results, progress);
   const auto fitting =
       threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
   if (!fitting) return {fitting.error(), Successor::kFactorless};

@@ -56,6 +56,9 @@ struct WavefrontMethod::State {
   SetupTiming timing;
   std::unique_ptr<FrontPool> pool;
 
+  MethodKind kind() const {
+    return samples == Samples::kMidpoint ? MethodKind::kWavefront : MethodKind::kWavefrontFine;
+  }
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
                                const Progress& progress) const;
   void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
@@ -81,7 +84,7 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                                               " visits of edges; use the method exact or heat"};
   }
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(*surface, *seeds, result);
+  if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface->base.mean_edge;
   result.timing.query += watch.lap();
@@ -128,10 +131,7 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
   }
 }
 
-MethodKind WavefrontMethod::kind() const {
-  return state_->samples == Samples::kMidpoint ? MethodKind::kWavefront
-                                               : MethodKind::kWavefrontFine;
-}
+MethodKind WavefrontMethod::kind() const { return state_->kind(); }
 
 Result<std::vector<DistanceResult>> WavefrontMethod::solve_each(std::span<const SourceSet> sets,
                                                                 const QueryOptions& query,
