@@ -65,7 +65,12 @@ Json quality_json(const Quality& q, bool heat) {
           {"zero_gradient_faces", of_heat(q.zero_gradient_faces)},
           {"iterations_heat", of_heat(q.iterations_heat)},
           {"iterations_poisson", of_heat(q.iterations_poisson)},
-          {"clamped_vertices", of_heat(q.clamped_vertices)}};
+          {"clamped_vertices", of_heat(q.clamped_vertices)},
+          {"clamped_reach", of_heat(q.clamped_reach)},
+          {"below_straight_line", q.below_straight_line},
+          {"most_below_straight_line", q.most_below_straight_line},
+          {"steep_edges", q.steep_edges},
+          {"steepest_edge", q.steepest_edge}};
 }
 
 /// Offsets in the order of `sources`: vertices ascending, then points in faces.
@@ -187,7 +192,6 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
   return json;
 }
 
-<<<<<<< HEAD
 /// What was inserted into the triangulation, why, and by how much t follows.
 Json refinement_json(const HeatMethod& heat) {
   const RefinementCounts& refinement = heat.refinement();
@@ -195,12 +199,12 @@ Json refinement_json(const HeatMethod& heat) {
       {"points", refinement.points},           {"border_splits", refinement.border_splits},
       {"large_faces", refinement.large_faces}, {"obtuse_border_edges", refinement.obtuse_border},
       {"complete", refinement.complete},       {"grading", heat.grading()}};
-=======
+}
+
 /// The least and the largest time of a component; once where they are one, as with one component.
 Json times_json(const HeatMethod& heat) {
   const auto [least, most] = heat.t_range();
   return least < most ? Json{least, most} : Json::array({least});
->>>>>>> wt-exact
 }
 
 Json options_json(const DistanceMethod& method, const MethodOptions& asked,

@@ -145,6 +145,12 @@ void add_error_rows(TextTable& table, const ErrorReport& report) {
   table.add_row({"verdict", report.verdict});
 }
 
+std::string bounds_in_words(const Quality& q) {
+  if (q.below_straight_line == 0 && q.steep_edges == 0) return "kept";
+  return counted(q.below_straight_line, "vertex", "vertices") + " below the straight line, " +
+         counted(q.steep_edges, "edge", "edges") + " too steep";
+}
+
 }  // namespace
 
 std::string solve_table(const SolveFigures& f) {
@@ -171,6 +177,7 @@ std::string solve_table(const SolveFigures& f) {
     gradient += ", " + counted(q.zero_gradient_faces, "face", "faces") + " without direction";
   }
   table.add_row({"gradient", gradient});
+  table.add_row({"bounds", bounds_in_words(q)});
   if (heat != nullptr) table.add_row({"residuals", residuals_in_words(q)});
   constexpr double kRoundOff = 1e-9;
   if (q.max_source_distance > kRoundOff * f.distance.max) {

@@ -42,6 +42,15 @@ void draw_figures(Frame& frame, const Quality& quality, bool heat) {
       frame, "eikonal error", app::significant(quality.eikonal_error_mean, 3), "",
       "Area-weighted mean of | |\u2207d| \u2212 1 |: 0 for true distances away from where fronts "
       "meet. Falls with finer meshes; grows with t.");
+  draw_value(
+      frame, "below straight line", app::grouped(quality.below_straight_line), "",
+      "Vertices whose distance is below the straight line to the nearest source by more than "
+      "the method's tolerance. Such a distance is wrong, whatever the surface.",
+      warn(quality.below_straight_line > 0));
+  draw_value(frame, "too steep edges", app::grouped(quality.steep_edges), "",
+             "Edges along which the distance differs by more than their length and the method's "
+             "tolerance. It is wrong around them.",
+             warn(quality.steep_edges > 0));
   if (!heat) return;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
              "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",

@@ -31,29 +31,17 @@ std::jthread try_thread(Work&& work) {
   }
 }
 
-/// Runs both functions, the first on a second thread when `threads` > 1 and the system has one.
-/// Exceptions are rethrown after both have ended.
-template <class First, class Second>
-void run_both(int threads, First&& first, Second&& second) {
-  if (threads <= 1) {
-    first();
-    second();
-    return;
-  }
-  std::exception_ptr failure;
-  const auto guarded = [&] {
-    try {
-      first();
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  };
-  {
-    const std::jthread helper = try_thread(guarded);
-    if (!helper.joinable()) guarded();
-    second();
-  }
-  if (failure) std::rethrow_exception(failure);
+/// How many of up to `most` threads are worth having for work that takes one about `nanoseconds`:
+/// each gets `least`, and one has all that is less than twice that. Helpers that sleep pay from
+/// 1.5 ms of work each: less is gained than waking them and their cold caches cost.
+inline int threads_worth(int most, double nanoseconds, double least = 1.5e6) {
+  return static_cast<int>(std::clamp(nanoseconds / least, 1.0, std::max(1.0, double(most))));
+}
+
+/// The same where threads have to be started first. Beside busy processes a new thread runs for the
+/// first time after milliseconds, and its end is waited for.
+inline int threads_worth_starting(int most, double nanoseconds) {
+  return threads_worth(most, nanoseconds, 1e7);
 }
 
 /// How many pieces a range is best cut into for `threads`: none shorter than `grain`.
@@ -62,41 +50,68 @@ inline int piece_count(int threads, std::int64_t count, std::int64_t grain) {
       std::clamp<std::int64_t>(count / std::max<std::int64_t>(grain, 1), 1, std::max(threads, 1)));
 }
 
-/// Calls work(k) for all k in [0, count), 0 on this thread and the others each on one of its own,
-/// the crew's where this thread has one; what is left without a thread is done here afterwards.
-/// `work` must not throw. Throws std::bad_alloc.
+/// Calls work(k, team) for all k in [0, calls), 0 on this thread and the others on whichever of up
+/// to `threads` threads is free first, those of the crew where this thread has one. `work` may have
+/// more made (HelperThreads::call_more), and must not throw. Throws std::bad_alloc.
 template <class Work>
-void run_on_threads(int count, Work&& work) {
-  if (count <= 1) return work(0);
-  const auto call = [](void* context, int k) {
-    (*static_cast<std::remove_reference_t<Work>*>(context))(k);
+void run_team(int threads, int calls, Work&& work) {
+  const auto call = [](void* context, int k, HelperThreads& team) {
+    (*static_cast<std::remove_reference_t<Work>*>(context))(k, team);
   };
-  if (ThreadCrew::run(count, &work, call)) return;
-  std::vector<std::jthread> helpers;
-  helpers.reserve(static_cast<std::size_t>(count - 1));
-  int begun = 1;
-  for (; begun < count; ++begun) {
-    auto helper = try_thread([&work, begun] { work(begun); });
-    if (!helper.joinable()) break;
-    helpers.push_back(std::move(helper));
-  }
-  work(0);
-  for (; begun < count; ++begun) work(begun);
+  ThreadCrew::run(threads, calls, &work, call);
 }
 
-/// Calls body(begin, end) on contiguous pieces of [0, count), one a thread, none shorter than
-/// `grain`. The body must give the same result however the range is cut. An exception of the
-/// body's is rethrown after all pieces have ended, the first piece's where there are several.
-/// Throws std::bad_alloc.
+/// Calls work(k) for all k in [0, calls) on up to `threads` threads, in the same way.
+template <class Work>
+void run_calls(int threads, int calls, Work&& work) {
+  if (threads > 1 && calls > 1) {
+    return run_team(threads, calls, [&work](int k, HelperThreads&) noexcept { work(k); });
+  }
+  for (int k = 0; k < calls; ++k) work(k);
+}
+
+/// Runs both functions, where `threads` > 1 and the system has a second thread at the same time.
+/// Exceptions are rethrown after both have ended.
+template <class First, class Second>
+void run_both(int threads, First&& first, Second&& second) {
+  if (threads <= 1) {
+    first();
+    second();
+    return;
+  }
+  std::exception_ptr failure[2];
+  run_calls(threads, 2, [&](int k) noexcept {
+    try {
+      if (k == 0) {
+        second();
+      } else {
+        first();
+      }
+    } catch (...) {
+      failure[k] = std::current_exception();
+    }
+  });
+  for (int k : {1, 0}) {
+    if (failure[k]) std::rethrow_exception(failure[k]);
+  }
+}
+
+/// Calls body(begin, end) on contiguous pieces of [0, count), on as many threads as get `grain`
+/// each. There are a few times more pieces than threads: whoever is held up delays no more than
+/// one. The body must give the same result however the range is cut. An exception of the body's is
+/// rethrown after all pieces have ended, the first piece's where there are several. Throws
+/// std::bad_alloc.
 template <class Body>
 void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& body) {
-  const int pieces = piece_count(threads, count, grain);
-  if (pieces == 1) {
+  constexpr std::int64_t kPiecesOfThread = 4;
+  threads = piece_count(threads, count, grain);
+  if (threads == 1) {
     body(std::int64_t{0}, count);
     return;
   }
+  const int pieces = static_cast<int>(std::min(threads * kPiecesOfThread, count));
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(pieces));
-  run_on_threads(pieces, [&](int piece) noexcept {
+  run_calls(threads, pieces, [&](int piece) noexcept {
     try {
       body(count * piece / pieces, count * (piece + 1) / pieces);
     } catch (...) {
@@ -108,8 +123,8 @@ void parallel_for(int threads, std::int64_t count, std::int64_t grain, Body&& bo
   }
 }
 
-/// Calls body(piece, begin, end) on the pieces of [0, count) cut into `pieces`, one a thread: for
-/// work in several passes over the same pieces. As parallel_for() otherwise.
+/// Calls body(piece, begin, end) on the pieces of [0, count) cut into `pieces`, on as many threads:
+/// for work in several passes over the same pieces. As parallel_for() otherwise.
 template <class Body>
 void for_pieces(int pieces, std::int64_t count, Body&& body) {
   parallel_for(pieces, pieces, 1, [&](std::int64_t first, std::int64_t last) {

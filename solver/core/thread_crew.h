@@ -1,55 +1,68 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <thread>
+#include <mutex>
 #include <vector>
+
+#include "solver/core/helper_threads.h"
 
 namespace geotherm {
 
-/// Helpers for many short passes in a row. A thread takes some 50 us to start, longer than a pass
-/// over a hundred thousand rows: while a crew lives, the passes of parallel.h on its thread run on
-/// helpers that are there already. They watch for the next pass for a while before they sleep.
+/// Helpers that sleep between the calls that need them: one set for each thread that works at once.
+/// A new thread may have to wait for milliseconds beside busy processes before it runs for the
+/// first time; one that sleeps runs at once. Safe from several threads.
+class HelperPool {
+ public:
+  /// Null where all are in use.
+  std::unique_ptr<HelperThreads> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return nullptr;
+    auto out = std::move(free_.back());
+    free_.pop_back();
+    return out;
+  }
+  void give(std::unique_ptr<HelperThreads> helpers) {
+    const std::lock_guard lock(mutex_);
+    if (free_.size() < free_.capacity()) free_.push_back(std::move(helpers));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<HelperThreads>> free_ = with_room();  // so that give() never fails
+
+  static std::vector<std::unique_ptr<HelperThreads>> with_room() {
+    constexpr std::size_t kMost = 64;
+    std::vector<std::unique_ptr<HelperThreads>> out;
+    out.reserve(kMost);
+    return out;
+  }
+};
+
+/// Has the passes of parallel.h on the thread that makes it run on the same helpers, while it
+/// lives, in place of a crew made before.
 class ThreadCrew {
  public:
-  /// `threads`: at most, the calling one included. Helpers start with the first pass that has work
-  /// for them. The crew serves the thread that makes it, in place of one made before, until it ends
-  /// there.
-  explicit ThreadCrew(int threads);
+  /// `threads`: at most, the calling one included; with 1 every pass stays on this thread. Helpers
+  /// start with the first pass that has work for them. They come from the pool and go back to it,
+  /// or live as long as the crew; a pool must outlive it.
+  explicit ThreadCrew(int threads, HelperPool* pool = nullptr);
   ~ThreadCrew();
   ThreadCrew(const ThreadCrew&) = delete;
   ThreadCrew& operator=(const ThreadCrew&) = delete;
 
-  using Work = void (*)(void* context, int k);
-  /// Calls work(context, k) for all k in [0, count), 0 on this thread, and returns when all have
-  /// ended; for more parts than threads this one does the rest. False, and nothing is called, where
-  /// this thread has no crew or is in a pass of its crew's. `work` must not throw. Throws
-  /// std::bad_alloc, before anything is called.
-  static bool run(int count, void* context, Work work);
+  /// HelperThreads::run() with the helpers of this thread's crew, for up to `threads` threads in
+  /// all; with helpers for this pass alone where the thread has no crew or is in a pass of it.
+  static void run(int threads, int calls, void* context, HelperThreads::Work work);
 
  private:
-  struct Helper {
-    std::atomic<unsigned> passes{0};  ///< that it was called to
-    std::jthread thread;              ///< last: it uses the other until it ends
-  };
-
-  void run_pass(int count, void* context, Work work);
-  void start_helpers(int count);
-  void help(int k, Helper& helper);
+  void run_pass(int threads, int calls, void* context, HelperThreads::Work work);
 
   const int threads_;
+  HelperPool* const pool_;
   ThreadCrew* const before_;
   bool in_pass_ = false;
-  bool no_more_ = false;  ///< the system has no more threads
-
-  // The pass: written before helpers are called to it.
-  void* context_ = nullptr;
-  Work work_ = nullptr;
-  bool ends_ = false;
-  std::atomic<int> at_work_{0};  ///< helpers that have not ended it
-
-  std::vector<std::unique_ptr<Helper>> helpers_;  ///< last, for the same reason
+  std::unique_ptr<HelperThreads> helpers_;
 };
 
 }  // namespace geotherm

@@ -12,14 +12,22 @@
 #include "solver/wave/judge_wave.h"
 
 namespace geotherm {
+namespace {
+
+/// What a query takes at least for each face.
+constexpr double kFaceNanoseconds = 1000;
+
+}  // namespace
 
 struct ExactMethod::State {
   State(std::shared_ptr<const WaveSurface> waves, int thread_limit)
-      : surface(std::move(waves)), mesh(*surface), threads(thread_limit) {}
+      : surface(std::move(waves)),
+        mesh(*surface),
+        threads{thread_limit, kFaceNanoseconds * surface->face_count()} {}
 
   std::shared_ptr<const WaveSurface> surface;
   WindowMesh mesh;
-  int threads;
+  SetThreads threads;
   SetupTiming timing;
 
   Result<DistanceResult> solve(const SourceSet& sources, std::size_t most_bytes,
@@ -51,7 +59,7 @@ Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality) judge_wave(*surface, *seeds, result);
+  if (query.quality) judge_wave(MethodKind::kExact, *surface, sources, *seeds, result);
   for (double& distance : result.distances) distance *= surface->base.mean_edge;
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);
@@ -69,7 +77,7 @@ Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
     std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) try {
   const Stopwatch watch;
   if (!report(progress, "operators", 0.0)) return cancelled_error();
-  auto state = std::make_unique<State>(surface, thread_count(threads));
+  auto state = std::make_unique<State>(surface, threads);
   state->timing.operators = state->timing.setup = watch.milliseconds();
   return std::shared_ptr<const ExactMethod>(new ExactMethod(std::move(state)));
 } catch (const std::bad_alloc&) {
@@ -79,7 +87,7 @@ Result<std::shared_ptr<const ExactMethod>> ExactMethod::build(
 Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const SourceSet> sets,
                                                             const QueryOptions& query,
                                                             const Progress& progress) const {
-  const auto workers = static_cast<std::size_t>(solving_at_once(state_->threads, sets.size()));
+  const auto workers = static_cast<std::size_t>(state_->threads.at_once(sets.size()));
   return solve_sets(sets, state_->threads, progress,
                     [&](const SourceSet& sources, const Progress& part) {
                       return state_->solve(sources, Propagation::kMostBytes / workers, query, part);

@@ -70,7 +70,7 @@ struct Workspace {
   }
 
  private:
-  /// A thread takes some 45 us to start.
+  /// Several times what it costs to call a helper that sleeps.
   static constexpr std::int64_t kValuesOfThread = 1 << 17;
 };
 

@@ -26,6 +26,7 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   const Progress watched = shared.function();
   const Stopwatch watch;
   std::vector<Fallback> failed;
+  const ThreadCrew crew(setup_threads(options, *mesh));
   auto method = first_that_works<HeatMethod>(
       asked, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
@@ -53,6 +54,7 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   const Progress watched = shared.function();
   std::vector<Fallback> failed;
   if (asked != at_work) failed = state_->failed;
+  const ThreadCrew crew(setup_threads(options, *state_->surface->mesh), state_->helpers.get());
   return first_that_works<HeatMethod>(
       at_work, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {

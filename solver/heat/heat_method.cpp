@@ -28,6 +28,12 @@ std::string backend_name(const HeatOptions& options) {
   return options.backend.empty() ? backend_names().front() : options.backend;
 }
 
+int setup_threads(const HeatOptions& options, const TriangleMesh& mesh) {
+  constexpr double kFaceNanoseconds = 1000;  // at least, whatever the backend
+  return threads_worth_starting(thread_count(options.threads),
+                                kFaceNanoseconds * mesh.face_count());
+}
+
 Result<void> check_options(const HeatOptions& options) {
   const TimeStep& step = options.time_step;
   const bool absolute = step.rule == TimeRule::kAbsolute;
@@ -67,7 +73,7 @@ Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& 
                                      const Progress& progress) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
-  auto surface = build_surface(mesh, **backend, options.laplacian, thread_count(options.threads),
+  auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
                                part_of(progress, 0.0, kSurfaceShare));
   if (!surface) return {surface.error(), successor_of(surface.error())};
   auto state = std::make_shared<State>();
@@ -100,7 +106,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   if (!times) return {times.error()};
   next->times = std::move(*times);
   next->timing = {};
-  const int threads = thread_count(options.threads);
+  const int threads = setup_threads(options, *next->surface->mesh);
   const bool iterative = next->backend->iterative();
 
   if (state_->poisson) next->poisson = state_->poisson->with(options.constraint, options.precision);
@@ -184,8 +190,8 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
 Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> sets,
                                                    const QueryOptions& query,
                                                    const Progress& progress) const try {
-  const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson,
-                               state_->options,  state_->times, *state_->pool};
+  const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
+                               state_->times,    *state_->pool, *state_->helpers};
   return run_queries(pipeline, sets, query, progress);
 } catch (const std::bad_alloc&) {
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";

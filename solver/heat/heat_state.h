@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/core/thread_crew.h"
 #include "solver/heat/block_pool.h"
 #include "solver/heat/component_times.h"
 #include "solver/heat/heat_method.h"
@@ -29,6 +30,7 @@ struct HeatMethod::State {
   std::shared_ptr<const HeatStep> heat;
   std::shared_ptr<const PoissonSolver> poisson;
   std::shared_ptr<BlockPool> pool = std::make_shared<BlockPool>();
+  std::shared_ptr<HelperPool> helpers = std::make_shared<HelperPool>();
   std::shared_ptr<Substitutes> substitutes = std::make_shared<Substitutes>();
   DiffusionTimes times;
   SetupTiming timing;
@@ -43,6 +45,9 @@ struct HeatMethod::State {
 
 /// The name in the options, or that of the default backend.
 std::string backend_name(const HeatOptions& options);
+
+/// Threads that are worth having for the set-up of this mesh.
+int setup_threads(const HeatOptions& options, const TriangleMesh& mesh);
 
 /// Numbers that no mesh is needed to judge. Error kBadInput.
 Result<void> check_options(const HeatOptions& options);

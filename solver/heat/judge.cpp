@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/core/number_text.h"
+#include "solver/method/distance_bounds.h"
 
 namespace geotherm {
 namespace {
@@ -56,13 +57,19 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
   if (clamped == 0) return;
   const auto reached =
       std::ranges::count_if(result.distances, [](double d) { return d < kUnreached; });
-  std::string text = std::to_string(clamped) + " vertices " +
+  std::string text = counted_text(static_cast<std::size_t>(clamped), "vertex ", "vertices ") +
                      share(clamped, static_cast<std::size_t>(reached)) +
                      " had a distance below 0, which was set to 0";
   if (options.boundary == BoundaryRule::kDirichlet) {
     text += "; use --boundary neumann or average";
   } else if (options.constraint.mode != ConstraintMode::kPinSources) {
     text += "; --constraint pin-sources holds every source at 0";
+  } else {
+    text +=
+        ": the heat carries no information there, and distances around them are too short, up to " +
+        rounded_text(result.quality.clamped_reach) +
+        " from the sources in a straight line; use --method wavefront, or a larger " +
+        time_option(options.time_step.rule);
   }
   result.warnings.push_back(std::move(text));
 }
@@ -85,6 +92,7 @@ Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& 
   const Quality& q = result.quality;
   add_lost_faces(options, faces, result);
   add_clamped_vertices(options, result);
+  add_bound_warnings(MethodKind::kHeat, result);
   for (const bool heat : {true, false}) {
     const double residual = heat ? q.heat_residual : q.poisson_residual;
     const bool compact = options.precision == Precision::kCompact && q.iterations_poisson == 0;

@@ -32,21 +32,33 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
 }
 
 double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
-                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors) {
+                        Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors,
+                        int threads) {
   std::vector<double> product(phi.size(), 0.0);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Face& face = mesh.faces[f];
-    const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
-    const auto d = divergence(mesh.layout[f], g[0], g[1]);
-    for (int k = 0; k < 3; ++k) product[face[k]] += d[k];
-  }
+  const auto add_faces = [&](Index first, Index end) {
+    for (Index f = first; f < end; ++f) {
+      const Face& face = mesh.faces[f];
+      const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
+      const auto d = divergence(mesh.layout[f], g[0], g[1]);
+      for (int k = 0; k < 3; ++k) product[face[k]] += d[k];
+    }
+  };
+  // Faces of a range meet no rows of another's.
+  parallel_for(threads, std::ssize(mesh.ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (; begin < end; ++begin) {
+      const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
+      add_faces(range.first_face, range.end_face);
+    }
+  });
+  add_faces(mesh.crossing, mesh.face_count());
+  std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
+  for (const Index c : anchors.components) holds[c] = 1;
   double error = 0, norm = 0;
   auto anchor = anchors.anchors.begin();
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const bool here = anchor != anchors.anchors.end() && anchor->row == static_cast<Index>(i);
     if (here) ++anchor;
-    const auto& at = anchors.components;
-    if (!std::binary_search(at.begin(), at.end(), mesh.components.of[i])) continue;
+    if (!holds[mesh.components.of[i]]) continue;
     if (here && skip_anchors) continue;
     const double right = b(static_cast<Eigen::Index>(i), column);
     error += (product[i] - right) * (product[i] - right);
@@ -61,6 +73,7 @@ namespace {
 struct FaceSums {
   double error = 0, area = 0;
   Index in_reach = 0, without_direction = 0, lost = 0;  ///< in halves
+  SteepSides steep;
 
   void add(const FaceSums& other) {
     error += other.error;
@@ -68,6 +81,7 @@ struct FaceSums {
     in_reach += other.in_reach;
     without_direction += other.without_direction;
     lost += other.lost;
+    steep.add(other.steep);
   }
 };
 
@@ -79,7 +93,8 @@ double length(const std::array<double, 2>& g) {
 
 }  // namespace
 
-FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
+FaceCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
+                         const SteepSides& steep, const UnitField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
                          int threads, Quality& quality) {
@@ -102,8 +117,21 @@ FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
     }
     const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
     const double face_area = mesh.layout[f].base * mesh.layout[f].height / 2;
-    sums.error += face_area * std::abs(length(g) - 1);
+    const double slope = length(g);
+    sums.error += face_area * std::abs(slope - 1);
     sums.area += face_area;
+    if (!steep.may_be_steep(slope)) return;
+    const FaceLayout& p = mesh.layout[f];
+    const double lengths[3] = {p.base, std::hypot(p.base - p.x, p.height),
+                               std::hypot(p.x, p.height)};
+    for (int k = 0; k < 3; ++k) {
+      const double difference =
+          std::max(phi[face[next_corner(k)]], 0.0) - std::max(phi[face[k]], 0.0);
+      if (!steep.is_steep(difference, lengths[k])) continue;
+      const Side side = 3 * static_cast<Side>(mesh.intrinsic_face[f]) + k;
+      const double share = twin[side] == kNoSide ? 1.0 : 0.5;
+      sums.steep.add(difference, lengths[k], share * halves / 2);
+    }
   };
   FaceSums sums;
   for (const FaceSums& part : sums_of_blocks<FaceSums>(
@@ -114,6 +142,7 @@ FaceCounts inspect_faces(const OperatorMesh& mesh, const UnitField& field,
            })) {
     sums.add(part);
   }
+  sums.steep.write_to(quality);
   quality.zero_gradient_faces = (sums.lost + 1) / 2;
   quality.eikonal_error_mean = sums.area > 0 ? sums.error / sums.area : 0.0;
   return {(sums.in_reach + 1) / 2, (sums.without_direction + 1) / 2};

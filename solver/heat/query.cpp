@@ -7,7 +7,6 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <thread>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
@@ -105,10 +104,24 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
   }
 }
 
+/// About how long a query takes one thread, in nanoseconds, as measured from 1,000 faces to a
+/// million.
+double query_nanoseconds(const QueryPipeline& p, bool quality) {
+  constexpr double kEntry = 1;  // the factors are read three times
+  constexpr double kIteration = 75, kIterations = 2;
+  constexpr double kFace = 10, kFaceJudged = 70;
+  const double faces = p.surface.operators->face_count();
+  const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
+  const double solves =
+      entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
+  return solves + (kFace + (quality ? kFaceJudged : 0)) * faces;
+}
+
 /// `threads`: of this group alone.
-Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors>& anchors,
-                         const QueryOptions& query, const Workspace& work,
-                         std::span<DistanceResult> results, const Progress& progress) {
+Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets,
+                         const std::vector<SourceAnchors>& anchors, const QueryOptions& query,
+                         const Workspace& work, std::span<DistanceResult> results,
+                         const Progress& progress) {
   Stopwatch watch;
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
@@ -136,6 +149,7 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
   const auto share = static_cast<double>(anchors.size());
+  const BoundTolerance tolerance = bound_tolerance(MethodKind::kHeat);
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     DistanceResult& result = results[c];
     const auto column = static_cast<Eigen::Index>(c);
@@ -147,21 +161,13 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
     if (query.quality) {
       const std::vector<double> phi = shifted_phi(p.surface, *answer, anchors[c], mode, column);
       result.quality.heat_residual = heat->residual[c];
-      FaceCounts faces;
-      Quality of_faces = result.quality;
-      run_both(
-          work.threads,
-          [&] {
-            result.quality.poisson_residual =
-                poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
-                                 mode == ConstraintMode::kPinSources);
-          },
-          [&] {
-            faces = inspect_faces(*p.surface.operators, field, phi, column, anchors[c],
-                                  held_at_zero(p), work.threads, of_faces);
-          });
-      result.quality.zero_gradient_faces = of_faces.zero_gradient_faces;
-      result.quality.eikonal_error_mean = of_faces.eikonal_error_mean;
+      result.quality.poisson_residual =
+          poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
+                           mode == ConstraintMode::kPinSources, work.threads);
+      const FaceCounts faces = inspect_faces(*p.surface.operators, p.surface.intrinsic.twin,
+                                             SteepSides(tolerance), field, phi, column, anchors[c],
+                                             held_at_zero(p), work.threads, result.quality);
+      check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
       const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
@@ -178,29 +184,26 @@ Result<void> solve_group(const QueryPipeline& p, const std::vector<SourceAnchors
 /// Hands out groups to threads until all are done, one has failed or the caller has had enough.
 class GroupRunner {
  public:
-  GroupRunner(const QueryPipeline& pipeline, const std::vector<Group>& groups,
-              const QueryOptions& query, std::span<DistanceResult> results,
-              const Progress& progress)
+  GroupRunner(const QueryPipeline& pipeline, std::span<const SourceSet> sets,
+              const std::vector<Group>& groups, const QueryOptions& query, int threads,
+              std::span<DistanceResult> results, const Progress& progress)
       : pipeline_(pipeline),
+        sets_(sets),
         groups_(groups),
         query_(query),
+        threads_(threads),
         results_(results),
         progress_(progress),
         watch_(progress_.function()) {}
 
-  /// What ended for want of memory is thrown.
+  /// `threads`: for groups side by side, up to those of the query. What ended for want of memory is
+  /// thrown.
   std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
-    const auto workers = std::min<std::size_t>(static_cast<std::size_t>(threads), groups_.size());
-    threads_of_group_ = std::max(1, thread_count(pipeline_.options.threads) /
-                                        static_cast<int>(std::max<std::size_t>(workers, 1)));
-    {
-      std::vector<std::jthread> helpers;
-      for (std::size_t w = 1; w < workers; ++w) {
-        helpers.push_back(try_thread([this] { work(); }));
-        if (!helpers.back().joinable()) break;
-      }
-      work();
-    }
+    const int workers =
+        static_cast<int>(std::clamp<std::ptrdiff_t>(std::ssize(groups_), 1, std::max(threads, 1)));
+    threads_of_group_ = std::max(1, threads_ / workers);
+    const ThreadCrew crew(workers, &pipeline_.helpers);
+    run_calls(workers, workers, [this](int) noexcept { work(); });
     if (memory_ended_) throw std::bad_alloc();
     if (!failure_) return std::nullopt;
     return Trial<std::vector<DistanceResult>>{*failure_, successor_};
@@ -208,16 +211,16 @@ class GroupRunner {
 
  private:
   void work() {
-    ThreadCrew crew(threads_of_group_);
+    const ThreadCrew crew(threads_of_group_, &pipeline_.helpers);
     for (std::size_t g = next_++; g < groups_.size(); g = next_++) {
       const auto count = static_cast<double>(groups_.size());
       const Progress part =
           part_of(watch_, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
       const Group& group = groups_[g];
       try {
-        const auto done =
-            solve_group(pipeline_, group.anchors, query_, {pipeline_.pool, threads_of_group_},
-                        results_.subspan(group.first, group.anchors.size()), part);
+        const auto done = solve_group(pipeline_, sets_.subspan(group.first, group.anchors.size()),
+                                      group.anchors, query_, {pipeline_.pool, threads_of_group_},
+                                      results_.subspan(group.first, group.anchors.size()), part);
         if (!done) return fail(done.error(), extreme_time(pipeline_.times, group.anchors));
       } catch (const std::bad_alloc&) {
         memory_ended_ = true;
@@ -237,8 +240,10 @@ class GroupRunner {
   }
 
   const QueryPipeline& pipeline_;
+  std::span<const SourceSet> sets_;
   const std::vector<Group>& groups_;
   const QueryOptions& query_;
+  const int threads_;  ///< of the query
   std::span<DistanceResult> results_;
   SharedProgress progress_;
   const Progress watch_;
@@ -261,10 +266,12 @@ Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   if (!groups) return {groups.error()};
   std::vector<DistanceResult> results(sets.size());
   const double placing = watch.milliseconds();
-  GroupRunner runner(pipeline, *groups, query, results, progress);
-  const auto fitting = threads_in_memory(
-      pipeline, *groups,
-      std::min<int>(thread_count(pipeline.options.threads), static_cast<int>(groups->size())));
+  const int worth =
+      threads_worth(thread_count(pipeline.options.threads),
+                    query_nanoseconds(pipeline, query.quality) * static_cast<double>(sets.size()));
+  GroupRunner runner(pipeline, sets, *groups, query, worth, results, progress);
+  const auto fitting =
+      threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
   if (!fitting) return {fitting.error(), Successor::kFactorless};
   const int threads = *fitting;
   if (auto failure = runner.run(threads)) return *std::move(failure);

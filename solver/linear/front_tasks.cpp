@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "solver/core/spin.h"
-
 namespace geotherm {
 namespace {
 
@@ -160,8 +158,8 @@ void divide_into_tasks(FrontTree& tree) {
   measure_waiting(tree);
 }
 
-TaskQueue::TaskQueue(const std::vector<FrontTask>& tasks, Direction direction)
-    : tasks_(tasks), direction_(direction) {
+TaskQueue::TaskQueue(const std::vector<FrontTask>& tasks, Direction direction, int threads)
+    : tasks_(tasks), direction_(direction), threads_(threads) {
   for (const FrontTask& task : tasks) {
     waits_for_.push_back(direction == Direction::kUp ? static_cast<Index>(task.children.size())
                                                      : Index{task.parent != kNoIndex});
@@ -171,9 +169,13 @@ TaskQueue::TaskQueue(const std::vector<FrontTask>& tasks, Direction direction)
   }
 }
 
-Index TaskQueue::next(Index done) {
-  std::unique_lock lock(mutex_);
-  if (done != kNoIndex) {
+Index TaskQueue::next(Index done, int& others) {
+  const std::lock_guard lock(mutex_);
+  others = 0;
+  if (done == kNoIndex) {
+    if (at_work_ == threads_) return kNoIndex;
+    ++at_work_;
+  } else {
     const std::size_t before = ready_.size();
     const auto release = [this](Index task) {
       if (--waits_for_[task] == 0) ready_.push_back(task);
@@ -183,23 +185,15 @@ Index TaskQueue::next(Index done) {
     } else if (tasks_[done].parent != kNoIndex) {
       release(tasks_[done].parent);
     }
-    ++finished_;
-    if (ready_.size() > before + 1 || finished_ == tasks_.size()) {
-      ++changes_;
-      changed_.notify_all();
+    // One of them is for the thread that asks.
+    if (ready_.size() > before + 1) {
+      others = std::min(threads_ - at_work_, static_cast<int>(ready_.size() - before - 1));
     }
   }
-  const auto has_news = [this] {
-    return stopped_ || !ready_.empty() || finished_ == tasks_.size();
-  };
-  if (!has_news()) {  // a front takes microseconds, falling asleep and waking tens of them
-    const unsigned seen = changes_;
-    lock.unlock();
-    watch_for([&] { return changes_ != seen; });
-    lock.lock();
+  if (stopped_ || ready_.empty()) {
+    --at_work_;
+    return kNoIndex;
   }
-  changed_.wait(lock, has_news);
-  if (stopped_ || ready_.empty()) return kNoIndex;
   const Index task = ready_.back();
   ready_.pop_back();
   return task;
@@ -208,8 +202,6 @@ Index TaskQueue::next(Index done) {
 void TaskQueue::stop() {
   const std::lock_guard lock(mutex_);
   stopped_ = true;
-  ++changes_;
-  changed_.notify_all();
 }
 
 }  // namespace geotherm

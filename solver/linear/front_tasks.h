@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <atomic>
-#include <condition_variable>
+#include <algorithm>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -34,44 +34,90 @@ class SharedFailure {
 };
 
 /// Hands tasks out to threads, each once all those it waits for are done: its children when going
-/// up, its parent when going down.
+/// up, its parent when going down. Nobody waits here: who finds no task ready leaves, and whoever
+/// makes several ready calls others.
 class TaskQueue {
  public:
   enum class Direction { kUp, kDown };
-  TaskQueue(const std::vector<FrontTask>& tasks, Direction direction);
+  /// `threads`: that may have a task at a time.
+  TaskQueue(const std::vector<FrontTask>& tasks, Direction direction, int threads);
 
-  /// The next task; kNoIndex when all are done or stop() was called. `done`: the one before.
-  Index next(Index done);
+  /// The next task, kNoIndex when none is ready or stop() was called. `done`: the one before;
+  /// kNoIndex for a thread that comes, which is held to the number of threads. `others`: how many
+  /// threads more there would be tasks for since then.
+  Index next(Index done, int& others);
   void stop();
+  /// Tasks that are ready before any is done.
+  int ready() const { return static_cast<int>(ready_.size()); }
 
  private:
   const std::vector<FrontTask>& tasks_;
-  Direction direction_;
+  const Direction direction_;
+  const int threads_;
   std::mutex mutex_;
-  std::condition_variable changed_;
   std::vector<Index> waits_for_;  ///< per task
   std::vector<Index> ready_;      ///< the last one goes first
-  std::size_t finished_ = 0;
+  int at_work_ = 0;
   bool stopped_ = false;
-  std::atomic<unsigned> changes_{0};  ///< of what next() waits for
 };
 
-/// Calls work(task, worker) for every task, on up to `threads` threads; make_worker() makes what a
-/// thread keeps for itself; denormals are flushed within. `work` returns false to stop everything.
-/// Exceptions are rethrown.
+/// What threads that come and go work with: as many as are in use at once.
+template <class Worker>
+class WorkerShelf {
+ public:
+  template <class Make>
+  std::unique_ptr<Worker> take(const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!shelf_.empty()) {
+        auto out = std::move(shelf_.back());
+        shelf_.pop_back();
+        return out;
+      }
+    }
+    return std::make_unique<Worker>(make());
+  }
+  void give(std::unique_ptr<Worker> worker) {
+    const std::lock_guard lock(mutex_);
+    shelf_.push_back(std::move(worker));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> shelf_;
+};
+
+/// Calls work(task, number, worker) for every task, on up to `threads` threads; make_worker() makes
+/// what a thread keeps for itself; denormals are flushed within. `work` returns false to stop
+/// everything. Exceptions are rethrown.
 template <class MakeWorker, class Work>
 void run_tasks(const FrontTree& tree, TaskQueue::Direction direction, int threads,
                const MakeWorker& make_worker, const Work& work) {
-  TaskQueue queue(tree.tasks, direction);
+  const auto count = static_cast<Index>(tree.tasks.size());
+  if (threads <= 1 || count <= 1) {
+    const FlushDenormals flush;
+    auto worker = make_worker();
+    for (Index k = 0; k < count; ++k) {
+      const Index task = direction == TaskQueue::Direction::kUp ? k : count - 1 - k;
+      if (!work(tree.tasks[task], task, worker)) return;
+    }
+    return;
+  }
+  TaskQueue queue(tree.tasks, direction, threads);
+  WorkerShelf<decltype(make_worker())> shelf;
   SharedFailure failure;
-  const auto most = std::min<std::size_t>(static_cast<std::size_t>(threads), tree.tasks.size());
-  run_on_threads(static_cast<int>(most), [&](int) noexcept {
+  run_team(threads, std::min(threads, queue.ready()), [&](int, HelperThreads& team) noexcept {
     try {
+      int others = 0;
+      Index task = queue.next(kNoIndex, others);
+      if (task == kNoIndex) return;
       const FlushDenormals flush;
-      auto worker = make_worker();
-      for (Index task = queue.next(kNoIndex); task != kNoIndex; task = queue.next(task)) {
-        if (!work(tree.tasks[task], task, worker)) return queue.stop();
+      auto worker = shelf.take(make_worker);
+      for (; task != kNoIndex; task = queue.next(task, others)) {
+        team.call_more(others);
+        if (!work(tree.tasks[task], task, *worker)) queue.stop();
       }
+      shelf.give(std::move(worker));
     } catch (...) {
       failure.keep(std::current_exception());
       queue.stop();

@@ -17,7 +17,17 @@ struct Quality {
   double eikonal_error_mean = 0;   ///< area-weighted mean of | |grad phi| - 1 |
   Index zero_gradient_faces = 0;   ///< faces (in reach, not held) without a gradient of u
   Index clamped_vertices = 0;      ///< values below 0 by more than round-off, set to 0
-  int iterations_heat = 0;         ///< 0 for direct backends
+  double clamped_reach = 0;        ///< straight line to the farthest of these, model units
+  Index reached_vertices = 0;      ///< with a distance
+  /// Distances below the straight line to the nearest source by more than the method's tolerance
+  /// (distance_bounds.h), and the largest share of the line that is missing in one of them.
+  Index below_straight_line = 0;
+  double most_below_straight_line = 0;
+  /// Edges along which the distance differs by more than their length and that tolerance, and the
+  /// largest difference over length of one of them.
+  Index steep_edges = 0;
+  double steepest_edge = 0;
+  int iterations_heat = 0;  ///< 0 for direct backends
   int iterations_poisson = 0;
 };
 

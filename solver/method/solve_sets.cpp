@@ -23,9 +23,9 @@ class SetRunner {
         progress_(progress),
         watch_(progress_.function()) {}
 
-  Result<std::vector<DistanceResult>> run(int threads) {
-    // Pieces do not matter: whoever is free takes the next set.
-    parallel_for(threads, threads, 1, [this](std::int64_t, std::int64_t) { work(); });
+  Result<std::vector<DistanceResult>> run(int threads, HelperPool& helpers) {
+    const ThreadCrew crew(threads, &helpers);
+    run_calls(threads, threads, [this](int) noexcept { work(); });
     if (failure_ && failure_->message.empty()) throw std::bad_alloc();
     if (failure_) return *std::move(failure_);
     return std::move(results_);
@@ -73,16 +73,17 @@ constexpr const char* kMemoryEnded = "the memory ended in a query; take a mesh w
 
 }  // namespace
 
-int solving_at_once(int threads, std::size_t sets) {
-  const auto most = static_cast<std::size_t>(thread_count(threads));
-  return static_cast<int>(std::clamp(sets, std::size_t{1}, most));
+int SetThreads::at_once(std::size_t sets) const {
+  const auto threads = static_cast<std::size_t>(thread_count(most));
+  return threads_worth(static_cast<int>(std::clamp(sets, std::size_t{1}, threads)),
+                       nanoseconds * static_cast<double>(sets));
 }
 
-Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets, int threads,
-                                               const Progress& progress,
+Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets,
+                                               const SetThreads& threads, const Progress& progress,
                                                const SolveSet& solve) try {
-  const int workers = solving_at_once(threads, sets.size());
-  auto results = SetRunner(sets, progress, solve).run(workers);
+  const int workers = threads.at_once(sets.size());
+  auto results = SetRunner(sets, progress, solve).run(workers, threads.helpers);
   if (!results) return results;
   // Threads work side by side: a set's share of the wall clock is that much smaller.
   for (DistanceResult& result : *results) {

@@ -5,7 +5,8 @@
 
 namespace geotherm {
 
-double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances) {
+double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances,
+                          SteepSides& steep) {
   double sum = 0, area = 0;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto [a, b, c] = mesh.faces[f];
@@ -15,8 +16,17 @@ double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> dis
     const double slope_x = db / layout.base;
     const double slope_y = (dc - slope_x * layout.x) / layout.height;
     const double twice_area = layout.base * layout.height;
-    sum += twice_area * std::abs(std::hypot(slope_x, slope_y) - 1);
+    const double slope = std::hypot(slope_x, slope_y);
+    sum += twice_area * std::abs(slope - 1);
     area += twice_area;
+    if (!steep.may_be_steep(slope)) continue;
+    const double differences[3] = {db, dc - db, dc};
+    for (int k = 0; k < 3; ++k) {
+      const double length = mesh.lengths[f][k];
+      if (!steep.is_steep(differences[k], length)) continue;
+      const bool alone = mesh.twin[3 * static_cast<Side>(f) + k] == kNoSide;
+      steep.add(differences[k], length, alone ? 1.0 : 0.5);
+    }
   }
   return area > 0 ? sum / area : 0;
 }

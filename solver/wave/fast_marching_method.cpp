@@ -15,6 +15,9 @@
 namespace geotherm {
 namespace {
 
+/// What a query takes at least for each face.
+constexpr double kFaceNanoseconds = 100;
+
 /// A ray that misses the support by no more than this share of its base goes through.
 constexpr double kRayTolerance = 1e-12;
 /// Accepted vertices between two calls of progress: a few milliseconds.
@@ -113,7 +116,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
   for (double& distance : result.distances) distance += march.base;
   if (query.nearest) result.nearest_source = std::move(march.label);
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(surface, *seeds, result);
+  if (query.quality) judge_wave(MethodKind::kFastMarching, surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface.base.mean_edge;
   result.timing.query += watch.lap();
@@ -125,7 +128,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
 struct FastMarchingMethod::State {
   std::shared_ptr<const WaveSurface> surface;
   MarchSupports supports;
-  int threads = 0;
+  SetThreads threads;
   SetupTiming timing;
 };
 
@@ -141,7 +144,8 @@ Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
   try {
     auto state = std::make_unique<State>();
     state->surface = std::move(surface);
-    state->threads = threads;
+    state->threads.most = threads;
+    state->threads.nanoseconds = kFaceNanoseconds * faces;
     state->supports = build_march_supports(*state->surface);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();

@@ -6,8 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "solver/core/parallel.h"
+
 namespace geotherm {
 namespace {
+
+/// What the set-up takes at least for each face.
+constexpr double kFaceNanoseconds = 400;
 
 /// Sides without a twin, those of one edge together: the border, edges with three faces and more,
 /// and edges whose two faces disagree in orientation. Flips leave their vertices alone.
@@ -83,7 +88,9 @@ Error wave_out_of_memory(const char* stage, Index faces) {
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
   const Index faces = mesh->face_count();
+  threads = threads_worth_starting(threads, kFaceNanoseconds * faces);
   try {
+    const ThreadCrew crew(threads);
     auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
                                         part_of(progress, 0.0, 0.9), threads);
     if (!base) return base.error();

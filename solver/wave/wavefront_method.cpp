@@ -14,6 +14,9 @@
 namespace geotherm {
 namespace {
 
+/// What a query takes at least for each face.
+constexpr double kFaceNanoseconds = 100;
+
 /// Fronts kept between queries: fresh memory would be handed out and cleared page by page, which at
 /// a million faces takes as long as a tenth of the query. Grows to one for each thread.
 class FrontPool {
@@ -48,11 +51,14 @@ class FrontPool {
 struct WavefrontMethod::State {
   std::shared_ptr<const WaveSurface> surface;
   Samples samples = Samples::kMidpoint;
-  int threads = 0;
+  SetThreads threads;
   WaveTables tables;
   SetupTiming timing;
   std::unique_ptr<FrontPool> pool;
 
+  MethodKind kind() const {
+    return samples == Samples::kMidpoint ? MethodKind::kWavefront : MethodKind::kWavefrontFine;
+  }
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
                                const Progress& progress) const;
   void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
@@ -78,7 +84,7 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                                               " visits of edges; use the method exact or heat"};
   }
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(*surface, *seeds, result);
+  if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface->base.mean_edge;
   result.timing.query += watch.lap();
@@ -113,7 +119,8 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     auto state = std::make_unique<State>();
     state->surface = std::move(surface);
     state->samples = samples;
-    state->threads = threads;
+    state->threads.most = threads;
+    state->threads.nanoseconds = kFaceNanoseconds * faces;
     state->tables = build_wave_tables(*state->surface);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
@@ -124,10 +131,7 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
   }
 }
 
-MethodKind WavefrontMethod::kind() const {
-  return state_->samples == Samples::kMidpoint ? MethodKind::kWavefront
-                                               : MethodKind::kWavefrontFine;
-}
+MethodKind WavefrontMethod::kind() const { return state_->kind(); }
 
 Result<std::vector<DistanceResult>> WavefrontMethod::solve_each(std::span<const SourceSet> sets,
                                                                 const QueryOptions& query,

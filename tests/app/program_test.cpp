@@ -37,7 +37,8 @@ TEST_F(Program, SolveJsonHasTheKeysOfTheContract) {
       {"memory_mb", keys({"factor", "peak_rss"})},
       {"quality",
        keys({"heat_residual", "poisson_residual", "max_source_distance", "eikonal_error_mean",
-             "zero_gradient_faces", "iterations_heat", "iterations_poisson"})},
+             "zero_gradient_faces", "iterations_heat", "iterations_poisson", "below_straight_line",
+             "most_below_straight_line", "steep_edges", "steepest_edge"})},
       {"warnings", nullptr}};
   expect_keys(solved, expected, "");
   EXPECT_EQ(solved["model"]["name"], "bunny");

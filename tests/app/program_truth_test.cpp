@@ -30,7 +30,8 @@ TEST_F(ProgramTruth, EveryMethodHasAllKeysOfSolve) {
     expect_keys(
         solved["quality"],
         keys({"heat_residual", "poisson_residual", "max_source_distance", "eikonal_error_mean",
-              "zero_gradient_faces", "iterations_heat", "iterations_poisson"}),
+              "zero_gradient_faces", "iterations_heat", "iterations_poisson", "below_straight_line",
+              "most_below_straight_line", "steep_edges", "steepest_edge"}),
         name + " quality.");
     EXPECT_EQ(solved["options"]["method"], name);
     EXPECT_EQ(solved["options"]["t"].is_null(), name != "heat");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <barrier>
 #include <chrono>
 #include <mutex>
 #include <set>
@@ -16,12 +17,14 @@
 namespace geotherm::test {
 namespace {
 
-/// The threads on which passes of so many pieces run.
-std::set<std::thread::id> threads_of_passes(int passes, int pieces) {
+/// The threads on which passes of so many calls run, each of which waits for the others.
+std::set<std::thread::id> threads_of_passes(int passes, int calls) {
   std::mutex mutex;
   std::set<std::thread::id> ids;
   for (int pass = 0; pass < passes; ++pass) {
-    parallel_for(pieces, pieces, 1, [&](std::int64_t, std::int64_t) {
+    std::barrier all_there(calls);
+    run_calls(calls, calls, [&](int) {
+      all_there.arrive_and_wait();
       const std::lock_guard lock(mutex);
       ids.insert(std::this_thread::get_id());
     });
@@ -83,7 +86,9 @@ TEST(ThreadCrew, WithoutHelpersIsTheCaller) {
   const NoThreads none;
   if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
   ThreadCrew crew(3);
-  EXPECT_EQ(threads_of_passes(2, 3), std::set{std::this_thread::get_id()});
+  std::set<std::thread::id> ids;
+  run_calls(3, 30, [&](int) { ids.insert(std::this_thread::get_id()); });
+  EXPECT_EQ(ids, std::set{std::this_thread::get_id()});
 }
 
 TEST(ThreadCrew, GrowsWithItsPasses) {
@@ -92,7 +97,7 @@ TEST(ThreadCrew, GrowsWithItsPasses) {
   const auto four = threads_of_passes(3, 4);
   EXPECT_EQ(two.size(), 2U);
   EXPECT_EQ(four.size(), 4U);
-  EXPECT_EQ(threads_of_passes(3, 2), two);
+  for (const std::thread::id id : threads_of_passes(3, 2)) EXPECT_TRUE(four.contains(id));
   for (const std::thread::id id : two) EXPECT_TRUE(four.contains(id));
 }
 
@@ -102,6 +107,30 @@ TEST(ThreadCrew, ServesTheThreadThatMadeItAlone) {
   std::set<std::thread::id> others;
   std::jthread([&] { others = threads_of_passes(1, 2); }).join();
   for (const std::thread::id id : others) EXPECT_FALSE(ids.contains(id));
+}
+
+TEST(ThreadCrew, OfOneThreadKeepsPassesOnIt) {
+  ThreadCrew outer(4);
+  const ThreadCrew inner(1);
+  std::set<std::thread::id> ids;
+  run_calls(4, 100, [&](int) {
+    std::this_thread::sleep_for(std::chrono::microseconds(100));  // others had time to come
+    ids.insert(std::this_thread::get_id());
+  });
+  EXPECT_EQ(ids, std::set{std::this_thread::get_id()});
+}
+
+TEST(ThreadCrew, LeavesItsHelpersToTheNextThroughAPool) {
+  HelperPool pool;
+  std::set<std::thread::id> first;
+  for (int crew_of_many = 0; crew_of_many < 10; ++crew_of_many) {
+    const ThreadCrew crew(2, &pool);
+    const auto ids = threads_of_passes(1, 2);
+    if (crew_of_many == 0) first = ids;
+    EXPECT_EQ(ids, first);
+  }
+  EXPECT_NE(pool.take(), nullptr);
+  EXPECT_EQ(pool.take(), nullptr);
 }
 
 TEST(ThreadCrew, EndsWithAnInnerOneInItsPlace) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/heat/faulty_backend.h"
 
+#include <cmath>
 #include <utility>
 
 #include "tests/support/solve.h"
@@ -21,7 +22,14 @@ class FaultyFactorization final : public Factorization {
   Result<SolveReport> solve(Block& x, std::span<const Index> support, const Progress& progress,
                             int threads) const override {
     if (plan_.fault == Fault::kSolve) return plan_.error;
-    return inner_->solve(x, support, progress, threads);
+    auto done = inner_->solve(x, support, progress, threads);
+    if (plan_.fault != Fault::kNoise) return done;
+    constexpr double kNoise = 1e-7;
+    const double largest = x.cwiseAbs().maxCoeff();
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+      x.row(i).array() += kNoise * largest * std::sin(12.9898 * static_cast<double>(i + 1));
+    }
+    return done;
   }
   FactorStats stats() const override { return inner_->stats(); }
   Index size() const override { return inner_->size(); }

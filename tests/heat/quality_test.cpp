@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <tuple>
 
+#include "solver/heat/judge.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/surface.h"
+#include "solver/linear/added_backend.h"
+#include "tests/heat/faulty_backend.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
 
@@ -94,6 +98,35 @@ TEST_F(QualityResponds, DistancesBelowZeroAreCountedAndSaid) {
   ASSERT_EQ(shifted.warnings.size(), 1U);
   EXPECT_NE(shifted.warnings[0].find(count), std::string::npos) << shifted.warnings[0];
   EXPECT_NE(shifted.warnings[0].find("pin-sources"), std::string::npos) << shifted.warnings[0];
+}
+
+TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
+  DistanceResult result;
+  result.distances = {0, 0, 3, kUnreached};
+  result.quality.clamped_vertices = 1;
+  result.quality.clamped_reach = 2.5;
+  ASSERT_TRUE(judge({}, 1, {}, result));
+  ASSERT_EQ(result.warnings.size(), 1U);
+  for (const char* part : {"1 vertex (33.3 %)", "no information", "too short", "up to 2.5 from",
+                           "--method wavefront", "--time-factor"}) {
+    EXPECT_NE(result.warnings[0].find(part), std::string::npos) << result.warnings[0];
+  }
+}
+
+TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLine) {
+  const AddedBackend noisy(faulty_backend(Fault::kNoise, {}));
+  const MeshPtr plane = finish(plane_grid(60, 60, 60, 60));
+  for (const bool noise : {false, true}) {
+    const DistanceResult result = solve(plane, {0}, with_backend(noise ? "faulty" : "native"));
+    EXPECT_EQ(result.quality.below_straight_line > 0, noise);
+    EXPECT_EQ(std::ranges::any_of(result.warnings,
+                                  [](const std::string& text) {
+                                    return text.find("straight line to the nearest source") !=
+                                           std::string::npos;
+                                  }),
+              noise);
+    EXPECT_EQ(result.quality.most_below_straight_line > 0.2, noise);
+  }
 }
 
 TEST_F(QualityResponds, ALargeTimeBlursTheSlope) {

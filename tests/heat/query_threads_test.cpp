@@ -3,6 +3,9 @@
 // rows and faces out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "solver/heat/surface.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solve.h"
@@ -17,6 +20,7 @@ struct Case {
   const char* name;
   void (*set)(HeatOptions&);
   std::size_t sets;
+  Index cells = kCells;
 };
 
 const Case kCases[] = {
@@ -25,6 +29,7 @@ const Case kCases[] = {
     {"refined", [](HeatOptions& o) { o.precision = Precision::kRefined; }, 1},
     {"pin_vertex", [](HeatOptions& o) { o.constraint.mode = ConstraintMode::kPinVertex; }, 1},
     {"large_time", [](HeatOptions& o) { o.time_step.factor = 5000; }, 1},
+    {"blocks", [](HeatOptions&) {}, 33, 80},
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -37,7 +42,8 @@ class QueryThreads : public testing::TestWithParam<Case> {
     GetParam().set(options);
     return options;
   }
-  HeatMethod alone = method_of(finish(plane_grid(kCells, kCells, 1, 1)), options());
+  HeatMethod alone =
+      method_of(finish(plane_grid(GetParam().cells, GetParam().cells, 1, 1)), options());
 
   std::vector<std::vector<double>> distances(int threads) const {
     HeatOptions options = alone.options();
@@ -49,8 +55,9 @@ class QueryThreads : public testing::TestWithParam<Case> {
     }
     std::vector<SourceSet> sets;
     for (std::size_t k = 0; k < GetParam().sets; ++k) {
+      const Index vertices = GetParam().cells * GetParam().cells;
       const auto first = static_cast<Index>(k * 991);
-      sets.push_back(SourceSet::of_vertices({first, 3 * first + 7000}));
+      sets.push_back(SourceSet::of_vertices({first % vertices, (3 * first + 7000) % vertices}));
     }
     const auto results = method->solve_each(sets);
     std::vector<std::vector<double>> out;
@@ -71,6 +78,35 @@ TEST_P(QueryThreads, DoNotChangeABit) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, QueryThreads, testing::ValuesIn(kCases),
                          [](const auto& each) { return each.param.name; });
+
+std::ptrdiff_t threads_of_process() {
+  return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+}
+
+/// The most threads there are during set-up, a query and a block beside those that were there,
+/// where sixteen are allowed.
+std::ptrdiff_t threads_started_for(const MeshPtr& mesh) {
+  const std::ptrdiff_t before = threads_of_process();
+  std::ptrdiff_t most = before;
+  const Progress count = [&](std::string_view, double) {
+    most = std::max(most, threads_of_process());
+    return true;
+  };
+  HeatOptions options = with_backend("native");
+  options.threads = 16;
+  const auto method = HeatMethod::build(mesh, options, count);
+  EXPECT_TRUE(method);
+  const std::vector<SourceSet> sets{SourceSet::of_vertices({0}), SourceSet::of_vertices({5})};
+  EXPECT_TRUE(method->solve(sets[0], {}, count));
+  EXPECT_TRUE(method->solve_each(sets, {}, count));
+  most = std::max(most, threads_of_process());  // helpers of queries stay for a while
+  return most - before;
+}
+
+TEST(ThreadsOfSmallWork, AreTheCallersAlone) {
+  EXPECT_EQ(threads_started_for(finish(plane_grid(50, 60, 1, 1))), 0);    // 6,000 faces
+  EXPECT_GT(threads_started_for(finish(plane_grid(250, 400, 1, 1))), 1);  // 200,000
+}
 
 class FaceRanges : public testing::TestWithParam<std::string> {
  protected:

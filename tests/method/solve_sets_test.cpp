@@ -12,6 +12,7 @@ namespace geotherm::test {
 namespace {
 
 constexpr std::size_t kSets = 9;
+constexpr double kLong = 1e9;  // nanoseconds: worth as many threads as there are sets
 
 std::vector<SourceSet> some_sets() {
   std::vector<SourceSet> sets;
@@ -37,19 +38,20 @@ void expect_all(const Result<std::vector<DistanceResult>>& results) {
 }
 
 TEST(SolveSetsThreads, AnswerInTheOrderOfTheSets) {
-  for (const int threads : {1, 2, 20}) expect_all(solve_sets(some_sets(), threads, {}, name_of));
+  for (const int threads : {1, 2, 20})
+    expect_all(solve_sets(some_sets(), {threads, kLong}, {}, name_of));
 }
 
 TEST(SolveSets, NeedsNoThreadBesideTheCallers) {
   const NoThreads none;
   if (!none.works()) GTEST_SKIP() << "threads start here whatever their stacks";
-  expect_all(solve_sets(some_sets(), 4, {}, name_of));
+  expect_all(solve_sets(some_sets(), {4, kLong}, {}, name_of));
 }
 
 TEST(SolveSetsThreads, TurnTheEndOfMemoryIntoAnError) {
   for (const int threads : {1, 3}) {
     const auto result =
-        solve_sets(some_sets(), threads, {},
+        solve_sets(some_sets(), {threads, kLong}, {},
                    [](const SourceSet& set, const Progress& progress) -> Result<DistanceResult> {
                      if (set.points[0].vertex == 4) throw std::bad_alloc();
                      return name_of(set, progress);
@@ -61,10 +63,17 @@ TEST(SolveSetsThreads, TurnTheEndOfMemoryIntoAnError) {
 }
 
 TEST(SolveSetsThreads, AreNoMoreThanSetsAndAtLeastOne) {
-  EXPECT_EQ(solving_at_once(4, 2), 2);
-  EXPECT_EQ(solving_at_once(4, 9), 4);
-  EXPECT_EQ(solving_at_once(4, 0), 1);
-  EXPECT_GE(solving_at_once(0, 2), 1);
+  EXPECT_EQ((SetThreads{4, kLong}.at_once(2)), 2);
+  EXPECT_EQ((SetThreads{4, kLong}.at_once(9)), 4);
+  EXPECT_EQ((SetThreads{4, kLong}.at_once(0)), 1);
+  EXPECT_GE((SetThreads{0, kLong}.at_once(2)), 1);
+}
+
+TEST(SolveSetsThreads, AreNoMoreThanThereIsWorkFor) {
+  constexpr double kMicrosecond = 1e3, kMillisecond = 1e6;
+  EXPECT_EQ((SetThreads{4, kMicrosecond}.at_once(100)), 1);
+  EXPECT_EQ((SetThreads{4, kMillisecond}.at_once(4)), 2);
+  EXPECT_EQ((SetThreads{4, kMillisecond}.at_once(100)), 4);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 class WaveThreads : public testing::TestWithParam<MethodKind> {
  protected:
-  MeshPtr mesh = finish(jittered_plane(20, 0.3, 9));
+  MeshPtr mesh = finish(jittered_plane(60, 0.3, 9));  // worth several threads
   std::vector<SourceSet> sets = [] {
     std::vector<SourceSet> out;
     for (Index i = 0; i < 12; ++i) out.push_back(SourceSet::of_vertices({31 * i, 7 + 5 * i}));
