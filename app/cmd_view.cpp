@@ -170,7 +170,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "Examples:\n"
       "  geotherm model.obj\n"
       "  geotherm view bunny -s 17 --view heat-gradient\n"
-      "  geotherm view --replay session.log -o out.png");
+      "  geotherm view --replay session.geotherm -o out.png");
 }
 
 Result<std::vector<Command>> commands_of(const ViewArguments& arguments,

@@ -45,6 +45,18 @@ TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
   EXPECT_EQ(pixels("log.png"), first);
 }
 
+TEST_F(ProgramView, AScriptReplacesPicturesOfGeothermAlone) {
+  folder.write("s.geotherm", "open bunny\nsize 64x48\nsave picture p.png\n");
+  run({"view", "--headless", "--script", "s.geotherm"});
+  run({"view", "--headless", "--script", "s.geotherm"});
+  folder.write("p.png", "\x89PNG of another program");
+  const ProgramRun refused =
+      run_program(folder.path("."), {"view", "--headless", "--script", "s.geotherm"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("p.png: is there already"), std::string::npos) << refused.err;
+  EXPECT_EQ(bytes_of(folder.path("p.png")), "\x89PNG of another program");
+}
+
 TEST_F(ProgramView, TheCentreIsInTheMiddleOfThePicture) {
   // The lower left of the terrain fills the picture that is centred there and zoomed into.
   run({"view", "terrain", "--no-bar", "--no-caption", "--centre", "0:0:0", "--zoom", "4", "--size",
