@@ -11,7 +11,7 @@
 #include "app/text.h"
 #include "app/view_picture.h"
 #include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -212,7 +212,7 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
 
   if (!arguments.model.empty() && !is_bundled(arguments.model)) {
     // A window that opens to say that there is no such file helps nobody.
-    if (const auto file = io::MappedFile::open(arguments.model); !file) return file.error();
+    if (const auto file = io::InputFile::open(arguments.model); !file) return file.error();
   }
   ViewerStart start;
   start.commands = *std::move(commands);

@@ -4,7 +4,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/file_bytes.h"
 #include "solver/mesh/io/read_failure.h"
 #include "solver/mesh/io/readers.h"
 #include "solver/mesh/triangle_mesh.h"
@@ -32,7 +32,7 @@ std::string mesh_fault(io::RawMesh raw) {
 
 std::string read_fault(Reader read, Bytes bytes) {
   // A block of its own, so that reading beyond the padding is seen.
-  const std::size_t padded = bytes.size() + io::MappedFile::kPadding;
+  const std::size_t padded = bytes.size() + io::FileBytes::kPadding;
   const auto copy = std::make_unique<char[]>(padded);
   if (!bytes.empty()) std::memcpy(copy.get(), bytes.data(), bytes.size());
   try {
@@ -48,7 +48,9 @@ std::string read_fault(Reader read, Bytes bytes) {
 
 }  // namespace
 
-std::string fuzz_obj(Bytes bytes) { return read_fault(io::read_obj, bytes); }
+std::string fuzz_obj(Bytes bytes) {
+  return read_fault([](std::string_view text) { return io::read_obj(text); }, bytes);
+}
 std::string fuzz_ply(Bytes bytes) { return read_fault(io::read_ply, bytes); }
 std::string fuzz_off(Bytes bytes) { return read_fault(io::read_off, bytes); }
 std::string fuzz_stl(Bytes bytes) { return read_fault(io::read_stl, bytes); }
