@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "solver/core/number_text.h"
 #include "solver/mesh/io/file_bytes.h"
 #include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/input_file.h"
@@ -35,9 +36,15 @@ constexpr Format kFormats[] = {{".obj", io::read_obj, io::read_obj},
                                {".stl", io::read_stl, read_whole<io::read_stl>}};
 
 Result<MeshFile> finish(const std::string& name, io::RawMesh raw) {
+  io::PolygonCutter cutter(raw.faces.size());
+  std::size_t folded = 0;
   for (const io::Polygon& polygon : raw.polygons) {
-    io::triangulate_polygon(raw.positions,
-                            std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
+    const std::span fan = std::span(raw.faces).subspan(polygon.first_face, polygon.face_count);
+    if (!cutter.triangulate(raw.positions, fan)) ++folded;
+  }
+  if (folded > 0) {
+    raw.notes.push_back(counted_text(folded, "polygon", "polygons") +
+                        " with too many corners folded over may cover some places more than once");
   }
   Result<TriangleMesh> mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
   if (!mesh) return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message};

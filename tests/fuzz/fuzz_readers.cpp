@@ -16,12 +16,13 @@ namespace {
 using Reader = io::RawMesh (*)(std::string_view bytes);
 
 std::string mesh_fault(io::RawMesh raw) {
+  io::PolygonCutter cutter(raw.faces.size());
   for (const io::Polygon& polygon : raw.polygons) {
     if (polygon.face_count < 2 || polygon.first_face + polygon.face_count > raw.faces.size()) {
       return "a polygon has no place among the faces";
     }
-    io::triangulate_polygon(raw.positions,
-                            std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
+    cutter.triangulate(raw.positions,
+                       std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
   }
   const bool empty = raw.faces.empty();
   const auto mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));

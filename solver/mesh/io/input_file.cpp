@@ -2,6 +2,7 @@
 #include "solver/mesh/io/input_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -32,6 +33,10 @@ std::string open_cause(int code) {
 InputFile::InputFile(std::string shown, int descriptor)
     : shown_(std::move(shown)), descriptor_(descriptor) {}
 
+InputFile::Version InputFile::version_in(const struct stat& status) {
+  return {static_cast<std::size_t>(status.st_size), status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
+}
+
 InputFile::InputFile(InputFile&& other) noexcept
     : shown_(std::move(other.shown_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
@@ -55,12 +60,14 @@ Result<InputFile> InputFile::open(const std::string& path) {
   };
   // O_NONBLOCK: opening a pipe must not wait for its writer.
   InputFile file(shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &file.before_) != 0) {
+  struct stat status {};
+  if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &status) != 0) {
     return failure(open_cause(errno));
   }
-  if (S_ISDIR(file.before_.st_mode)) return failure("is a directory; give a mesh file in it");
-  if (!S_ISREG(file.before_.st_mode)) return failure("is not a regular file");
-  if (file.before_.st_size == 0) return failure("the file is empty (0 bytes)");
+  if (S_ISDIR(status.st_mode)) return failure("is a directory; give a mesh file in it");
+  if (!S_ISREG(status.st_mode)) return failure("is not a regular file");
+  if (status.st_size == 0) return failure("the file is empty (0 bytes)");
+  file.before_ = version_in(status);
   return file;
 }
 
@@ -83,10 +90,7 @@ void InputFile::read(char* to, std::size_t count, std::size_t place) const {
 
 Result<void> InputFile::check_unchanged() const {
   struct stat now {};
-  const bool same = ::fstat(descriptor_, &now) == 0 && now.st_size == before_.st_size &&
-                    now.st_mtim.tv_sec == before_.st_mtim.tv_sec &&
-                    now.st_mtim.tv_nsec == before_.st_mtim.tv_nsec;
-  if (same) return {};
+  if (::fstat(descriptor_, &now) == 0 && version_in(now) == before_) return {};
   return Error{ErrorCode::kBadFile, shown_ + ": was changed while it was read (it had " +
                                         std::to_string(size()) + " bytes and now has " +
                                         std::to_string(now.st_size) +

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <sys/stat.h>
-
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "solver/core/result.h"
+
+struct stat;
 
 namespace geotherm::io {
 
@@ -24,7 +25,7 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
-  std::size_t size() const { return static_cast<std::size_t>(before_.st_size); }
+  std::size_t size() const { return before_.size; }
 
   /// Copies `count` bytes from `place` on; from any number of threads. Throws ReadFailure where the
   /// file ends before that or cannot be read.
@@ -34,11 +35,19 @@ class InputFile {
   Result<void> check_unchanged() const;
 
  private:
+  /// What tells one state of a file from another.
+  struct Version {
+    std::size_t size = 0;
+    std::int64_t seconds = 0, nanoseconds = 0;  ///< when it was changed
+    bool operator==(const Version&) const = default;
+  };
+
   InputFile(std::string shown, int descriptor);
+  static Version version_in(const struct ::stat& status);
 
   std::string shown_;  ///< the path, for messages
   int descriptor_ = -1;
-  struct stat before_ {};
+  Version before_;
 };
 
 }  // namespace geotherm::io
