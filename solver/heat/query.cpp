@@ -201,6 +201,7 @@ class GroupRunner {
       }
       work();
     }
+    progress_.rethrow();
     if (memory_ended_) throw std::bad_alloc();
     if (!failure_) return std::nullopt;
     return Trial<std::vector<DistanceResult>>{*failure_, successor_};

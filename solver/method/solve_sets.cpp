@@ -26,6 +26,7 @@ class SetRunner {
   Result<std::vector<DistanceResult>> run(int threads) {
     // Pieces do not matter: whoever is free takes the next set.
     parallel_for(threads, threads, 1, [this](std::int64_t, std::int64_t) { work(); });
+    progress_.rethrow();
     if (failure_ && failure_->message.empty()) throw std::bad_alloc();
     if (failure_) return *std::move(failure_);
     return std::move(results_);
