@@ -11,7 +11,7 @@
 #include "app/text.h"
 #include "app/view_picture.h"
 #include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -170,7 +170,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "Examples:\n"
       "  geotherm model.obj\n"
       "  geotherm view bunny -s 17 --view heat-gradient\n"
-      "  geotherm view --replay session.log -o out.png");
+      "  geotherm view --replay session.geotherm -o out.png");
 }
 
 Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
@@ -212,7 +212,7 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
 
   if (!arguments.model.empty() && !is_bundled(arguments.model)) {
     // A window that opens to say that there is no such file helps nobody.
-    if (const auto file = io::MappedFile::open(arguments.model); !file) return file.error();
+    if (const auto file = io::InputFile::open(arguments.model); !file) return file.error();
   }
   ViewerStart start;
   start.commands = *std::move(commands);

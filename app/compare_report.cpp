@@ -33,11 +33,15 @@ Json row_json(const CompareRow& row) {
           {"message", row.message}};
 }
 
+/// Names and messages come from elsewhere: what a spreadsheet would take for a formula begins with
+/// an apostrophe, as one types it there for text.
 std::string csv_field(const Json& value) {
   if (value.is_null()) return {};
   if (!value.is_string()) return value.dump();
-  std::string quoted = "\"";
-  for (const char c : value.get<std::string>()) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  const std::string text = one_line(value.get<std::string>());
+  const bool formula = !text.empty() && std::string_view("=+-@").find(text[0]) != std::string::npos;
+  std::string quoted = formula ? "\"'" : "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';
 }
 

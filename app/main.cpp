@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -8,6 +10,7 @@
 #include <exception>
 #include <new>
 #include <system_error>
+#include <thread>
 
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
@@ -49,6 +52,21 @@ void end_tidily_by_signals() {
   ::signal(SIGXFSZ, SIG_IGN);
 }
 
+/// Drivers and BLAS want more stack than a low limit (ulimit -s) leaves to the first thread and,
+/// unless it is set here, to all others. Both are mapped apart from the limit where they are asked
+/// for by size. False: the first thread is as good as another.
+bool give_threads_their_stack() {
+  constexpr rlim_t kStack = rlim_t{8} << 20;  // what systems usually give
+  struct rlimit limit {};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kStack) return false;
+  pthread_attr_t attributes;
+  if (::pthread_attr_init(&attributes) != 0) return false;
+  const bool set = ::pthread_attr_setstacksize(&attributes, kStack) == 0 &&
+                   ::pthread_setattr_default_np(&attributes) == 0;
+  ::pthread_attr_destroy(&attributes);
+  return set;
+}
+
 int run(int argc, char** argv) {
   try {
     const std::unique_ptr<geotherm::app::Drawing> drawing = geotherm::app::make_drawing();
@@ -66,6 +84,19 @@ int run(int argc, char** argv) {
   return 1;
 }
 
+int run_on_enough_stack(int argc, char** argv) {
+  if (!give_threads_their_stack()) return run(argc, argv);
+  int code = 1;
+  try {
+    const std::jthread thread([&] { code = run(argc, argv); });
+  } catch (const std::system_error& failure) {
+    std::fprintf(stderr,
+                 "geotherm: error: no thread with a stack of 8 MB: %s; raise ulimit -s or -v\n",
+                 failure.what());
+  }
+  return code;
+}
+
 }  // namespace
 
 // A reader that closes its end of the pipe ends the program in the usual way, by SIGPIPE: files are
@@ -73,7 +104,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   occupy_closed_streams();
   end_tidily_by_signals();
-  const int code = run(argc, argv);
+  const int code = run_on_enough_stack(argc, argv);
   std::fflush(nullptr);
   // Without the handlers of exit(): OpenBLAS waits there for its threads, and these wait for memory
   // where there is none left.

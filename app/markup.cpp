@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "app/markup.h"
 
+#include "solver/core/printable.h"
+
 namespace geotherm::app {
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printable(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

@@ -6,7 +6,8 @@
 
 namespace geotherm::app {
 
-/// Text for HTML and SVG: &, <, > and double quotes as entities.
+/// Text for HTML, SVG and XML: &, <, > and double quotes as entities, and '?' for what these may
+/// not hold (control characters, bytes that are no UTF-8).
 std::string escaped(std::string_view text);
 
 }  // namespace geotherm::app

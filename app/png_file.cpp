@@ -64,22 +64,11 @@ bool is_ascii(std::string_view text) {
                      [](char c) { return static_cast<signed char>(c) >= 0; });
 }
 
-/// The text with '?' for bytes that are no UTF-8.
-std::string utf8(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(std::string_view(text).substr(i));
-    out += length == 0 ? "?" : text.substr(i, length);
-    i += std::max<std::size_t>(length, 1);
-  }
-  return out;
-}
-
 void add_texts(PngWriter& writer, std::span<const PngText> texts) {
   writer.words.reserve(2 * texts.size());  // `texts` holds pointers to these
   for (const PngText& text : texts) {
     std::string& keyword = writer.words.emplace_back(text.keyword);
-    std::string& value = writer.words.emplace_back(utf8(one_line(text.text)));
+    std::string& value = writer.words.emplace_back(one_line(text.text));
     png_text chunk{};
     chunk.compression = is_ascii(value) ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
     chunk.key = keyword.data();

@@ -49,7 +49,7 @@ void ProgressBar::draw(std::string_view stage, double share) {
   if (now - last_ < kBetween) return;
   last_ = now;
   drawn_ = true;
-  std::fprintf(stderr, "\r\033[K%s", line(stage, share).c_str());
+  std::fprintf(stderr, "\r\033[K%s", one_line(line(stage, share)).c_str());
   std::fflush(stderr);
 }
 

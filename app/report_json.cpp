@@ -16,8 +16,26 @@ namespace {
 
 Json vector_json(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
 
+/// The control characters that JSON lets stand, U+007F to U+009F, are escaped, too: it may end up
+/// on a terminal.
 std::string compact(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string dumped = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (dumped.find_first_of("\x7f\xc2") == std::string::npos) return dumped;
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out;
+  for (std::size_t i = 0; i < dumped.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(dumped[i]);
+    const unsigned next = i + 1 < dumped.size() ? static_cast<unsigned char>(dumped[i + 1]) : 0;
+    const bool two = byte == 0xc2 && next < 0xa0;
+    if (byte != 0x7f && !two) {
+      out += dumped[i];
+      continue;
+    }
+    const unsigned code = two ? next : byte;
+    out += {'\\', 'u', '0', '0', kDigits[code >> 4U], kDigits[code & 0xfU]};
+    if (two) ++i;
+  }
+  return out;
 }
 
 /// True for what gets a line for each of its members: filled objects, and lists that hold some.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/shell_command.h"
 
-#include <algorithm>
 #include <string_view>
 
-#include "app/text.h"
+#include "solver/core/printable.h"
 
 namespace geotherm::app {
 namespace {
@@ -12,16 +11,7 @@ namespace {
 constexpr std::string_view kPlain =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
 
-bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
-
-bool fits_a_line(std::string_view word) {
-  while (!word.empty()) {
-    const std::size_t length = utf8_length(word);
-    if (length == 0 || is_control(word[0])) return false;
-    word.remove_prefix(length);
-  }
-  return true;
-}
+bool fits_a_line(std::string_view word) { return printable(word) == word; }
 
 std::string in_quotes(std::string_view word) {
   std::string out = "'";

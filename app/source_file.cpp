@@ -5,7 +5,7 @@
 #include "app/cure.h"
 #include "app/source_spec.h"
 #include "app/text.h"
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/file_bytes.h"
 
 namespace geotherm::app {
 namespace {
@@ -59,7 +59,7 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
     return Error{ErrorCode::kBadFile,
                  one_line(path) + ": is a folder; give a file with one vertex id or point a line"};
   }
-  const auto file = io::MappedFile::open(path);
+  const auto file = io::FileBytes::read(path);
   if (!file) {
     return with_cure({ErrorCode::kBadFile, file.error().message}, one_line(path),
                      std::filesystem::exists(path, unknown)

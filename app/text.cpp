@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "solver/core/printable.h"
+
 namespace geotherm::app {
 
 std::string fixed(double value, int decimals) {
@@ -59,28 +61,6 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return out;
 }
 
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (text.empty()) return 0;
-  const unsigned first = byte(0);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xc2 ? 0
-                             : first < 0xe0 ? 2
-                             : first < 0xf0 ? 3
-                             : first < 0xf5 ? 4
-                                            : 0;
-  if (length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return 0;
-  }
-  return length;
-}
-
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-  }
-  return text;
-}
+std::string one_line(std::string_view text) { return printable(text); }
 
 }  // namespace geotherm::app

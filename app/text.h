@@ -53,10 +53,7 @@ std::optional<Number> number_in(std::string_view text) {
 /// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
 std::string wrapped(const std::string& text, std::size_t width);
 
-/// Bytes of the UTF-8 sequence at the front of a text, 0 where there is none.
-std::size_t utf8_length(std::string_view text);
-
-/// Fit for one line: control characters become '?'.
-std::string one_line(std::string text);
+/// Fit for one line: what cannot be shown becomes '?' (solver/core/printable.h).
+std::string one_line(std::string_view text);
 
 }  // namespace geotherm::app

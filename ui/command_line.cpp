@@ -38,7 +38,7 @@ void run_line(Frame& frame) {
     return;
   }
   form.error.clear();
-  frame.send(*std::move(command));
+  frame.ui.write_question.send(frame, *std::move(command));
   form.past.push_back(line);
   if (form.past.size() > kMostPast) form.past.erase(form.past.begin());
   form.recalled = -1;

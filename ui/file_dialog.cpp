@@ -78,7 +78,7 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
       frame.send(command::Open{path});
       break;
     case FilePurpose::kOpenSession:
-      frame.send(command::Run{path});
+      frame.ui.write_question.send(frame, command::Run{path});
       break;
     case FilePurpose::kSavePicture:
       frame.send(as_shown_ ? command::SavePicture{path, 0, 0, panels_}

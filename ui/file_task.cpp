@@ -7,12 +7,13 @@ namespace {
 constexpr std::string_view kModels[] = {".obj", ".ply", ".off", ".stl"};
 constexpr std::string_view kPictures[] = {".png"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
-constexpr std::string_view kSessions[] = {kSessionExtension, ".txt"};
+constexpr std::string_view kSessions[] = {kSessionExtension};
+constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
 constexpr std::string_view kFigures[] = {".json"};
 
 constexpr FileTask kTasks[] = {
     {FilePurpose::kOpenModel, "Open a model", "Open", false, kModels},
-    {FilePurpose::kOpenSession, "Open a session", "Open", false, kSessions},
+    {FilePurpose::kOpenSession, "Open a session", "Open", false, kScripts},
     {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
     {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
     {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},

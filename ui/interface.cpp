@@ -71,7 +71,7 @@ void take_drop(Frame& frame) {
   const std::string file = frame.ui.dropped.front();
   frame.ui.dropped.clear();
   if (std::filesystem::path(file).extension() == kSessionExtension) {
-    frame.send(app::command::Run{file});
+    frame.ui.write_question.send(frame, app::command::Run{file});
   } else {
     frame.send(app::command::Open{file});
   }
@@ -155,6 +155,7 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   draw_canvas_menu(frame);
   take_keys(frame);
   ui.dialog.draw(frame);
+  ui.write_question.draw(frame);
   draw_keys_dialog(frame);
   draw_about_dialog(frame);
   ImGui::End();

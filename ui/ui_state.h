@@ -15,6 +15,7 @@
 #include "ui/canvas_input.h"
 #include "ui/file_dialog.h"
 #include "ui/places.h"
+#include "ui/write_question.h"
 
 namespace geotherm::ui {
 
@@ -59,6 +60,7 @@ struct UiState {
   std::optional<SurfacePoint> menu_point;  ///< of the menu that is open over the picture
   bool ask_menu = false;
   FileDialog dialog;
+  WriteQuestion write_question;
   SourcesForm sources;
   LogForm log;
   std::set<std::string> left_out;  ///< backends that are not to be compared

@@ -2,10 +2,12 @@
 #include "app/explore/command_words.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "solver/core/number_text.h"
+#include "solver/core/printable.h"
 
 namespace geotherm::app {
 namespace {
@@ -13,6 +15,32 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+
+/// What stands without quotes: nothing that means something to a shell.
+constexpr std::string_view kPlain =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+/// What a shell looks into even within double quotes.
+constexpr std::string_view kActive = "$`!";
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+/// Also letters beyond ASCII.
+bool is_plain(std::string_view word) {
+  if (word.empty()) return false;
+  while (!word.empty()) {
+    const std::size_t length = printable_length(word);
+    if (length == 0 || (length == 1 && kPlain.find(word[0]) == kPlain.npos)) return false;
+    word.remove_prefix(length);
+  }
+  return true;
+}
+
+/// The byte of two hexadecimal digits at the front.
+std::optional<char> byte_in_digits(std::string_view text) {
+  if (text.size() < 2) return std::nullopt;
+  const std::size_t high = kDigits.find(text[0]), low = kDigits.find(text[1]);
+  if (high == kDigits.npos || low == kDigits.npos) return std::nullopt;
+  return static_cast<char>(16 * high + low);
+}
 
 std::string column_text(std::size_t column) { return "column " + std::to_string(column) + ": "; }
 
@@ -34,9 +62,17 @@ Result<std::string> quoted_word(std::string_view line, std::size_t& at) {
       case 'n':
         text += '\n';
         break;
+      case 'x':
+        if (const auto byte = byte_in_digits(line.substr(at + 1))) {
+          text += *byte;
+          at += 2;
+          break;
+        }
+        [[fallthrough]];
       default:
-        return Error{ErrorCode::kBadInput,
-                     column_text(at) + "expected \\\", \\\\ or \\n within quotes"};
+        return Error{ErrorCode::kBadInput, column_text(at) +
+                                               "expected \\\", \\\\, \\n or \\x and two of 0-9 "
+                                               "and a-f within quotes"};
     }
   }
   if (at == line.size()) {
@@ -52,18 +88,21 @@ Result<std::string> quoted_word(std::string_view line, std::size_t& at) {
 }  // namespace
 
 std::string command_word(const std::string& word) {
-  const bool plain = !word.empty() && std::ranges::none_of(word, [](char c) {
-    return is_blank(c) || is_control(c) || c == '"' || c == '#';
-  });
-  if (plain) return word;
+  if (is_plain(word)) return word;
   std::string out = "\"";
-  for (const char c : word) {
+  for (std::string_view rest = word; !rest.empty();) {
+    const std::size_t length = printable_length(rest);
+    const char c = rest.front();
     if (c == '\n') {
       out += "\\n";
-      continue;
+    } else if (length == 0 || kActive.find(c) != kActive.npos) {
+      const auto byte = static_cast<unsigned char>(c);
+      out += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xfU]};
+    } else {
+      if (c == '"' || c == '\\') out += '\\';
+      out += rest.substr(0, length);
     }
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
+    rest.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out + '"';
 }

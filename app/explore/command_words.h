@@ -17,7 +17,8 @@ inline constexpr double kLargestNumber = 1e300;
 /// Values of Shown, in its order.
 inline constexpr const char* kShownNames[] = {"a", "b", "difference"};
 
-/// A word as it stands in a command: in quotes where it has to.
+/// A word as it stands in a command: in quotes where it has to. $, `, !, control characters and
+/// bytes that are no UTF-8 are \xNN, so that neither shells nor terminals act on them.
 std::string command_word(const std::string& word);
 
 /// The words of one line, handed out one by one. Errors: kBadInput, "column N: ..." (from 1).

@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
+#include "app/explore/script.h"
 
-#include "app/explore/command.h"
+#include <algorithm>
+#include <cerrno>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+
+#include "app/explore/saved_file.h"
 #include "app/text.h"
 
 namespace geotherm::app {
 namespace {
 
-/// Nothing but blanks and a comment.
+/// Nothing but blanks, a comment or the line that is there for shells.
 bool is_empty(std::string_view line) {
   line = trimmed(line);
-  return line.empty() || line.front() == '#';
+  return line.empty() || line.front() == '#' || line == kInertLine;
+}
+
+Result<std::string> read_text(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    return Error{ErrorCode::kBadFile, one_line(path) + ": is a directory, not a script"};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.bad() && file.is_open()) return text;
+  const std::string reason = std::error_code(errno, std::generic_category()).message();
+  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason + "; name a file of commands"};
 }
 
 }  // namespace
@@ -32,6 +53,31 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     lines.push_back({number, *std::move(command)});
   }
   return lines;
+}
+
+Result<std::vector<ScriptLine>> read_script(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text) return text.error();
+  return parse_script(*text, path);
+}
+
+std::vector<std::string> files_written_by(const std::string& script) {
+  std::vector<std::string> files;
+  std::set<std::string> seen = {script};
+  std::deque<std::string> left = {script};
+  for (; !left.empty(); left.pop_front()) {
+    const auto lines = read_script(left.front());
+    if (!lines) continue;
+    for (const ScriptLine& line : *lines) {
+      const auto* const run = std::get_if<command::Run>(&line.command);
+      if (run != nullptr && seen.insert(run->path).second) left.push_back(run->path);
+      const std::string* const path = saved_path(line.command);
+      if (path != nullptr && std::ranges::find(files, *path) == files.end()) {
+        files.push_back(*path);
+      }
+    }
+  }
+  return files;
 }
 
 }  // namespace geotherm::app

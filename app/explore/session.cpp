@@ -2,13 +2,11 @@
 #include "app/explore/session.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
+#include "app/explore/saved_file.h"
+#include "app/explore/script.h"
 #include "app/explore/session_state.h"
 #include "app/text.h"
 
@@ -38,24 +36,6 @@ bool same_but_camera(const ViewerState& a, ViewerState b) {
   return a == b;
 }
 
-/// Not mapped: a script may be rewritten while it runs.
-Result<std::string> read_text(const std::string& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) {
-    return Error{ErrorCode::kBadFile, one_line(path) + ": is a directory, not a script"};
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.bad() && file.is_open()) return text;
-  const std::string reason = std::error_code(errno, std::generic_category()).message();
-  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason + "; name a file of commands"};
-}
-
-bool writes(const Command& command) {
-  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
-                   command::SaveSession, command::SaveLog>(command);
-}
-
 }  // namespace
 
 Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(hooks))) {
@@ -83,7 +63,7 @@ void Session::State::step_back(std::vector<ViewerState>& from, std::vector<Viewe
   last_undoable.reset();
 }
 
-Result<void> Session::State::perform(const Command& command, const Session& session) {
+Result<void> Session::State::perform(const Command& command, const Session& session, Giver giver) {
   if (std::holds_alternative<command::Undo>(command)) {
     if (undo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to undo"};
     step_back(undo, redo);
@@ -106,7 +86,7 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
     }
     return start_compare(*wish);
   }
-  if (writes(command)) return save(command, session);
+  if (saved_path(command) != nullptr) return save(command, session, giver);
 
   if (const auto* set = std::get_if<command::Set>(&command); set && set->name == "colour-map") {
     const auto& maps = hooks.colour_maps;
@@ -141,14 +121,15 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   return {};
 }
 
-Result<void> Session::State::submit(const Command& command, const Session& session) {
-  if (writes(command) && !hooks.writes_files) {
+Result<void> Session::State::submit(const Command& command, const Session& session, Giver giver) {
+  const bool saves = saved_path(command) != nullptr;
+  if (saves && !hooks.writes_files) {
     note(LogLine::Kind::kNote, "not written: " + to_text(command));
     return {};
   }
-  const bool said = writes(command) || std::holds_alternative<command::Compare>(command);
+  const bool said = saves || std::holds_alternative<command::Compare>(command);
   if (said) note(LogLine::Kind::kCommand, to_text(command));  // before what it has to say
-  auto done = perform(command, session);
+  auto done = perform(command, session, giver);
   if (!done) {
     if (!said) note(LogLine::Kind::kCommand, to_text(command));
     note(LogLine::Kind::kError, done.error().message);
@@ -176,9 +157,7 @@ Result<void> Session::State::run_script(const std::string& path) {
     return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMostScripts) +
                                            " scripts have run each other; end the circle"};
   }
-  const auto text = read_text(path);
-  if (!text) return text.error();
-  auto lines = parse_script(*text, path);
+  auto lines = read_script(path);
   if (!lines) return lines.error();
   std::deque<std::pair<std::string, ScriptLine>> all;
   for (ScriptLine& line : *lines) all.emplace_back(one_line(path), std::move(line));
@@ -204,7 +183,7 @@ void Session::State::pump(const Session& session) {
     }
     const auto [name, line] = std::move(script.front());
     script.pop_front();
-    const auto done = submit(line.command, session);
+    const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
     if (first_error) {
       first_error->message =
@@ -222,7 +201,7 @@ Result<void> Session::submit_all(std::span<const Command> commands) {
   if (s.script.empty()) s.first_error.reset();
   Result<void> done;
   for (const Command& command : commands) {
-    if (done = s.submit(command, *this); !done) break;
+    if (done = s.submit(command, *this, State::Giver::kUser); !done) break;
   }
   s.pump(*this);
   if (!done || s.hooks.wake) return done;

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a session writes.
+#include <filesystem>
+#include <system_error>
+
+#include "app/explore/saved_file.h"
+#include "app/explore/script.h"
 #include "app/explore/session_state.h"
 #include "app/load_model.h"
 #include "app/machine.h"
@@ -7,25 +12,30 @@
 #include "app/outputs.h"
 #include "app/report_json.h"
 #include "app/text.h"
-#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {
 namespace {
 
-constexpr const char* kScriptHead = "# geotherm commands; see docs/commands.md\n";
+/// What sessions and logs begin with.
+std::string script_head() {
+  return std::string(kScriptMark) + "; see docs/commands.md\n" + kInertLine + '\n';
+}
 
 Error not_yet(const char* what) {
   return {ErrorCode::kBadInput, std::string("there are no ") + what +
                                     " yet; open a model, give it a source and wait for the answer"};
 }
 
-/// The file of a command, never standard output and never the model.
+/// One name for each file.
+std::string full_path(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::weakly_canonical(path, unknown).string();
+}
+
+/// The file of a command, never the model.
 Result<Outputs> output_file(const std::string& model, const std::string& path,
                             const char* command) {
-  if (path == "-") {
-    return Error{ErrorCode::kBadInput, std::string(command) + ": give the name of a file, not -"};
-  }
   Outputs outputs;
   if (!is_bundled(model)) outputs.protect(model, "the model itself");
   if (auto expected = outputs.expect(path, command); !expected) return expected.error();
@@ -41,7 +51,6 @@ Result<void> write_text(const std::string& model, const std::string& path, const
 }
 
 Result<void> save_distances(const command::SaveDistances& save, const Session& session) {
-  if (auto known = check_distance_path(save.path); !known) return known;
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
   if (answer == nullptr || session.stale()) return not_yet("distances");
@@ -71,42 +80,43 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
 }
 
 std::string session_text(const ViewerState& state) {
-  std::string text = std::string(kScriptHead) + to_text(command::Reset{}) + '\n';
+  std::string text = script_head() + to_text(command::Reset{}) + '\n';
   for (const Command& command : commands_to(state)) text += to_text(command) + '\n';
   return text;
 }
 
 }  // namespace
 
-Result<void> Session::State::save(const Command& command, const Session& session) {
+Result<void> Session::State::check_place(const Command& command, Giver giver) const {
+  if (auto named = check_saved_name(command); !named) return named;
+  // A user has been asked, or knows; so does a script what it has written itself.
+  if (giver == Giver::kUser || saved.contains(full_path(*saved_path(command)))) return {};
+  return check_replaced_by_script(command);
+}
+
+Result<void> Session::State::save(const Command& command, const Session& session, Giver giver) {
+  const std::string& path = *saved_path(command);
+  if (auto allowed = check_place(command, giver); !allowed) return allowed;
   Result<void> done;
-  std::string path;
   if (const auto* picture = std::get_if<command::SavePicture>(&command)) {
-    path = picture->path;
-    if (io::file_extension(path) != ".png") {
-      return Error{ErrorCode::kBadInput,
-                   one_line(path) + ": pictures are written as .png; name a FILE.png"};
-    }
     if (!hooks.save_picture) {
       return Error{ErrorCode::kNotAvailable, "pictures cannot be drawn here"};
     }
     if (!explored.model) return not_yet("pictures");
     done = hooks.save_picture(*picture, session);
   } else if (const auto* distances = std::get_if<command::SaveDistances>(&command)) {
-    path = distances->path;
     done = save_distances(*distances, session);
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
-    path = figures->path;
     done = save_figures(*figures, session);
-  } else if (const auto* text = std::get_if<command::SaveSession>(&command)) {
-    path = text->path;
+  } else if (std::holds_alternative<command::SaveSession>(command)) {
     done = write_text(state.model, path, "save session", session_text(state));
-  } else if (const auto* whole = std::get_if<command::SaveLog>(&command)) {
-    path = whole->path;
-    done = write_text(state.model, path, "save log", kScriptHead + commands.script());
+  } else if (std::holds_alternative<command::SaveLog>(command)) {
+    done = write_text(state.model, path, "save log", script_head() + commands.script());
   }
-  if (done) note(LogLine::Kind::kNote, "wrote " + one_line(path));
-  return done;
+  if (!done) return done;
+  saved.insert(full_path(path));
+  note(LogLine::Kind::kNote, "wrote " + one_line(path));
+  return {};
 }
 
 }  // namespace geotherm::app

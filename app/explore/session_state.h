@@ -5,6 +5,8 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "app/explore/apply.h"
 #include "app/explore/command_log.h"
@@ -18,9 +20,12 @@ namespace geotherm::app {
 struct Session::State {
   explicit State(SessionHooks given) : hooks(std::move(given)) {}
 
+  /// Whom a command comes from: a script may have been written by anybody.
+  enum class Giver { kUser, kScript };
+
   // session.cpp: commands.
-  Result<void> submit(const Command& command, const Session& session);
-  Result<void> perform(const Command& command, const Session& session);
+  Result<void> submit(const Command& command, const Session& session, Giver giver);
+  Result<void> perform(const Command& command, const Session& session, Giver giver);
   Result<void> run_script(const std::string& path);
   void pump(const Session& session);
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
@@ -38,7 +43,8 @@ struct Session::State {
   bool works();
 
   // session_files.cpp: what is written.
-  Result<void> save(const Command& command, const Session& session);
+  Result<void> save(const Command& command, const Session& session, Giver giver);
+  Result<void> check_place(const Command& command, Giver giver) const;
 
   SessionHooks hooks;
   ViewerState state = initial_state();
@@ -54,6 +60,7 @@ struct Session::State {
   std::optional<Error> first_error;
   std::deque<std::pair<std::string, ScriptLine>> script;  ///< where from, what
   int scripts_run = 0;
+  std::set<std::string> saved;  ///< files that were written, by their full paths without links
   std::uint64_t opening = 0, last_opening = 0;
   struct Before {
     ViewerState state;

@@ -2,6 +2,7 @@
 // Drawing by the engine: the one place where pictures and the renderer meet.
 #include <algorithm>
 #include <optional>
+#include <string>
 
 #include "app/main_drawing/device_words.h"
 #include "app/main_drawing/make_drawing.h"
@@ -47,16 +48,17 @@ class EngineDrawing final : public Drawing {
   }
 
   Result<DrawingDevice> open(const PictureSettings& settings) override {
-    if (auto room = check_address_space(); !room) return room.error();
-    engine::DeviceOptions options;
-    options.name = settings.device;
-    auto device = engine::Device::open(options);
-    if (!device) return device.error();
-    auto renderer = engine::Renderer::build(*device, settings.samples);
-    if (!renderer) return renderer.error();
-    renderer_.reset();  // before the device that it draws on
-    device_ = *std::move(device);
-    renderer_ = *std::move(renderer);
+    // Two devices at once would take twice the address space.
+    if (!device_ || device_name_ != settings.device) {
+      if (auto opened = open_device(settings.device); !opened) return opened.error();
+    }
+    if (!renderer_ || samples_ != settings.samples) {
+      renderer_.reset();
+      auto renderer = engine::Renderer::build(*device_, settings.samples);
+      if (!renderer) return renderer.error();
+      renderer_ = *std::move(renderer);
+      samples_ = settings.samples;
+    }
     return device_in_our_words(device_->info());
   }
 
@@ -72,7 +74,10 @@ class EngineDrawing final : public Drawing {
     for (int i = 0; i < frame_count(settings); ++i) {
       scene.camera = camera_of(data, frame_camera(settings, i), positions, extent, layout.insets);
       auto image = engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
-      if (!image) return image.error();
+      if (!image) {
+        if (image.error().code == ErrorCode::kNoDevice) close();  // lost: the next is another one
+        return image.error();
+      }
       const DrawnPicture picture{image->width, image->height, std::move(image->pixels)};
       if (auto taken = frame(i, picture); !taken) return taken;
     }
@@ -80,6 +85,25 @@ class EngineDrawing final : public Drawing {
   }
 
  private:
+  void close() {
+    renderer_.reset();  // before the device that it draws on
+    device_.reset();
+  }
+
+  Result<void> open_device(const std::string& name) {
+    close();
+    if (auto room = check_address_space(); !room) return room;
+    engine::DeviceOptions options;
+    options.name = name;
+    auto device = engine::Device::open(options);
+    if (!device) return device.error();
+    device_ = *std::move(device);
+    device_name_ = name;
+    return {};
+  }
+
+  std::string device_name_;  ///< as it was asked for
+  int samples_ = 0;
   // In the order of creation; the renderer goes before the device.
   std::optional<engine::Device> device_;
   std::optional<engine::Renderer> renderer_;

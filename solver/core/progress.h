@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
 #include "solver/core/result.h"
 
@@ -13,7 +15,9 @@ namespace geotherm {
 /// Called now and then during long work with the stage's name and the share done (0 to 1, or
 /// negative when unknown). Returning false asks the work to stop with ErrorCode::kCancelled.
 /// It may be called from any thread of the work, but by one at a time; the work waits for it.
-/// An empty function means: nobody watches.
+/// An empty function means: nobody watches. What it throws stops the work, on all threads, and is
+/// thrown by the function that was given it (std::bad_alloc counts as the memory that ended); the
+/// work leaves nothing behind, and a method can be asked again.
 using Progress = std::function<bool(std::string_view stage, double share)>;
 
 inline bool report(const Progress& progress, std::string_view stage, double share) {
@@ -32,7 +36,8 @@ inline Progress part_of(const Progress& whole, double from, double to) {
 }
 
 /// A progress for work on several threads: passes calls on one at a time, with shares that never
-/// fall, and none after the first that said stop.
+/// fall, and none after the first that said stop or threw. An exception does not pass through the
+/// work, whose threads could not hand it on: it is kept for rethrow().
 class SharedProgress {
  public:
   /// Keeps a reference.
@@ -43,7 +48,12 @@ class SharedProgress {
     const std::lock_guard lock(mutex_);
     if (stopped_) return false;
     if (share >= 0) share = most_ = std::max(most_, share);
-    stopped_ = !report(progress_, stage, share);
+    try {
+      stopped_ = !report(progress_, stage, share);
+    } catch (...) {
+      thrown_ = std::current_exception();
+      stopped_ = true;
+    }
     return !stopped_;
   }
 
@@ -51,6 +61,11 @@ class SharedProgress {
   void stop() {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
+  }
+
+  /// Throws what the progress has thrown. To be called once the work has ended.
+  void rethrow() {
+    if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   }
 
   /// Valid while this object lives.
@@ -63,6 +78,7 @@ class SharedProgress {
   std::mutex mutex_;
   double most_ = 0;
   bool stopped_ = false;
+  std::exception_ptr thrown_;
 };
 
 }  // namespace geotherm

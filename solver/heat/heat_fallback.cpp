@@ -32,6 +32,7 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
       [&](const std::string& backend, std::span<const Fallback> before) {
         return set_up(mesh, with_backend(options, backend), before, watched);
       });
+  shared.rethrow();
   if (!method) return method;
   auto timed = std::make_shared<State>(*method->state_);
   timed->timing.setup = watch.milliseconds();
@@ -55,13 +56,15 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   std::vector<Fallback> failed;
   if (asked != at_work) failed = state_->failed;
   const ThreadCrew crew(setup_threads(options, *state_->surface->mesh), state_->helpers.get());
-  return first_that_works<HeatMethod>(
+  auto method = first_that_works<HeatMethod>(
       at_work, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
         const HeatOptions tried = with_backend(options, backend);
         return backend == at_work ? factorised(tried, before, watched)
                                   : set_up(state_->surface->mesh, tried, before, watched);
       });
+  shared.rethrow();
+  return method;
 } catch (const std::bad_alloc&) {
   return out_of_memory_error("factorisation", state_->surface->mesh->face_count(),
                              backend_name(options));
@@ -105,6 +108,7 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
         if (!other.outcome) return {other.outcome.error(), other.successor};
         return other.outcome->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
       });
+  shared.rethrow();
   if (!results) return results;
   failed.erase(failed.begin(), failed.begin() + std::ssize(state_->failed));
   for (DistanceResult& result : *results) {

@@ -204,6 +204,7 @@ class GroupRunner {
     threads_of_group_ = std::max(1, threads_ / workers);
     const ThreadCrew crew(workers, &pipeline_.helpers);
     run_calls(workers, workers, [this](int) noexcept { work(); });
+    progress_.rethrow();
     if (memory_ended_) throw std::bad_alloc();
     if (!failure_) return std::nullopt;
     return Trial<std::vector<DistanceResult>>{*failure_, successor_};

@@ -7,8 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "solver/core/number_text.h"
+#include "solver/mesh/io/file_bytes.h"
 #include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/read_failure.h"
 #include "solver/mesh/io/readers.h"
 #include "solver/mesh/io/stream_bytes.h"
@@ -16,20 +18,33 @@
 namespace geotherm {
 namespace {
 
-using Reader = io::RawMesh (*)(std::string_view bytes);
+/// From a file whose bytes a mesh no longer needs once they are parsed.
+template <io::RawMesh (*Read)(std::string_view)>
+io::RawMesh read_whole(const io::InputFile& file) {
+  return Read(io::FileBytes(file).bytes());
+}
 
 struct Format {
   std::string_view extension;
-  Reader read;
+  io::RawMesh (*read)(std::string_view bytes);
+  io::RawMesh (*read_file)(const io::InputFile& file);
 };
 
-constexpr Format kFormats[] = {
-    {".obj", io::read_obj}, {".ply", io::read_ply}, {".off", io::read_off}, {".stl", io::read_stl}};
+constexpr Format kFormats[] = {{".obj", io::read_obj, io::read_obj},
+                               {".ply", io::read_ply, read_whole<io::read_ply>},
+                               {".off", io::read_off, read_whole<io::read_off>},
+                               {".stl", io::read_stl, read_whole<io::read_stl>}};
 
 Result<MeshFile> finish(const std::string& name, io::RawMesh raw) {
+  io::PolygonCutter cutter(raw.faces.size());
+  std::size_t folded = 0;
   for (const io::Polygon& polygon : raw.polygons) {
-    io::triangulate_polygon(raw.positions,
-                            std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
+    const std::span fan = std::span(raw.faces).subspan(polygon.first_face, polygon.face_count);
+    if (!cutter.triangulate(raw.positions, fan)) ++folded;
+  }
+  if (folded > 0) {
+    raw.notes.push_back(counted_text(folded, "polygon", "polygons") +
+                        " with too many corners folded over may cover some places more than once");
   }
   Result<TriangleMesh> mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
   if (!mesh) return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message};
@@ -37,17 +52,27 @@ Result<MeshFile> finish(const std::string& name, io::RawMesh raw) {
                   static_cast<Index>(raw.welded), std::move(raw.notes)};
 }
 
-/// Precondition: padding behind the bytes.
-Result<MeshFile> read_bytes(const std::string& name, std::string_view bytes, const Format& format) {
+/// `read` gives a RawMesh; `size`: bytes of the file.
+template <class Read>
+Result<MeshFile> guarded(const std::string& name, std::size_t size, const Read& read) {
   try {
-    return finish(name, format.read(bytes));
+    return finish(name, read());
   } catch (const io::ReadFailure& failure) {
     return Error{ErrorCode::kBadFile, name + ": " + failure.message};
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the mesh in its " +
-                                            std::to_string(bytes.size()) + " bytes"};
+  return Error{ErrorCode::kOutOfMemory,
+               name + ": not enough memory for the mesh in its " + std::to_string(size) + " bytes"};
+}
+
+Result<MeshFile> read_file(const std::string& path, const Format& format) {
+  const auto file = io::InputFile::open(path);
+  if (!file) return file.error();
+  auto mesh = guarded(io::printable(path), file->size(), [&] { return format.read_file(*file); });
+  // Before what was wrong in it: it may have been half of what it is to be.
+  if (auto same = file->check_unchanged(); !same) return same.error();
+  return mesh;
 }
 
 const Format* format_of(std::string_view extension) {
@@ -79,14 +104,10 @@ Result<void> check_mesh_format(std::string_view name) {
 }
 
 Result<MeshFile> read_mesh(const std::string& path) {
-  const std::string shown = io::printable(path);
-  Result<io::MappedFile> file = io::MappedFile::open(path);
-  if (!file) return file.error();
   const std::string extension = io::file_extension(path);
-  if (const Format* const format = format_of(extension)) {
-    return read_bytes(shown, file->bytes(), *format);
-  }
-  return Error{ErrorCode::kNotAvailable, shown + ": unknown extension \"" +
+  if (const Format* const format = format_of(extension)) return read_file(path, *format);
+  if (auto there = io::InputFile::open(path); !there) return there.error();
+  return Error{ErrorCode::kNotAvailable, io::printable(path) + ": unknown extension \"" +
                                              io::printable(extension) +
                                              "\"; there are .obj .ply .off .stl"};
 }
@@ -94,9 +115,7 @@ Result<MeshFile> read_mesh(const std::string& path) {
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format) {
   const auto known = format_named(format);
   if (!known) return known.error();
-  Result<io::MappedFile> file = io::MappedFile::open(path);
-  if (!file) return file.error();
-  return read_bytes(io::printable(path), file->bytes(), **known);
+  return read_file(path, **known);
 }
 
 Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name) {
@@ -104,7 +123,7 @@ Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::s
   if (!known) return known.error();
   const auto stream = io::StreamBytes::read(descriptor, name);
   if (!stream) return stream.error();
-  return read_bytes(name, stream->bytes(), **known);
+  return guarded(name, stream->bytes().size(), [&] { return (*known)->read(stream->bytes()); });
 }
 
 }  // namespace geotherm

@@ -25,8 +25,9 @@ struct MeshFile {
 /// becomes a fan from its first corner, or, where that would fold over, triangles that cover it
 /// once. Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause
 /// (kBadFile); an unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file
-/// announces is held against its size before memory is asked for. Independent of the locale. Cost:
-/// one pass over the mapped file; OBJ on all cores.
+/// announces is held against its size before memory is asked for. A file that others change while
+/// it is read is an error (kBadFile). Independent of the locale. Cost: a copy of the file in
+/// memory, and one pass over it; OBJ on all cores.
 Result<MeshFile> read_mesh(const std::string& path);
 
 /// The names of the formats: obj, ply, off, stl.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/mesh/write_distances.h"
 
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -52,6 +53,14 @@ Result<void> check_distance_path(const std::string& path) {
 }
 
 Result<void> check_field(const std::string& path, const DataField& field) {
+  const auto fits = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+  };
+  if (field.name.empty() || !std::ranges::all_of(field.name, fits)) {
+    return Error{ErrorCode::kBadInput, io::printable(path) + ": a field is called \"" +
+                                           io::printable(field.name) +
+                                           "\"; its name may hold letters, digits and _"};
+  }
   const std::string extension = extension_of(path);
   if (extension == ".ply" || extension == ".vtp") return {};
   const bool on_faces = field.place == DataField::Place::kFaces;

@@ -26,6 +26,7 @@ class SetRunner {
   Result<std::vector<DistanceResult>> run(int threads, HelperPool& helpers) {
     const ThreadCrew crew(threads, &helpers);
     run_calls(threads, threads, [this](int) noexcept { work(); });
+    progress_.rethrow();
     if (failure_ && failure_->message.empty()) throw std::bad_alloc();
     if (failure_) return *std::move(failure_);
     return std::move(results_);

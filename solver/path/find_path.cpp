@@ -42,8 +42,8 @@ PathFinder::PathFinder(std::shared_ptr<const TriangleMesh> mesh,
 
 Result<FoundPath> PathFinder::find(std::span<const SurfacePoint> points, const PathOptions& options,
                                    const Progress& progress) const {
-  return within_memory("a path", *surface_->mesh(),
-                       [&] { return through(points, options, progress); });
+  return within_memory("a path", *surface_->mesh(), progress,
+                       [&](const Progress& watched) { return through(points, options, watched); });
 }
 
 Result<FoundPath> PathFinder::through(std::span<const SurfacePoint> points,

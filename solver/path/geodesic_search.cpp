@@ -280,8 +280,9 @@ std::vector<SurfacePath> CrossingGraph::routes(double longest, std::size_t most)
 
 Result<SurfacePath> search_geodesic(const PathSurface& surface, const GeodesicEnds& ends,
                                     const Progress& progress) {
-  return within_memory("a geodesic", *surface.mesh(),
-                       [&] { return Search(surface, ends, progress).run(); });
+  return within_memory("a geodesic", *surface.mesh(), progress, [&](const Progress& watched) {
+    return Search(surface, ends, watched).run();
+  });
 }
 
 }  // namespace geotherm

@@ -32,8 +32,9 @@ Result<SurfacePath> shortened(const PathSurface& surface, const SurfacePath& sta
 
 Result<SurfacePath> shorten(const PathSurface& surface, const SurfacePath& start, bool search,
                             const Progress& progress) {
-  return within_memory("a shorter path", *surface.mesh(),
-                       [&] { return shortened(surface, start, search, progress); });
+  return within_memory("a shorter path", *surface.mesh(), progress, [&](const Progress& watched) {
+    return shortened(surface, start, search, watched);
+  });
 }
 
 }  // namespace geotherm

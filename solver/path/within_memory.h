@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "solver/core/progress.h"
 #include "solver/core/result.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -28,6 +29,18 @@ auto within_memory(std::string_view what, const TriangleMesh& mesh, Work&& work)
   } catch (const std::system_error&) {
     return ended("the system had no thread or lock left");
   }
+}
+
+/// The same for work(progress), whose progress may throw anything: that is thrown again, and no
+/// error of the work.
+template <class Work>
+auto within_memory(std::string_view what, const TriangleMesh& mesh, const Progress& progress,
+                   Work&& work) -> decltype(work(progress)) {
+  SharedProgress shared(progress);
+  const Progress watched = shared.function();
+  auto result = within_memory(what, mesh, [&] { return work(watched); });
+  shared.rethrow();
+  return result;
 }
 
 }  // namespace geotherm

@@ -52,6 +52,29 @@ TEST(CompareReports, QuoteTextInCsv) {
       << csv;
 }
 
+TEST(CompareReports, HoldNoFormulasInCsv) {
+  for (const char first : {'=', '+', '-', '@'}) {
+    auto some = rows();
+    some[0].model = std::string(1, first) + "cmd|' /C calc'!A0";
+    some[1].message = std::string(1, first) + "1+1\n=2";
+    some[1].mean_difference = -0.5;
+    const std::string csv = compare_csv(some);
+    EXPECT_NE(csv.find("\n\"'" + some[0].model + "\",10,"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",\"'" + std::string(1, first) + "1+1?=2\"\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find(",-0.5,"), std::string::npos) << "numbers stay numbers: " << csv;
+  }
+}
+
+TEST(CompareReports, EscapeControlCharactersInJson) {
+  auto some = rows();
+  some[0].model = "a\x7f\xc2\x9b\xc2\xa0\xc3\xa4\xff";
+  const std::string json = compare_json(kMachine, some);
+  EXPECT_NE(json.find("\"a\\u007f\\u009b\xc2\xa0\xc3\xa4\xef\xbf\xbd\""), std::string::npos)
+      << json;
+  EXPECT_EQ(nlohmann::json::parse(json)["rows"][0]["model"],
+            "a\x7f\xc2\x9b\xc2\xa0\xc3\xa4\xef\xbf\xbd");
+}
+
 TEST(CompareReports, ShowFailuresInTheTableWithTheirMessage) {
   const std::string table = compare_table(kMachine, rows());
   EXPECT_NE(table.find("numerical failure "), std::string::npos) << table;

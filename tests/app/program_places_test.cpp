@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "solver/core/printable.h"
 #include "tests/app/program.h"
 
 namespace geotherm::test {
@@ -45,6 +46,33 @@ INSTANTIATE_TEST_SUITE_P(Of, OddName,
                          testing::Values("two words", "\xc3\xa4\xe6\xbc\xa2", "\xff\xfe", "a\"b'c"),
                          odd_name);
 
+TEST(NameThatIsNoText, LeavesAllOutputsTexts) {
+  const TemporaryDirectory folder;
+  const std::string name = "=\xff\xc2\x9b\x01<&\xed\xa0\x80.obj";
+  folder.write(name, kUnitSquare);
+  std::vector<ProgramRun> runs;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"compare", name, "--queries", "2", "--html", "c.html", "--csv",
+                                 "c.csv", "--json", "c.json"},
+        {"isolines", name, "-s", "0", "--count", "2", "-o", "i.svg"},
+        {"path", name, "--from", "0", "--to", "2", "-o", "p.svg"},
+        {"solve", name, "-s", "0", "-o", "d.vtp", "--json", "s.json"},
+        {"info", name}}) {
+    runs.push_back(run_program(folder.path("."), arguments));
+    EXPECT_EQ(runs.back().code, 0) << runs.back().err;
+  }
+  std::vector<std::string> texts;
+  for (const ProgramRun& run : runs) texts.insert(texts.end(), {run.out, run.err});
+  for (const char* const file : {"c.html", "c.csv", "c.json", "i.svg", "p.svg", "s.json"}) {
+    texts.push_back(bytes_of(folder.path(file)));
+  }
+  for (std::string text : texts) {
+    std::erase(text, '\n');
+    EXPECT_EQ(printable(text), text);
+  }
+  EXPECT_EQ(bytes_of(folder.path("c.csv")).find("\"="), std::string::npos);
+}
+
 /// As `ulimit -f`, for programs that are started while it lives.
 class FileSizeLimit {
  public:
@@ -60,6 +88,53 @@ class FileSizeLimit {
  private:
   rlimit before_{};
 };
+
+/// As `ulimit -s`, for programs that are started while it lives.
+class StackLimit {
+ public:
+  explicit StackLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_STACK, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_STACK, &limit);
+  }
+  StackLimit(const StackLimit&) = delete;
+  StackLimit& operator=(const StackLimit&) = delete;
+  ~StackLimit() { ::setrlimit(RLIMIT_STACK, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+/// Ends with 0, or with one line of error where there is no device to draw on.
+void expect_end(const TemporaryDirectory& folder, const std::vector<std::string>& arguments) {
+  const ProgramRun run = run_program(folder.path("."), arguments);
+  if (run.code == 0) return;
+  EXPECT_EQ(run.code, 1) << arguments.front() << run.err;
+  EXPECT_NE(run.err.find("device"), std::string::npos) << arguments.front() << run.err;
+}
+
+TEST(SmallStack, IsEnoughForEveryCommand) {
+  const TemporaryDirectory folder;
+  folder.write("s.geotherm", "open bunny\nsource set 3\ncompare all\nsave distances d.csv\n");
+  const StackLimit limit(rlim_t{64} << 10);
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"solve", "bunny", "-s", "3", "--threads", "2"},
+        {"solve", "bunny", "-s", "3", "--method", "exact"},
+        {"compare", "bunny", "--queries", "2", "--threads", "2"},
+        {"info", "bunny"},
+        {"path", "bunny", "--from", "3", "--to", "500"},
+        {"isolines", "bunny", "-s", "3", "--count", "5", "-o", "i.svg"},
+        {"sample", "bunny", "-n", "5"},
+        {"generate", "gargoyle", "--faces", "3000", "-o", "g.obj"},
+        {"backends"},
+        {"models"},
+        {"devices"},
+        {"render", "bunny", "-s", "3", "--size", "64x48", "-o", "r.png"},
+        {"view", "bunny", "--size", "64x48", "-o", "v.png"},
+        {"view", "--headless", "--script", "s.geotherm"}}) {
+    expect_end(folder, arguments);
+  }
+}
 
 TEST(FileThatCannotGrow, IsOneLineAndLeavesWhatWasThere) {
   const TemporaryDirectory folder;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sessions of the built program without a window, on whatever device there is.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -43,6 +45,41 @@ TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
   const auto first = pixels("first.png");
   EXPECT_EQ(pixels("saved.png"), first);
   EXPECT_EQ(pixels("log.png"), first);
+}
+
+TEST_F(ProgramView, AScriptReplacesPicturesOfGeothermAlone) {
+  folder.write("s.geotherm", "open bunny\nsize 64x48\nsave picture p.png\n");
+  run({"view", "--headless", "--script", "s.geotherm"});
+  run({"view", "--headless", "--script", "s.geotherm"});
+  folder.write("p.png", "\x89PNG of another program");
+  const ProgramRun refused =
+      run_program(folder.path("."), {"view", "--headless", "--script", "s.geotherm"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("p.png: is there already"), std::string::npos) << refused.err;
+  EXPECT_EQ(bytes_of(folder.path("p.png")), "\x89PNG of another program");
+}
+
+TEST_F(ProgramView, NeedsNoMoreAddressSpaceThanARender) {
+  // The least limit, in steps, under which a picture is rendered.
+  const auto code_under = [this](rlim_t megabytes, const std::vector<std::string>& arguments) {
+    rlimit before{};
+    ::getrlimit(RLIMIT_AS, &before);
+    const rlimit limit{megabytes << 20, before.rlim_max};
+    ::setrlimit(RLIMIT_AS, &limit);
+    const int code = run_program(folder.path("."), arguments).code;
+    ::setrlimit(RLIMIT_AS, &before);
+    return code;
+  };
+  constexpr rlim_t kStep = 250, kLeast = 1250, kMost = 8000;
+  const std::vector<std::string> picture = {"bunny", "--size", "64x48", "-o", "p.png"};
+  std::vector<std::string> render = picture, view = picture;
+  render.insert(render.begin(), "render");
+  render.insert(render.end(), {"-s", "3"});
+  view.insert(view.begin(), "view");
+  rlim_t least = kLeast;
+  while (least < kMost && code_under(least, render) != 0) least += kStep;
+  ASSERT_LT(least, kMost);
+  EXPECT_EQ(code_under(least + kStep, view), 0) << "under " << least + kStep << " MB";
 }
 
 TEST_F(ProgramView, TheCentreIsInTheMiddleOfThePicture) {

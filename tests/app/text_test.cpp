@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "app/markup.h"
 #include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/text_table.h"
@@ -47,7 +48,31 @@ TEST(TextLines, AreWrappedAtBlanks) {
   EXPECT_EQ(wrapped("short", 40), "short");
 }
 
-TEST(TextLines, HoldNoControlCharacters) { EXPECT_EQ(one_line("a\nb\tc\x7f"), "a?b?c?"); }
+TEST(TextLines, HoldNoControlCharacters) {
+  EXPECT_EQ(one_line("a\nb\tc\x7f"), "a?b?c?");
+  EXPECT_EQ(one_line("a\xc2\x9b"
+                     "31mb"),
+            "a??31mb")
+      << "U+009B begins commands of a terminal";
+  EXPECT_EQ(one_line("a\xe2\x80\xae"
+                     "b\xe2\x80\xa8"),
+            "a???b???")
+      << "turns the line, ends it";
+}
+
+TEST(TextLines, AreUtf8) {
+  const std::string good = "\xc3\xa4 \xc2\xa0 \xe6\xbc\xa2 \xf0\x9f\x90\x87 \xee\x80\x80";
+  EXPECT_EQ(one_line(good), good);
+  for (const char* const bad : {"\xff", "\xc3", "\xe6\xbc", "\xc0\xaf", "\xe0\x80\xaf",
+                                "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xef\xbf\xbf"}) {
+    const std::string shown = one_line(std::string("a") + bad + "b");
+    EXPECT_EQ(shown, "a" + std::string(std::string_view(bad).size(), '?') + "b");
+  }
+}
+
+TEST(Markup, HoldsNothingThatXmlForbids) {
+  EXPECT_EQ(escaped("<a\x01\xff&\xc2\x85\">"), "&lt;a??&amp;??&quot;&gt;");
+}
 
 TEST(TextTables, AlignTheirColumns) {
   TextTable table({{"name", TextTable::Align::kLeft}, {"ms", TextTable::Align::kRight}});

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -49,6 +50,20 @@ TEST(Progress, OfThreadsIsCalledByOneAtATimeInOrderAndNotAgainAfterStop) {
   }
   EXPECT_EQ(calls, kMost);
   EXPECT_FALSE(report(shared.function(), "a", 1));
+}
+
+TEST(Progress, OfThreadsKeepsAnExceptionForTheEnd) {
+  int calls = 0;
+  const Progress progress = [&](std::string_view, double) -> bool {
+    ++calls;
+    throw std::runtime_error("from the progress");
+  };
+  SharedProgress shared(progress);
+  EXPECT_FALSE(report(shared.function(), "a", 0));
+  EXPECT_FALSE(report(shared.function(), "a", 1));
+  EXPECT_EQ(calls, 1);
+  EXPECT_THROW(shared.rethrow(), std::runtime_error);
+  EXPECT_NO_THROW(shared.rethrow()) << "it was thrown";
 }
 
 TEST(Progress, OfThreadsCanBeStoppedFromWithin) {

@@ -245,7 +245,8 @@ TEST_F(SessionTest, SourcesTogetherAreThoseOfTheirEntries) {
 
 TEST_F(SessionTest, ScriptsSayTheirLineAndStopWhereTheyFail) {
   const std::string path = folder() + "bad.geotherm";
-  write(path, "open " + small_model() + "\nsource set 99999999\nsave log " + folder() + "x.log\n");
+  write(path,
+        "open " + small_model() + "\nsource set 99999999\nsave log " + folder() + "x.geotherm\n");
   const auto ran = session.submit(command::Run{path});
   ASSERT_FALSE(ran);
   EXPECT_NE(ran.error().message.find("there is no vertex 99999999"), std::string::npos);
@@ -269,8 +270,8 @@ TEST_F(SessionTest, WithoutWritingSaysWhatItLeavesOut) {
   hooks.writes_files = false;
   Session quiet(std::move(hooks));
   ASSERT_TRUE(quiet.submit(command::Open{small_model()}));
-  ASSERT_TRUE(quiet.submit(command::SaveLog{folder() + "never.log"}));
-  EXPECT_FALSE(std::ifstream(folder() + "never.log").is_open());
+  ASSERT_TRUE(quiet.submit(command::SaveLog{folder() + "never.geotherm"}));
+  EXPECT_FALSE(std::ifstream(folder() + "never.geotherm").is_open());
   EXPECT_NE(quiet.log().back().text.find("not written: save log"), std::string::npos);
 }
 
@@ -291,8 +292,8 @@ TEST_F(SessionTest, SavesDistancesOfWhatIsShown) {
 }
 
 TEST_F(SessionTest, NothingIsWrittenOverTheModel) {
-  run({"open " + small_model()});
-  const auto saved = session.submit(command::SaveLog{small_model()});
+  run({"open " + small_model(), "source set 5"});
+  const auto saved = session.submit(command::SaveDistances{small_model()});
   ASSERT_FALSE(saved);
   EXPECT_NE(saved.error().message.find("the model itself"), std::string::npos);
 }

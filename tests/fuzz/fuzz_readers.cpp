@@ -4,7 +4,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/file_bytes.h"
 #include "solver/mesh/io/read_failure.h"
 #include "solver/mesh/io/readers.h"
 #include "solver/mesh/triangle_mesh.h"
@@ -16,12 +16,13 @@ namespace {
 using Reader = io::RawMesh (*)(std::string_view bytes);
 
 std::string mesh_fault(io::RawMesh raw) {
+  io::PolygonCutter cutter(raw.faces.size());
   for (const io::Polygon& polygon : raw.polygons) {
     if (polygon.face_count < 2 || polygon.first_face + polygon.face_count > raw.faces.size()) {
       return "a polygon has no place among the faces";
     }
-    io::triangulate_polygon(raw.positions,
-                            std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
+    cutter.triangulate(raw.positions,
+                       std::span(raw.faces).subspan(polygon.first_face, polygon.face_count));
   }
   const bool empty = raw.faces.empty();
   const auto mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
@@ -32,7 +33,7 @@ std::string mesh_fault(io::RawMesh raw) {
 
 std::string read_fault(Reader read, Bytes bytes) {
   // A block of its own, so that reading beyond the padding is seen.
-  const std::size_t padded = bytes.size() + io::MappedFile::kPadding;
+  const std::size_t padded = bytes.size() + io::FileBytes::kPadding;
   const auto copy = std::make_unique<char[]>(padded);
   if (!bytes.empty()) std::memcpy(copy.get(), bytes.data(), bytes.size());
   try {
@@ -48,7 +49,9 @@ std::string read_fault(Reader read, Bytes bytes) {
 
 }  // namespace
 
-std::string fuzz_obj(Bytes bytes) { return read_fault(io::read_obj, bytes); }
+std::string fuzz_obj(Bytes bytes) {
+  return read_fault([](std::string_view text) { return io::read_obj(text); }, bytes);
+}
 std::string fuzz_ply(Bytes bytes) { return read_fault(io::read_ply, bytes); }
 std::string fuzz_off(Bytes bytes) { return read_fault(io::read_off, bytes); }
 std::string fuzz_stl(Bytes bytes) { return read_fault(io::read_stl, bytes); }

@@ -204,7 +204,7 @@ void PlayedWindow::leave_field() {
 }
 
 std::vector<std::string> PlayedWindow::log() {
-  const std::string name = "log" + std::to_string(++logs_);
+  const std::string name = "log" + std::to_string(++logs_) + ".geotherm";
   run({"save log " + name});
   EXPECT_TRUE(eventually([&] { return is_there(name); }));
   std::vector<std::string> commands = lines_of(path(name));
@@ -216,7 +216,7 @@ std::vector<std::string> PlayedWindow::lines_of(const std::string& path) const {
   std::istringstream text(bytes_of(path));
   std::vector<std::string> commands;
   for (std::string line; std::getline(text, line);) {
-    if (!line.empty() && line.front() != '#') commands.push_back(line);
+    if (!line.empty() && line.front() != '#' && line.front() != ':') commands.push_back(line);
   }
   return commands;
 }

@@ -96,8 +96,8 @@ class Tour : public PlayedWindow {
     ASSERT_GT(saved.width, 0);
     EXPECT_LE(share_that_differs(saved, screen), kSamePicture);
     const std::string size = std::to_string(saved.width) + "x" + std::to_string(saved.height);
-    const ProgramRun replay =
-        run_program(path("."), {"view", "--replay", "log1", "--size", size, "-o", "replayed.png"});
+    const ProgramRun replay = run_program(
+        path("."), {"view", "--replay", "log1.geotherm", "--size", size, "-o", "replayed.png"});
     ASSERT_EQ(replay.code, 0) << replay.err;
     EXPECT_LE(share_that_differs(saved, picture_in(path("replayed.png"))), kSamePicture);
   }

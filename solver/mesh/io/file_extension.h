@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "solver/core/printable.h"
+
 namespace geotherm::io {
 
 /// The extension in lower case with its point (".obj"), or nothing; of the last part of the path.
@@ -19,12 +21,6 @@ inline std::string file_extension(std::string_view path) {
 }
 
 /// The path fit for a message of one line.
-inline std::string printable(std::string_view path) {
-  std::string shown(path);
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-  }
-  return shown;
-}
+using geotherm::printable;
 
 }  // namespace geotherm::io

@@ -57,10 +57,10 @@ const char* ObjChunk::parse_until(std::size_t face) {
   faces.clear();
   polygons.clear();
   // A guess at the numbers of lines: most files need no more, and pages not used cost nothing.
-  positions.reserve(static_cast<std::size_t>(end - begin) / 24 + 1);
-  faces.reserve(static_cast<std::size_t>(end - begin) / 18 + 1);
-  const char* p = begin;
-  while (p < end) {
+  positions.reserve(text.size() / 24 + 1);
+  faces.reserve(text.size() / 18 + 1);
+  const char* p = text.data();
+  while (p < end()) {
     while (is_blank(*p)) ++p;
     if (*p == 'v' && ends_word(p[1])) {
       p = parse_vertex(p + 1);
@@ -70,12 +70,12 @@ const char* ObjChunk::parse_until(std::size_t face) {
       if (faces.size() > face) return line;
     }
     if (*p != '\n') [[unlikely]] {
-      p = next_line(p, end);
+      p = next_line(p, end());
     } else {
       ++p;
     }
   }
-  return end;
+  return end();
 }
 
 const char* ObjChunk::parse_vertex(const char* p) {
@@ -85,7 +85,7 @@ const char* ObjChunk::parse_vertex(const char* p) {
     p = parse_double(start, position[axis]);
     if (p == nullptr || !ends_word(*p)) [[unlikely]] {
       fail_at_line(text, start,
-                   ends_line(*start) || start == file_end()
+                   ends_line(*start) || start == end()
                        ? "a vertex has " + std::to_string(axis) + " coordinates instead of 3"
                        : quoted(text, start) + " is not a number (a vertex needs 3)");
     }
@@ -100,7 +100,7 @@ const char* ObjChunk::parse_vertex(const char* p) {
 const char* ObjChunk::parse_face(const char* p) {
   FanBuilder fan(faces);
   const char* const start = p;
-  for (p = skip_blanks(p); !ends_line(*p) && p < file_end(); p = skip_blanks(p)) {
+  for (p = skip_blanks(p); !ends_line(*p) && p < end(); p = skip_blanks(p)) {
     // The usual case here, in registers: a positive number of at most 7 digits.
     const Digits digits = read_digits(p);
     const char* after = p + digits.count;

@@ -15,9 +15,7 @@ namespace geotherm::io {
 struct ObjChunk {
   static constexpr std::int64_t kUnknown = -1;
 
-  std::string_view text;  ///< the whole file, for line numbers
-  const char* begin = nullptr;
-  const char* end = nullptr;
+  std::string_view text;                ///< its lines, which only parsing needs
   std::int64_t vertex_base = kUnknown;  ///< vertices before this chunk
 
   std::vector<Vec3> positions;
@@ -25,14 +23,15 @@ struct ObjChunk {
   std::vector<Polygon> polygons;
   bool needs_base = false;  ///< holds relative indices: parse again with `vertex_base` known
 
-  /// Fills the arrays. Throws ReadFailure at the first line that cannot be read.
+  /// Fills the arrays. Throws ReadFailure at the first line that cannot be read, counted
+  /// within the chunk.
   void parse() { parse_until(std::numeric_limits<std::size_t>::max()); }
 
   /// The line in which the triangle `face` stands.
   const char* line_of_face(std::size_t face) { return parse_until(face); }
 
  private:
-  const char* file_end() const { return text.data() + text.size(); }
+  const char* end() const { return text.data() + text.size(); }
   const char* parse_until(std::size_t face);
   const char* parse_vertex(const char* p);
   const char* parse_face(const char* p);

@@ -9,7 +9,7 @@
 #include <limits>
 
 // Numbers from text that is followed by at least 8 readable bytes, the first of them no digit
-// (MappedFile's padding). Independent of the locale.
+// (FileBytes's padding). Independent of the locale.
 namespace geotherm::io {
 
 inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <unordered_set>
 
 #include "solver/mesh/io/parse_number.h"
 #include "solver/mesh/io/read_failure.h"
@@ -91,7 +93,7 @@ class HeaderReader {
       fail("an element needs a name and a count");
     }
     if (element.count < 0) fail("the count " + std::to_string(element.count) + " is negative");
-    if (header_.find(element.name) != nullptr) fail("an element is declared twice");
+    if (!names_.insert(element.name).second) fail("an element is declared twice");
     header_.elements.push_back(std::move(element));
   }
 
@@ -123,6 +125,7 @@ class HeaderReader {
   const char* start_ = next_;  ///< this line
   std::string_view line_;      ///< what is left of this line
   PlyHeader header_;
+  std::unordered_set<std::string> names_;  ///< of the elements
 };
 
 /// The least number of bytes one row takes in the body.

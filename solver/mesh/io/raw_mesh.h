@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -56,9 +57,24 @@ class FanBuilder {
   std::size_t count_ = 0;
 };
 
-/// Replaces the fan of a polygon by other triangles where the fan folds over itself: ears are cut
-/// off, in the plane of the polygon. A convex polygon keeps its fan, and so does one that crosses
-/// itself or has more than 512 corners. Cost: O(n) for a good fan, else O(n^2) in practice.
-void triangulate_polygon(std::span<const Vec3> positions, std::span<Face> fan);
+/// Replaces fans of polygons by other triangles where the fan folds over itself: ears are cut off,
+/// in the plane of the polygon. A convex polygon keeps its fan, and so does one that crosses
+/// itself. Cost: O(n) for a good fan, else O(n log n) for polygons that do not wind back and forth
+/// in all of their box; what others may take is limited for all polygons of a file together.
+class PolygonCutter {
+ public:
+  /// `triangles`: those of all polygons of the file.
+  explicit PolygonCutter(std::size_t triangles)
+      : tests_(kTestsAtLeast + kTestsEach * static_cast<std::int64_t>(triangles)) {}
+
+  /// False: the limit is reached, and the polygon keeps its fan although it folds.
+  bool triangulate(std::span<const Vec3> positions, std::span<Face> fan);
+
+ private:
+  // Some nanoseconds each; polygons of CAD and outlines of letters take some ten for each corner.
+  static constexpr std::int64_t kTestsAtLeast = 10'000'000, kTestsEach = 40;
+
+  std::int64_t tests_;  ///< points that may still be tested
+};
 
 }  // namespace geotherm::io

@@ -6,8 +6,8 @@
 namespace geotherm::io {
 
 void fail_at_line(std::string_view text, const char* where, const std::string& cause) {
-  const auto line = 1 + std::count(text.data(), where, '\n');
-  throw ReadFailure{"line " + std::to_string(line) + ": " + cause};
+  const auto line = static_cast<std::size_t>(1 + std::count(text.data(), where, '\n'));
+  throw ReadFailure{"line " + std::to_string(line) + ": " + cause, line, cause};
 }
 
 void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -8,7 +9,9 @@ namespace geotherm::io {
 
 /// Thrown and caught inside the readers only; read_mesh() makes an Error of it, with the path.
 struct ReadFailure {
-  std::string message;  ///< "line N: cause" or "byte N: cause"
+  std::string message;   ///< "line N: cause", "byte N: cause", or the cause alone
+  std::size_t line = 0;  ///< N where it is a line
+  std::string cause = {};
 };
 
 /// Throws "line N: cause" for the place `where` inside `text`.

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "solver/core/free_memory.h"
-#include "solver/mesh/io/mapped_file.h"
+#include "solver/mesh/io/file_bytes.h"
 
 namespace geotherm::io {
 namespace {
@@ -46,12 +46,12 @@ Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
   try {
     const std::size_t most = most_bytes();
     for (;;) {
-      if (out.buffer_.size() <= out.size_ + MappedFile::kPadding) {
+      if (out.buffer_.size() <= out.size_ + FileBytes::kPadding) {
         if (out.size_ >= most) return too_large(name, most);
         const std::size_t step = std::min(std::max(kStep, out.size_ / 2), most - out.size_);
-        out.buffer_.resize(out.size_ + step + MappedFile::kPadding);
+        out.buffer_.resize(out.size_ + step + FileBytes::kPadding);
       }
-      const std::size_t room = out.buffer_.size() - MappedFile::kPadding - out.size_;
+      const std::size_t room = out.buffer_.size() - FileBytes::kPadding - out.size_;
       const ssize_t got = ::read(descriptor, out.buffer_.data() + out.size_, room);
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) {

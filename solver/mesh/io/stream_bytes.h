@@ -9,7 +9,7 @@
 
 namespace geotherm::io {
 
-/// All that a stream (a pipe, a terminal, a file) held, with the padding that a MappedFile has.
+/// All that a stream (a pipe, a terminal, a file) held, with the padding that FileBytes has.
 class StreamBytes {
  public:
   /// Reads the open descriptor to its end; it stays open. `name`: of the stream, in messages.

@@ -7,7 +7,7 @@
 
 namespace geotherm::io {
 
-/// Reads words and numbers from text that is padded as a MappedFile's is. White space separates;
+/// Reads words and numbers from text that is padded as FileBytes's is. White space separates;
 /// a comment runs from the comment character ('\0': there are none) to the end of its line.
 /// Every failure is thrown with its line and with what was being read at that moment.
 class TextScanner {

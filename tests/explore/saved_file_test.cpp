@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// What scripts may write, and that what is written holds no instruction for another program.
+#include "app/explore/saved_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/explore/script.h"
+#include "tests/explore/session_fixture.h"
+
+namespace geotherm::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SavedFile : public SessionFixture {
+ protected:
+  SavedFile() {
+    fs::remove_all(place());
+    fs::create_directories(place());
+  }
+  ~SavedFile() override { fs::remove_all(place()); }
+
+  std::string place(const std::string& name = "") const { return folder() + "files/" + name; }
+
+  static std::string text_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  /// Runs a script of these lines in a session of its own, as it comes from somebody else.
+  Result<void> run_foreign(const std::string& lines) {
+    write(place("foreign.geotherm"), lines);
+    Session other;
+    return other.submit(command::Run{place("foreign.geotherm")});
+  }
+
+  /// The script is refused with one line that holds `part`, and the file keeps what it holds.
+  void expect_kept(const std::string& line, const std::string& path, const std::string& part) {
+    const std::string before = text_of(path);
+    const auto ran = run_foreign("open " + small_model() + "\nsource set 5\n" + line + "\n");
+    ASSERT_FALSE(ran) << line;
+    EXPECT_NE(ran.error().message.find(part), std::string::npos) << ran.error().message;
+    EXPECT_EQ(ran.error().message.find('\n'), std::string::npos);
+    EXPECT_EQ(text_of(path), before);
+  }
+};
+
+TEST_F(SavedFile, OfAScriptIsNeverHiddenOrOfAnotherKind) {
+  for (const char* const name : {".bashrc", ".x.geotherm", "notes.txt", "run.sh", "Makefile"}) {
+    write(place(name), "mine\n");
+    for (const char* const what : {"session", "log", "figures"}) {
+      const bool hidden = *name == '.';
+      expect_kept(std::string("save ") + what + ' ' + place(name), place(name),
+                  hidden ? "hidden" : "written as ");
+    }
+  }
+  expect_kept("save distances " + place("run.sh"), place("run.sh"), ".csv .npy .ply .vtp");
+  expect_kept("save picture " + place("run.sh"), place("run.sh"), "written as .png");
+}
+
+TEST_F(SavedFile, OfAUserIsOfItsKindAsWell) {
+  EXPECT_FALSE(session.submit(command::SaveLog{place("run.sh")}));
+  EXPECT_FALSE(session.submit(command::SaveSession{place(".geotherm")}));
+  EXPECT_FALSE(session.submit(command::SaveLog{"-"}));
+  EXPECT_TRUE(fs::is_empty(place()));
+}
+
+TEST_F(SavedFile, OfAScriptReplacesNothingThatGeothermDidNotWrite) {
+  for (const char* const name : {"a.geotherm", "a.csv", "a.ply", "a.vtp", "a.npy", "a.json"}) {
+    write(place(name), "mine\n");
+  }
+  const std::string there = "is there already";
+  expect_kept("save session " + place("a.geotherm"), place("a.geotherm"), there);
+  expect_kept("save log " + place("a.geotherm"), place("a.geotherm"), there);
+  expect_kept("save figures " + place("a.json"), place("a.json"), there);
+  for (const char* const name : {"a.csv", "a.ply", "a.vtp", "a.npy"}) {
+    expect_kept("save distances " + place(name), place(name), there);
+  }
+}
+
+TEST_F(SavedFile, OfAScriptReplacesWhatItWroteItself) {
+  const std::string lines = "open " + small_model() + "\nsource set 5\nsave session " +
+                            place("s.geotherm") + "\nsave log " + place("l.geotherm") +
+                            "\nsave distances " + place("d.csv") + "\nsave distances " +
+                            place("d.ply") + "\nsave distances " + place("d.vtp") +
+                            "\nsave figures " + place("f.json") + "\n";
+  for (int i = 0; i < 2; ++i) {  // the second time all of them are there
+    const auto ran = run_foreign(lines + lines);
+    ASSERT_TRUE(ran) << ran.error().message;
+  }
+}
+
+TEST_F(SavedFile, OfAnArrayIsReplacedByTheScriptThatMadeItAlone) {
+  const std::string lines = "open " + small_model() + "\nsource set 5\nsave distances " +
+                            place("d.npy") + "\nsave distances " + place("d.npy") + "\n";
+  EXPECT_TRUE(run_foreign(lines));
+  const auto again = run_foreign(lines);
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message.find("d.npy: is there already"), std::string::npos);
+}
+
+TEST_F(SavedFile, OfAUserReplacesWhatIsThere) {
+  write(place("a.geotherm"), "mine\n");
+  ASSERT_TRUE(session.submit(command::SaveLog{place("a.geotherm")}));
+  EXPECT_NE(text_of(place("a.geotherm")), "mine\n");
+}
+
+TEST_F(SavedFile, IsNotReachedThroughALink) {
+  write(place(".profile"), "mine\n");
+  fs::create_symlink(place(".profile"), place("a.geotherm"));
+  expect_kept("save log " + place("a.geotherm"), place(".profile"), "is a link to ");
+  EXPECT_FALSE(session.submit(command::SaveLog{place("a.geotherm")}));
+  EXPECT_EQ(text_of(place(".profile")), "mine\n");
+}
+
+TEST_F(SavedFile, HoldsNoInstructionForAShell) {
+  const std::string name = place("$(>done)`>done`;>done\n>done\n'; >done\n");
+  fs::copy_file(small_model(), name + ".ply");
+  ASSERT_TRUE(session.submit(command::Open{name + ".ply"}));
+  ASSERT_FALSE(session.submit(command::Open{name + ".obj"}));  // a comment of the log
+  const std::string saved = place("s.geotherm"), log = place("l.geotherm");
+  ASSERT_TRUE(session.submit(command::SaveSession{saved}));
+  ASSERT_TRUE(session.submit(command::SaveLog{log}));
+  // Without other programs: a name that is taken for an instruction makes a file by itself.
+  const auto status_in_shell = [this](const std::string& file) {
+    const std::string line =
+        "cd '" + place() + "' && PATH=/none /bin/sh '" + file + "' 2>/dev/null";
+    return std::system(line.c_str());
+  };
+  for (const std::string& file : {saved, log}) {
+    EXPECT_EQ(status_in_shell(file), 0) << "a shell found a command in " << file;
+    std::string text = text_of(file);
+    text.erase(text.find(kInertLine), std::string(kInertLine).size());
+    write(place("bare"), text);
+    EXPECT_NE(status_in_shell(place("bare")), 0) << "the words stood behind the line for shells";
+    EXPECT_FALSE(fs::exists(place("done"))) << file;
+  }
+  Session again;
+  ASSERT_TRUE(again.submit(command::Run{saved}));
+  EXPECT_EQ(again.state(), session.state());
+}
+
+TEST_F(SavedFile, OfAScriptIsKnownBeforeItRuns) {
+  write(place("inner.geotherm"), "run " + place("outer.geotherm") + "\nsave log b.geotherm\n");
+  write(place("outer.geotherm"), "open bunny\nsave picture a.png\nrun " + place("inner.geotherm") +
+                                     "\nsave picture a.png\nsave distances d.csv\n");
+  EXPECT_EQ(files_written_by(place("outer.geotherm")),
+            (std::vector<std::string>{"a.png", "d.csv", "b.geotherm"}));
+  EXPECT_TRUE(files_written_by(place("none.geotherm")).empty());
+}
+
+}  // namespace
+}  // namespace geotherm::app

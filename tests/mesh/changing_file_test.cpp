@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Files that others write while they are read, and texts that are read by pieces.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <random>
+#include <thread>
+
+#include "solver/mesh/write_distances.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+std::string grid_obj(int side) {
+  std::string text;
+  for (int y = 0; y <= side; ++y) {
+    for (int x = 0; x <= side; ++x) {
+      text += "v " + std::to_string(x) + ' ' + std::to_string(y) + " 0\n";
+    }
+  }
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const int corner = y * (side + 1) + x + 1;
+      text += "f " + std::to_string(corner) + ' ' + std::to_string(corner + 1) + ' ' +
+              std::to_string(corner + side + 2) + ' ' + std::to_string(corner + side + 1) + '\n';
+    }
+  }
+  return text;
+}
+
+class ChangingFile : public testing::TestWithParam<const char*> {};
+
+TEST_P(ChangingFile, IsAMeshOrOneLineOfErrorWhileItIsTruncatedByAParallelThread) {
+  constexpr int kReads = 60, kSide = 300;
+  const TemporaryDirectory folder;
+  const std::string obj = folder.write("a.obj", grid_obj(kSide));
+  const std::string path = folder.path(GetParam());
+  const auto whole = read_mesh(obj);
+  ASSERT_TRUE(whole);
+  ASSERT_TRUE(write_mesh(path, whole->mesh));
+  const std::string bytes = bytes_of(path);
+  std::atomic<bool> ended = false;
+  std::thread writer([&] {
+    while (!ended) {
+      EXPECT_EQ(::truncate(path.c_str(), static_cast<off_t>(bytes.size() / 3)), 0);
+      folder.write(GetParam(), bytes);
+    }
+  });
+  int failures = 0;
+  for (int i = 0; i < kReads; ++i) {
+    const auto file = read_mesh(path);
+    if (file) {
+      EXPECT_EQ(file->mesh.vertex_count(), whole->mesh.vertex_count());
+      EXPECT_EQ(file->mesh.face_count(), whole->mesh.face_count());
+    } else {
+      ++failures;
+      EXPECT_EQ(file.error().message.find('\n'), std::string::npos);
+    }
+  }
+  ended = true;
+  writer.join();
+  EXPECT_GT(failures, 0) << "the file was never changed while it was read";
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryFormat, ChangingFile,
+                         testing::Values("a.obj", "a.ply", "a.off", "a.stl"),
+                         [](const auto& test) { return std::string(test.param).substr(2); });
+
+TEST(ObjPieces, GiveTheMeshOfTheWholeWhereverLinesEnd) {
+  std::mt19937_64 random(3);
+  std::uniform_int_distribution<int> any(0, 9999);
+  std::string text = "\xef\xbb\xbf";
+  std::vector<Vec3> positions;
+  std::vector<Face> faces;
+  const char* const ends[] = {"\n", "\r\n", " \\\n\n", " # a remark\n"};
+  while (text.size() < 3'000'000) {
+    const int kind = any(random) % 8;
+    if (kind == 0 && any(random) % 50 == 0) {
+      text += "# " + std::string(static_cast<std::size_t>(40 * any(random)), 'x') + '\n';
+    } else if (kind < 4 || positions.size() < 3) {
+      const Vec3 p(any(random), any(random), any(random));
+      positions.push_back(p);
+      text += "v " + std::to_string(static_cast<int>(p.x())) + " \\\n" +
+              std::to_string(static_cast<int>(p.y())) + ' ' +
+              std::to_string(static_cast<int>(p.z())) + ends[any(random) % 4];
+    } else {
+      const auto count = static_cast<Index>(positions.size());
+      faces.push_back({count - 1, count - 2, count - 3});
+      text += any(random) % 2 == 0
+                  ? "f -1 -2 -3"
+                  : "f " + std::to_string(count) + ' ' + std::to_string(count - 1) + " \\\r\n" +
+                        std::to_string(count - 2);
+      text += ends[any(random) % 4];
+    }
+  }
+  const auto file = read_bytes("a.obj", text);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_TRUE(std::ranges::equal(file->mesh.positions(), positions));
+  EXPECT_TRUE(std::ranges::equal(file->mesh.faces(), faces));
+  // The line of a failure behind many pieces is that of the file.
+  const auto lines = std::ranges::count(text, '\n');
+  for (const char* const bad : {"v 1 x 2\n", "f 1 2 99999999\n"}) {
+    const auto failed = read_bytes("b.obj", text + bad);
+    ASSERT_FALSE(failed);
+    EXPECT_NE(failed.error().message.find(": line " + std::to_string(lines + 1) + ": "),
+              std::string::npos)
+        << failed.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace geotherm::test
