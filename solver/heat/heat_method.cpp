@@ -203,6 +203,13 @@ std::array<double, 2> HeatMethod::t_range() const {
   return {state_->times.t.least() * edge * edge, state_->times.t.most() * edge * edge};
 }
 LaplacianKind HeatMethod::laplacian() const { return state_->surface->laplacian; }
+std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
+  const LaplacianKind asked = state_->options.laplacian;
+  const bool flipped = asked == LaplacianKind::kAuto || asked == LaplacianKind::kIntrinsicDelaunay;
+  const bool is_cover =
+      laplacian() != LaplacianKind::kCotan && laplacian() != LaplacianKind::kIntrinsicDelaunay;
+  return flipped && !is_cover ? state_->surface : nullptr;
+}
 Index HeatMethod::flips() const { return static_cast<Index>(state_->surface->flips.size()); }
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }
 double HeatMethod::memory_mb() const {

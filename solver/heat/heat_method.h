@@ -9,6 +9,7 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/fallback.h"
 #include "solver/mesh/surface_point.h"
@@ -72,6 +73,10 @@ class HeatMethod final : public DistanceMethod {
   double forecast_mb() const;                  ///< the same, as it was foreseen
   const std::vector<std::string>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
+
+  /// The triangulation of the operators, where it is that of the mesh after Delaunay flips: what
+  /// other methods on the same mesh may share. Null where it is a cover or was not to be flipped.
+  std::shared_ptr<const IntrinsicSurface> delaunay_triangulation() const;
 
  private:
   struct State;

@@ -156,4 +156,13 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
   return memory_ended(options);
 }
 
+Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
+                                                        const Progress& progress) {
+  const HeatMethod* const heat = method.heat();
+  if (heat == nullptr || heat != &method) return std::shared_ptr<const WaveSurface>();
+  auto triangulation = heat->delaunay_triangulation();
+  if (!triangulation) return std::shared_ptr<const WaveSurface>();
+  return build_wave_surface(std::move(triangulation), progress);
+}
+
 }  // namespace geotherm
