@@ -72,6 +72,7 @@ struct Session::State {
   struct Early {
     std::uint64_t opening;
     Explored explored;
+    ExploreRequest request;  ///< what it answers, where it does
   };
   struct Answered {
     ExploreRequest request;

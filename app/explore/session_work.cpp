@@ -87,15 +87,10 @@ void Session::State::start(const ExploreRequest& request) {
   requested = request;
   failure.clear();
   const auto job = [this, request](const Progress& progress) {
-    Result<Explored> answer = explorer.explore(request, progress, [&](Explored early) {
-      if (early.a) {
-        Result<Explored> shown = std::move(early);
-        post(Answered{without_check(request), std::move(shown)});
-      } else {
-        post(Early{request.opening, std::move(early)});
-      }
-    });
-    post(Answered{request, std::move(answer)});
+    Answered message{request, explorer.explore(request, progress, [&](Explored early) {
+                       post(Early{request.opening, std::move(early), without_check(request)});
+                     })};
+    post(std::move(message));
   };
   if (worker) {
     worker->start(job, cancel);
@@ -122,6 +117,10 @@ bool Session::State::take() {
   for (auto& message : messages) {
     if (auto* early = std::get_if<Early>(&message)) {
       if (early->opening != opening) continue;  // of a model that is no longer wanted
+      if (early->explored.a) {
+        take_answer(early->request, std::move(early->explored));
+        continue;
+      }
       const std::uint64_t version = explored.version;
       explored = std::move(early->explored);
       explored.version = version + 1;
