@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/explore/explored_picture.h"
 #include "app/outputs.h"
 #include "app/picture/face_view.h"
@@ -108,8 +108,9 @@ Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& sol
 
 /// Solves where sources are given, and fills the data.
 Result<PictureData> prepare(const RenderArguments& arguments, const MethodOptions& options,
-                            const std::vector<Source>& sources, const Progress& progress,
-                            PictureFigures& figures, std::vector<std::string>& warnings) {
+                            const std::vector<Source>& sources, CheckSettings check,
+                            const Progress& progress, PictureFigures& figures,
+                            std::vector<std::string>& warnings) {
   auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
@@ -126,7 +127,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
   QueryOptions query;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
-  auto solved = solve_model(*std::move(model), options, sources, query, progress);
+  if (view == View::kExactError) check.mode = CheckMode::kThorough;
+  auto solved = solve_model(*std::move(model), options, sources, query, check, progress);
   if (!solved && (solved.error().code != ErrorCode::kBadFile || has_area(*mesh))) {
     return solved.error();
   }
@@ -141,16 +143,13 @@ Result<PictureData> prepare(const RenderArguments& arguments, const MethodOption
   add_distances(data, solved->result.distances);
   data.nearest = solved->result.nearest_source;
   if (view == View::kExactError) {
-    auto report = check_error(mesh, options.method, solved->result.distances, solved->sources,
-                              options.threads, with_prefix(progress, "checking: "));
-    if (!report) return report.error();
-    if (report->values.empty()) {
+    const AccuracyReport& report = *solved->error;
+    if (report.values.empty()) {
       return Error{ErrorCode::kBadInput, "--view exact-error: there is nothing to hold --method " +
                                              to_text(options.method) + " against: " +
-                                             report->verdict + "; choose another view"};
+                                             report.verdict + "; choose another view"};
     }
-    add_error(data, report->values, error_title(*report));
-    solved->error = *std::move(report);
+    add_error(data, report.values, error_title(report));
   }
   if (auto drawn = draw_paths(arguments.targets, *solved, data, progress, figures); !drawn) {
     return drawn.error();
@@ -225,6 +224,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.picture);
   add_source_options(command, arguments.sources);
@@ -250,6 +250,13 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
                  "--view " + to_text(settings->view) + " shows the heat u, which --method " +
                      to_text(options->method) + " has not; use --method heat or another view"};
   }
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
+  if (needs_fields(settings->view)) {
+    if (auto fits = refuse_better(*check, "--view " + to_text(settings->view)); !fits) {
+      return fits.error();
+    }
+  }
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, *settings, outputs); !expected) {
     return expected.error();
@@ -271,7 +278,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   figures.device = *std::move(device);
   figures.paths = frame_paths(arguments.output, *settings);
   CommandOutput out;
-  auto data = prepare(arguments, *options, *sources, progress, figures, out.warnings);
+  auto data = prepare(arguments, *options, *sources, *check, progress, figures, out.warnings);
   if (!data) return data.error();
   if (figures.solve) {
     note_unused_options(arguments.method, *options, figures.solve->warnings);
@@ -292,6 +299,10 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = picture_table(figures);
+  if (figures.solve && figures.solve->error) {
+    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures.solve->error,
+                             accuracy_line(*figures.solve->error));
+  }
   out.made = outputs.made();
   return out;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/drawing.h"
 #include "app/options.h"
@@ -18,6 +19,7 @@ struct RenderArguments {
   SourceArguments sources;
   MethodArguments method;
   PictureArguments picture;
+  CheckArguments check;
   std::vector<std::string> targets;  ///< paths lead there from the sources
   std::string output;
   std::string json;

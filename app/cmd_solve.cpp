@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "app/error_cause.h"
 #include "app/many/each.h"
 #include "app/many/pairs.h"
 #include "app/nearest_sources.h"
@@ -14,6 +13,7 @@
 #include "app/report_table.h"
 #include "app/solve_fields.h"
 #include "app/solve_model.h"
+#include "app/text.h"
 #include "solver/heat/heat_method.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
@@ -35,27 +35,6 @@ bool needs_nearest(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, holds_mesh);
 }
 
-/// Holds the distances against a more accurate method, and says why they are wrong. A check that
-/// fails is a warning: the distances are good all the same. Errors: kCancelled.
-Result<void> check_answer(SolveFigures& figures, const Progress& progress) {
-  const MethodOptions& options = figures.options;
-  const auto check = [&]() -> Result<void> {
-    auto report =
-        check_error(figures.model.mesh, options.method, figures.result.distances, figures.sources,
-                    options.threads, with_prefix(progress, "checking: "));
-    if (!report) return report.error();
-    figures.error = *std::move(report);
-    if (!needs_cause(*figures.error, options.method)) return {};
-    return find_cause(*figures.error, figures.model.mesh, options,
-                      figures.method->heat()->relative_t(), figures.sources,
-                      figures.result.distances, with_prefix(progress, "finding the cause: "));
-  };
-  const auto checked = check();
-  if (checked || checked.error().code == ErrorCode::kCancelled) return checked;
-  figures.warnings.push_back("the distances were not checked: " + checked.error().message);
-  return {};
-}
-
 bool has_several_sources(const SolveFigures& figures) {
   return source_groups(figures.sources).count > 1;
 }
@@ -75,8 +54,12 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
-  command.add_flag("--check", arguments.check,
-                   "how wrong the distances are, held against a more accurate method, and why");
+  command
+      .add_flag("--check", arguments.check.check,
+                "holds the distances against the most accurate method that fits, and looks for a "
+                "better setting where they are not good")
+      ->group("Accuracy");
+  add_check_options(command, arguments.check);
   command
       .add_option("--fields", arguments.fields,
                   "writes numbers beside the distances that say where they are right: all, or some "
@@ -134,6 +117,22 @@ Result<void> refuse_options_of_many(const SolveArguments& arguments) {
                      : "--symmetric is about --pairs; leave it out"};
 }
 
+/// A field of the error needs a thorough check; fields of the heat need the heat.
+Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodOptions& options,
+                                  const WantedFields& wanted) {
+  auto settings = check_settings(arguments.check);
+  if (!settings) return settings;
+  if (wanted.has_error() && settings->mode == CheckMode::kUsual) {
+    settings->mode = CheckMode::kThorough;
+  }
+  if (wanted.has_heat() && options.method == MethodKind::kHeat) {
+    if (auto fits = refuse_better(*settings, "--fields " + one_line(arguments.fields)); !fits) {
+      return fits.error();
+    }
+  }
+  return settings;
+}
+
 }  // namespace
 
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress,
@@ -152,6 +151,8 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   const auto wanted = wanted_fields(arguments.fields, options->method, arguments.outputs);
   if (!wanted) return wanted.error();
+  const auto check = settings_of(arguments, *options, *wanted);
+  if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
   auto model = load_model(arguments.model, arguments.reading, progress);
@@ -159,16 +160,14 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   QueryOptions query;
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);
   query.fields = wanted->has_heat();
-  auto figures = solve_model(*std::move(model), *options, *named, query, progress);
+  auto figures = solve_model(*std::move(model), *options, *named, query, *check, progress);
   if (!figures) return figures.error();
   note_unused_options(arguments.method, *options, figures->warnings);
-  if (arguments.check || wanted->has_error()) {
-    if (auto checked = check_answer(*figures, progress); !checked) return checked.error();
-  }
   const auto fields = make_fields(*wanted, *figures);
   if (!fields) return fields.error();
 
-  CommandOutput out{"", figures->warnings, {}};
+  CommandOutput out;
+  out.warnings = figures->warnings;
   const std::vector<double>& distances = figures->result.distances;
   for (const std::string& path : arguments.outputs) {
     if (!report(progress, "writing " + path, 1.0)) {
@@ -192,6 +191,9 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = solve_table(*figures);
+  if (figures->error)
+    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->error,
+                             accuracy_line(*figures->error));
   out.made = outputs.made();
   return out;
 }

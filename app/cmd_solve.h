@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/announce.h"
+#include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/options.h"
 #include "solver/core/progress.h"
@@ -18,7 +19,7 @@ struct SolveArguments {
   MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
-  bool check = false;      ///< against a more accurate method
+  CheckArguments check;
   std::string fields;      ///< quality fields beside the distances, empty: none
   bool labels = false;     ///< nearest sources in .csv and .npy, too
   bool each = false;       ///< a row of distances for each source

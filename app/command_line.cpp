@@ -47,6 +47,9 @@ int print(const CommandOutput& output) {
   for (const std::string& warning : output.warnings) {
     std::fprintf(stderr, "geotherm: warning: %s\n", one_line(warning).c_str());
   }
+  if (!output.note.empty()) {
+    std::fprintf(stderr, "geotherm: %s\n", one_line(output.note).c_str());
+  }
   errno = 0;
   if (std::fwrite(output.text.data(), 1, output.text.size(), stdout) == output.text.size() &&
       std::fflush(stdout) == 0) {

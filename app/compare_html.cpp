@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/answer_check.h"
 #include "app/compare_report.h"
-#include "app/error_check.h"
 #include "app/markup.h"
 #include "app/text.h"
 

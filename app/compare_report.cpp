@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/compare_report.h"
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/report_json.h"
 #include "app/text.h"
 #include "app/text_table.h"

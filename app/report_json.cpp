@@ -119,23 +119,12 @@ Json stages_json(const SetupTiming::Operators& stages) {
           {"renumber", stages.renumber}};
 }
 
-Json error_json(const ErrorReport& report) {
-  const DistanceError& e = report.figures;
-  Json json = {{"reference", to_text(report.reference)},
-               {"mean_relative", e.mean_relative},
-               {"max_of_range", e.max_of_range},
-               {"verdict", report.verdict},
-               {"max", e.max},
-               {"mean_signed", e.mean_signed},
-               {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
-               {"reference_ms", report.milliseconds}};
-  if (report.cause) {
-    json["cause"] = {{"option", report.cause->option},
-                     {"value", report.cause->value},
-                     {"mean_relative_before", report.cause->mean_relative_before},
-                     {"mean_relative_after", report.cause->mean_relative_after}};
-  }
-  return json;
+Json tried_json(const TriedSetting& tried) {
+  return {{"option", tried.option},
+          {"value", tried.value},
+          {"mean_relative", tried.mean_relative},
+          {"max_of_range", tried.max_of_range},
+          {"against", to_text(tried.against)}};
 }
 
 }  // namespace
@@ -261,6 +250,43 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
           {"refinement", refinement_json(*heat)}};
 }
 
+Json error_json(const AccuracyReport& report) {
+  const DistanceError& e = report.figures;
+  const auto figure = [&report](auto value) {
+    return report.measured ? Json(value) : Json(nullptr);
+  };
+  Json json = {{"reference", to_text(report.reference)},
+               {"mean_relative", figure(e.mean_relative)},
+               {"max_of_range", figure(e.max_of_range)},
+               {"verdict", report.verdict},
+               {"cure", report.cure ? tried_json(*report.cure) : Json(nullptr)},
+               {"grade", report.measured ? Json(to_text(report.grade)) : Json(nullptr)},
+               {"max", figure(e.max)},
+               {"mean_signed", figure(e.mean_signed)},
+               {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
+               {"reference_ms", figure(report.milliseconds)}};
+  if (report.cause) {
+    json["cause"] = {{"option", report.cause->option},
+                     {"value", report.cause->value},
+                     {"mean_relative_before", report.cause->mean_relative_before},
+                     {"mean_relative_after", report.cause->mean_relative_after}};
+  }
+  if (!report.tried.empty()) {
+    json["tried"] = Json::array();
+    for (const TriedSetting& tried : report.tried) json["tried"].push_back(tried_json(tried));
+  }
+  return json;
+}
+
+Json error_json(const SampleCheck& check) {
+  Json json = error_json(check.report);
+  if (!check.report.measured) return json;
+  json["sources_checked"] = check.report.sets;
+  json["sources"] = check.of;
+  json["worst_source"] = check.worst;
+  return json;
+}
+
 Json solve_json(const SolveFigures& f) {
   const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
@@ -299,6 +325,7 @@ Json solve_json(const SolveFigures& f) {
     json["regions"] = regions_json(f.sources, f.result.nearest_source);
   }
   if (f.error) json["error"] = error_json(*f.error);
+  if (f.replaced) json["replaced"] = error_json(*f.replaced);
   return json;
 }
 

@@ -28,6 +28,11 @@ Json sources_json(const SourceSet& sources);
 Json options_json(const DistanceMethod& method, const MethodOptions& options,
                   const DistanceResult& answer);
 
+/// The key `error` of every report of distances. Figures of what was not measured are null.
+Json error_json(const AccuracyReport& report);
+/// The same of some of many source sets.
+Json error_json(const SampleCheck& check);
+
 Json solve_json(const SolveFigures& figures);
 
 /// Text with a line end. Objects are indented down to the second level, what is deeper stands on

@@ -131,20 +131,6 @@ void add_times(TextTable& table, const SolveFigures& f) {
   table.add_row({"memory", mb(f.method->memory_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
 }
 
-void add_error_rows(TextTable& table, const ErrorReport& report) {
-  const DistanceError& e = report.figures;
-  if (e.worst == kNoIndex) {
-    table.add_row({"verdict", report.verdict});
-    return;
-  }
-  std::string text = percent(e.mean_relative) + " on average, at most " + percent(e.max_of_range) +
-                     " of the largest distance";
-  text += ", at vertex " + std::to_string(e.worst);
-  table.add_row({"error", text + ", against " + to_text(report.reference) + " (" +
-                              ms(report.milliseconds) + ")"});
-  table.add_row({"verdict", report.verdict});
-}
-
 std::string bounds_in_words(const Quality& q) {
   if (q.below_straight_line == 0 && q.steep_edges == 0) return "kept";
   return counted(q.below_straight_line, "vertex", "vertices") + " below the straight line, " +
@@ -184,7 +170,7 @@ std::string solve_table(const SolveFigures& f) {
     table.add_row({"at sources", "|d| was at most " + significant(q.max_source_distance, 2) +
                                      " before it was set to 0"});
   }
-  if (f.error) add_error_rows(table, *f.error);
+  if (f.error) table.add_row({"error", accuracy_line(*f.error)});
   return table.text();
 }
 

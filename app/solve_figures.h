@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/load_model.h"
 #include "solver/geometry/mesh_report.h"
 #include "solver/method/build_method.h"
@@ -31,8 +31,9 @@ struct SolveFigures {
   DistanceSummary distance;
   double peak_rss_mb = 0;
   std::vector<std::string> warnings;
-  std::optional<ErrorReport> error = {};  ///< where it was asked for
-  double report_ms = 0;                   ///< of what is said about the mesh, where it was timed
+  std::optional<AccuracyReport> error = {};     ///< none: it was not to be checked
+  std::optional<AccuracyReport> replaced = {};  ///< of the poor answer that this one stands for
+  double report_ms = 0;  ///< of what is said about the mesh, where it was timed
 };
 
 }  // namespace geotherm::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <imgui.h>
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/text.h"
 #include "ui/action.h"
 #include "ui/error_plot.h"
@@ -12,7 +12,8 @@
 namespace geotherm::ui {
 namespace {
 
-void draw_figures(Frame& frame, const app::ErrorReport& report) {
+void draw_figures(Frame& frame, const AccuracyReport& report) {
+  if (!report.measured) return draw_note(report.verdict, frame.colours().dim);
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
              "The more accurate method; solved once for these sources.");
@@ -27,7 +28,7 @@ void draw_figures(Frame& frame, const app::ErrorReport& report) {
                "Where the error is largest: " + app::significant(e.max, 3) + " model units.");
   }
   draw_error_plot(frame, report.histogram);
-  draw_note(report.verdict, frame.colours().dim);
+  draw_note(report.verdict, report.is_poor() ? frame.colours().warning : frame.colours().dim);
 }
 
 /// Figures of a vertex are shown at a face that has it.
@@ -51,7 +52,9 @@ void draw_error_panel(Frame& frame) {
   draw_setting_choice(frame, "check", "check");
   const app::Answer* answer = frame.answer();
   if (!answer || !answer->error) {
-    return draw_dim(frame, "Holds the distances against a more accurate method, live.");
+    return draw_dim(frame, frame.state().check == app::Check::kOff
+                               ? "Holds the distances against a more accurate method, live."
+                               : "Not known yet: distances are checked when they rest.");
   }
   draw_figures(frame, *answer->error);
   const float width = button_width(2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "app/answer_check.h"
 #include "app/text.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
@@ -27,6 +28,16 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
                "Vertices in parts without a source: their distance is infinite.",
                frame.colours().warning);
   }
+}
+
+/// How wrong the distances are, by the method wavefront or what the panel of the error names.
+void draw_error(Frame& frame, const AccuracyReport& report) {
+  const ImVec4 colour = report.is_poor() ? frame.colours().warning : frame.colours().text;
+  const std::string tip = app::accuracy_line(report);
+  draw_value(frame, "mean error", app::percent(report.figures.mean_relative), "", tip.c_str(),
+             colour);
+  draw_value(frame, "largest error", app::percent(report.figures.max_of_range), "", tip.c_str(),
+             colour);
 }
 
 /// `heat`: those of the heat method as well.
@@ -80,6 +91,7 @@ void draw_quality_panel(Frame& frame) {
   const app::Answer* answer = frame.answer();
   if (!answer || !frame.model()) return draw_dim(frame, "No answer yet.");
   draw_distances(frame, *answer);
+  if (answer->error && answer->error->measured) draw_error(frame, *answer->error);
   if (is_measured(answer->result.quality)) {
     draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
   } else {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/answer_check.h"
 #include "app/method_words.h"
 #include "app/picture/picture_text.h"
 #include "app/text.h"
@@ -38,6 +39,22 @@ std::string what_is_there(const Frame& frame) {
   if (!value) return {};
   const std::string number = std::isfinite(*value) ? app::significant(*value) : "not reached";
   return (figures.difference ? "A \u2212 B = " : "d = ") + number;
+}
+
+/// How wrong what is shown is, where that is known.
+void draw_error(Frame& frame) {
+  const app::Answer* answer = frame.answer();
+  if (!answer || !answer->error || !answer->error->measured) return;
+  const AccuracyReport& report = *answer->error;
+  ImGui::SameLine(0, frame.px(18));
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        report.is_poor() ? frame.colours().warning : frame.colours().dim);
+  ImGui::TextUnformatted(
+      ("error " + app::percent(report.figures.mean_relative) + ", " + to_text(report.grade))
+          .c_str());
+  ImGui::PopStyleColor();
+  frame.mark("error");
+  draw_tip(frame, app::accuracy_line(report));
 }
 
 struct State {
@@ -82,6 +99,7 @@ void draw_status_bar(Frame& frame) {
   ImGui::TextUnformatted(what_is_shown(frame).c_str());
   ImGui::PopStyleColor();
   frame.mark("shown");
+  draw_error(frame);
   const State state = what_goes_on(frame);
   if (!state.text.empty()) {
     ImGui::SameLine(0, frame.px(18));

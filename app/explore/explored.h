@@ -34,7 +34,7 @@ struct Answer {
   SetupTiming setup;    ///< of the work that these settings needed, with what they took over
   double setup_ms = 0;  ///< the time from a change of settings to the method being ready
   std::vector<std::string> warnings;
-  std::shared_ptr<const ErrorReport> error = {};  ///< null: not asked for
+  std::shared_ptr<const AccuracyReport> error = {};  ///< null: not known, or not asked for
 };
 
 /// A place on the model under one entry of the list of sources.
@@ -63,6 +63,7 @@ struct Explored {
   std::vector<TargetPath> paths;  ///< to ViewerState::target
   std::string path_failure;       ///< why there are none although there is a target; empty: none
   std::string b_failure;          ///< why there is no B although settings are kept; empty: none
+  bool checked = false;           ///< these answers were shown before, without their errors
   std::uint64_t version = 0;      ///< another one with every change
 };
 

@@ -207,7 +207,7 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(
   add(source_warnings);
   add(out.result.warnings);
   add(unreached_notes(model_->mesh, out.distance.unreached));
-  if (request.check != Check::kOff) {
+  if (request.check != Check::kOff && request.check != Check::kOn) {
     if (auto done = check(request, explored.set, out, progress); !done) return done.error();
   }
   return std::make_shared<const Answer>(std::move(out));
@@ -233,6 +233,9 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   }
   if (!request.kept) {
     b_.reset();
+    if (auto done = check_afterwards(request, explored, progress, early); !done) {
+      return done.error();
+    }
     return explored;
   }
   auto b = answer(request, *request.kept, true, explored, *warnings, progress);
@@ -240,10 +243,11 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   if (!b) {  // A is good all the same
     b_.reset();
     explored.b_failure = "B: " + b.error().message;
-    return explored;
+  } else {
+    explored.b = *std::move(b);
+    explored.difference = difference_of(*explored.a, *explored.b);
   }
-  explored.b = *std::move(b);
-  explored.difference = difference_of(*explored.a, *explored.b);
+  if (auto done = check_afterwards(request, explored, progress, early); !done) return done.error();
   return explored;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,

@@ -43,7 +43,7 @@ struct ExploreRequest {
 /// both methods with their factors. For one thread at a time.
 class Explorer {
  public:
-  /// What is there before the whole is: the model alone.
+  /// What is there before the whole is: the model alone, or answers before they are checked.
   using Early = std::function<void(Explored)>;
 
   /// Errors: those of load_model, resolve_sources and HeatMethod; kCancelled.
@@ -70,6 +70,8 @@ class Explorer {
   MethodKind reference_of(const ExploreRequest& request, const Answer& answer) const;
   Result<void> check(const ExploreRequest& request, const SourceSet& sources, Answer& answer,
                      const Progress& progress);
+  Result<void> check_afterwards(const ExploreRequest& request, Explored& explored,
+                                const Progress& progress, const Early& early);
 
   struct Method {
     std::shared_ptr<const DistanceMethod> method;
@@ -95,10 +97,8 @@ class Explorer {
   std::map<std::pair<MethodKind, bool>, OnWaves> on_waves_;
   /// The last distances that others were held against.
   struct Reference {
-    MethodKind kind;
     std::vector<std::string> sources;
-    std::vector<double> distances;
-    double milliseconds;
+    ReferenceAnswers answers;
   };
   std::optional<Reference> reference_;
   /// What finds paths on the streamlines of `method`; for as long as A has that.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an explorer works out beside the distances: methods to hold them against, paths, cells.
 #include "app/explore/explorer.h"
+#include "app/progress_bar.h"
 #include "app/solve_steps.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_method.h"
@@ -87,6 +88,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
 
 MethodKind Explorer::reference_of(const ExploreRequest& request, const Answer& answer) const {
   const Index faces = model_->model.mesh->face_count();
+  if (request.check == Check::kOn) return MethodKind::kWavefront;
   if (request.check == Check::kExact) return MethodKind::kExact;
   if (request.check == Check::kWavefrontFine) return MethodKind::kWavefrontFine;
   // While a source is dragged exact distances must take no longer than a frame or two.
@@ -99,32 +101,65 @@ MethodKind Explorer::reference_of(const ExploreRequest& request, const Answer& a
 /// What cannot be checked is a matter of its own: the distances are good all the same.
 Result<void> Explorer::check(const ExploreRequest& request, const SourceSet& sources,
                              Answer& answer, const Progress& progress) {
-  const MethodKind checked = answer.options.method;
+  const std::shared_ptr<const TriangleMesh>& mesh = model_->model.mesh;
+  const CheckedAnswers answers{
+      *answer.method, answer.options, {&sources, 1}, {&answer.result.distances, 1}};
   MethodOptions options;
   options.threads = answer.options.threads;
   options.method = reference_of(request, answer);
-  if (!is_better(options.method, checked)) {
-    if (request.quality) answer.error = std::make_shared<const ErrorReport>(unchecked(checked));
+  if (!is_better(options.method, answer.options.method)) {
+    if (!request.quality) return {};
+    const CheckMode mode = request.check == Check::kOn ? CheckMode::kUsual : CheckMode::kThorough;
+    answer.error = std::make_shared<const AccuracyReport>(unchecked(answer.options.method, mode));
     return {};
   }
-  if (!reference_ || reference_->kind != options.method || reference_->sources != request.sources) {
+  if (!reference_ || reference_->answers.method != options.method ||
+      reference_->sources != request.sources) {
     reference_.reset();
     const Stopwatch watch;
-    auto method = make(options, nullptr, part_of(progress, 0.0, 0.3));
+    auto method = make(options, nullptr, part_of(progress, 0.0, 0.2));
     auto result = method
-                      ? (*method)->solve(sources, {.quality = false}, part_of(progress, 0.3, 1.0))
+                      ? (*method)->solve(sources, {.quality = false}, part_of(progress, 0.2, 0.6))
                       : Result<DistanceResult>(method.error());
     if (!result && result.error().code == ErrorCode::kCancelled) return result.error();
     if (!result) {
       answer.warnings.push_back("the distances were not checked: " + result.error().message);
       return {};
     }
-    reference_ = Reference{options.method, request.sources, std::move(result->distances),
-                           watch.milliseconds()};
+    ReferenceAnswers better;
+    better.method = options.method;
+    better.distances.push_back(std::move(result->distances));
+    better.milliseconds = watch.milliseconds();
+    reference_ = Reference{request.sources, std::move(better)};
   }
-  answer.error = std::make_shared<const ErrorReport>(
-      error_report(answer.result.distances, reference_->kind, reference_->distances, checked,
-                   reference_->milliseconds));
+  AccuracyReport report =
+      hold_against(answers.distances, answer.options.method, reference_->answers);
+  if (request.quality) {
+    auto found = find_cure(report, mesh, answers, reference_->answers, CheckMode::kUsual,
+                           part_of(progress, 0.6, 1.0));
+    if (!found) return found;
+    auto warning = accuracy_warning(report, accuracy_line(report));
+    if (!warning.empty()) answer.warnings.push_back(std::move(warning));
+  }
+  answer.error = std::make_shared<const AccuracyReport>(std::move(report));
+  return {};
+}
+
+/// Hands the answers out as they are, and then holds them against better ones.
+Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored& explored,
+                                        const Progress& progress, const Early& early) {
+  if (request.check != Check::kOn) return {};
+  early(explored);
+  explored.checked = true;
+  for (auto* const answer : {&explored.a, &explored.b}) {
+    if (!*answer) continue;
+    auto checked = std::make_shared<Answer>(**answer);
+    if (auto done = check(request, explored.set, *checked, with_prefix(progress, "checking: "));
+        !done) {
+      return done;
+    }
+    *answer = std::move(checked);
+  }
   return {};
 }
 

@@ -38,6 +38,8 @@ struct Session::State {
   bool take();
   void say_failure(const Error& error);
   bool close_opening();
+  void note_warnings(const Explored& before);
+  void note_error(const Explored& before);
   void take_answer(const ExploreRequest& request, Result<Explored> answer);
   Result<void> start_compare(const command::Compare& command);
   bool works();
@@ -77,6 +79,7 @@ struct Session::State {
   struct Early {
     std::uint64_t opening;
     Explored explored;
+    ExploreRequest request;  ///< what it answers, where it does
   };
   struct Answered {
     ExploreRequest request;

@@ -34,6 +34,12 @@ std::string summary(const Explored& explored, const Explored& before) {
   return text;
 }
 
+/// What is asked for but for the check of answers that are shown before it.
+ExploreRequest without_check(ExploreRequest request) {
+  if (request.check == Check::kOn) request.check = Check::kOff;
+  return request;
+}
+
 }  // namespace
 
 ExploreRequest Session::State::wanted() const {
@@ -47,8 +53,10 @@ ExploreRequest Session::State::wanted() const {
   request.fields = needs_fields(state.picture.view) || state.picked.has_value();
   request.quality = !dragging;
   const View view = state.picture.view;
-  request.check =
-      state.check == Check::kOff && view == View::kExactError ? Check::kAuto : state.check;
+  const bool usual = state.check == Check::kOff || state.check == Check::kOn;
+  request.check = usual && view == View::kExactError ? Check::kAuto : state.check;
+  // What moves is not checked: it comes to rest first.
+  if (dragging && request.check == Check::kOn) request.check = Check::kOff;
   request.target = state.target;
   request.nearest = view == View::kRegions;
   return request;
@@ -72,17 +80,20 @@ void Session::State::refresh() {
 }
 
 void Session::State::start(const ExploreRequest& request) {
-  const bool other_setup = requested && !requested->same_setup(request);
+  // An answer that is shown and only checked gives way to the next one.
+  const bool only_checks = requested && requested->check == Check::kOn && answered &&
+                           answered->covers(without_check(*requested));
+  const bool cancel = only_checks || (requested && !requested->same_setup(request));
   requested = request;
   failure.clear();
   const auto job = [this, request](const Progress& progress) {
-    Result<Explored> answer = explorer.explore(request, progress, [&](Explored early) {
-      post(Early{request.opening, std::move(early)});
-    });
-    post(Answered{request, std::move(answer)});
+    Answered message{request, explorer.explore(request, progress, [&](Explored early) {
+                       post(Early{request.opening, std::move(early), without_check(request)});
+                     })};
+    post(std::move(message));
   };
   if (worker) {
-    worker->start(job, other_setup);
+    worker->start(job, cancel);
     return;
   }
   job(hooks.progress);
@@ -106,6 +117,10 @@ bool Session::State::take() {
   for (auto& message : messages) {
     if (auto* early = std::get_if<Early>(&message)) {
       if (early->opening != opening) continue;  // of a model that is no longer wanted
+      if (early->explored.a) {
+        take_answer(early->request, std::move(early->explored));
+        continue;
+      }
       const std::uint64_t version = explored.version;
       explored = std::move(early->explored);
       explored.version = version + 1;
@@ -170,6 +185,10 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
     say_failure({ErrorCode::kNumericalFailure, explored.b_failure});
   }
   if (!explored.a) return;
+  if (explored.checked) {
+    note_error(before);
+    return;
+  }
   if (queries.size() >= kMostQueries) queries.erase(queries.begin());
   queries.push_back(
       {solver_at_work(*explored.a->method, explored.a->result), explored.a->result.timing});
@@ -184,11 +203,25 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
     note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);
   }
+  note_warnings(before);
+}
+
+/// What an answer warns of and the one before it did not.
+void Session::State::note_warnings(const Explored& before) {
   for (const std::string& warning : explored.a->warnings) {
     const bool known = before.a && before.model == explored.model &&
                        std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
     if (!known) note(LogLine::Kind::kWarning, warning);
   }
+}
+
+/// How wrong the answer is that was shown before.
+void Session::State::note_error(const Explored& before) {
+  const auto& error = explored.a->error;
+  if (error && error->measured && !error->is_poor()) {
+    note(LogLine::Kind::kNote, "error: " + accuracy_line(*error));
+  }
+  note_warnings(before);
 }
 
 Result<void> Session::State::start_compare(const command::Compare& command) {
@@ -231,6 +264,7 @@ bool Session::stale() const {
   if (s.state.model.empty()) return false;
   ExploreRequest wanted = s.wanted();
   wanted.fields = wanted.quality = false;
+  wanted = without_check(std::move(wanted));
   return !s.answered || !s.answered->covers(wanted);
 }
 

@@ -65,7 +65,8 @@ Result<void> set_colour_map(State& s, const Text& text) {
   return {};
 }
 
-constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOff, "off"},
+constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOn, "on"},
+                                                          {Check::kOff, "off"},
                                                           {Check::kAuto, "auto"},
                                                           {Check::kWavefrontFine, "wavefront-fine"},
                                                           {Check::kExact, "exact"}};
@@ -83,8 +84,9 @@ Result<void> set_check(State& s, const Text& text) {
     s.check = value;
     return {};
   }
-  return Error{ErrorCode::kBadInput,
-               "'" + one_line(text) + "' is no check; there are off, auto, wavefront-fine, exact"};
+  return Error{
+      ErrorCode::kBadInput,
+      "'" + one_line(text) + "' is no check; there are on, off, auto, wavefront-fine, exact"};
 }
 
 const std::vector<Setting>& all() {
@@ -186,7 +188,7 @@ const std::vector<Setting>& all() {
       {"check", "what the distances are held against", false,
        [](const State& s) { return check_text(s.check); }, set_check,
        [] {
-         return Names{"off", "auto", "wavefront-fine", "exact"};
+         return Names{"on", "off", "auto", "wavefront-fine", "exact"};
        }},
       {"view", "what is shown", false, [](const State& s) { return to_text(s.picture.view); },
        [](State& s, const Text& t) { return store(parse_view(t), s.picture.view); },

@@ -22,6 +22,7 @@ enum class Shown {
 /// What distances are held against.
 enum class Check {
   kOff,
+  kOn,    ///< the method wavefront, for answers that rest: they are shown before they are checked
   kAuto,  ///< the best method that fits the mesh (reference_for())
   kWavefrontFine,
   kExact,
@@ -36,7 +37,7 @@ struct ViewerState {
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
   Shown shown = Shown::kA;            ///< kA unless `kept`
-  Check check = Check::kOff;          ///< the view exact-error means kAuto then
+  Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
   std::optional<std::string> target;  ///< paths lead from here to the sources; as `picked`
   PictureSettings picture;            ///< width and height: of saved pictures
   std::optional<std::string> picked;  ///< the point whose figures are shown: face:ID:b0:b1:b2

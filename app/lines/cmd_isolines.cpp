@@ -81,6 +81,7 @@ Json isolines_json(const SolveFigures& figures, const std::vector<double>& level
                {"levels", levels},
                {"lines", Json::array()},
                {"warnings", figures.warnings}};
+  if (figures.error) json["error"] = error_json(*figures.error);
   double total = 0;
   for (const Isoline& line : lines) {
     total += line.path.length;
@@ -114,7 +115,8 @@ std::string isolines_table(const SolveFigures& figures, const std::vector<double
          counted(static_cast<std::int64_t>(lines.size()), "line", "lines") + " at " +
          counted(static_cast<std::int64_t>(levels.size()), "level", "levels") +
          ", distances up to " + significant(figures.distance.max) + " (" +
-         to_text(figures.method->kind()) + ")\n" + table.text();
+         to_text(figures.method->kind()) + ")\n" +
+         (figures.error ? "error: " + accuracy_line(*figures.error) + '\n' : "") + table.text();
 }
 
 LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isoline>& lines) {
@@ -142,6 +144,7 @@ void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
                   "of levels, evenly between 0 and the largest distance")
       ->type_name("N");
   add_line_file_options(command, arguments.files, "the lines");
+  add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_backend_option(command, arguments.method);
   add_method_options(command, arguments.method);
@@ -156,6 +159,8 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!options) return options.error();
   const auto asked = levels_in(arguments);
   if (!asked) return asked.error();
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
   Outputs outputs;
   protect_inputs(arguments.model, arguments.sources, outputs);
   const auto settings = expect_line_files(arguments.files, outputs);
@@ -164,7 +169,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!named) return named.error();
   auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
-  auto figures = solve_model(*std::move(model), *options, *named, {}, progress);
+  auto figures = solve_model(*std::move(model), *options, *named, {}, *check, progress);
   if (!figures) return figures.error();
   note_unused_options(arguments.method, *options, figures->warnings);
   const auto levels = levels_up_to(figures->distance.max, *asked);
@@ -184,6 +189,9 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
         arguments.files.json, to_text(isolines_json(*figures, *levels, lines)), out.text);
     if (!json) return json.error();
   }
+  if (figures->error)
+    out.note = accuracy_note(arguments.files.json, outputs, arguments.quiet, *figures->error,
+                             accuracy_line(*figures->error));
   if (!outputs.uses_stdout()) out.text = isolines_table(*figures, *levels, lines);
   out.made = outputs.made();
   return out;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/lines/line_files.h"
 #include "app/options.h"
@@ -16,6 +17,7 @@ struct IsolinesArguments {
   MethodArguments method;
   std::string spacing, count;  ///< one of them is given
   LineFileArguments files;
+  CheckArguments check;
   bool quiet = false;
 };
 

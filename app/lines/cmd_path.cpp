@@ -6,6 +6,7 @@
 #include "app/lines/path_report.h"
 #include "app/load_model.h"
 #include "app/option_value.h"
+#include "app/progress_bar.h"
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
 #include "app/text.h"
@@ -93,9 +94,25 @@ Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const
   return out;
 }
 
+/// Holds the distances from the start, which lead the way, against better ones. Errors: kCancelled.
+Result<void> check_way(const PathTask& task, const SurfacePoint& start,
+                       const DistanceMethod& method, CheckMode mode, const Progress& progress,
+                       PathFigures& figures) {
+  if (mode == CheckMode::kNone) return {};
+  SourceSet from;
+  from.points.push_back(start);
+  auto check = check_sample(figures.model.mesh, method, task.method, {&from, 1}, mode, true,
+                            with_prefix(part_of(progress, 0.9, 1.0), "checking: "));
+  if (!check) return check.error();
+  auto warning = accuracy_warning(check->report, accuracy_line(check->report));
+  if (!warning.empty()) figures.warnings.push_back(std::move(warning));
+  figures.error = std::move(check->report);
+  return {};
+}
+
 /// One path for each target: they share the start and the way-points.
-Result<void> find_paths(const PathTask& task, std::size_t targets, const Progress& progress,
-                        PathFigures& figures) {
+Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mode,
+                        const Progress& progress, PathFigures& figures) {
   auto points = place(task.points, *figures.model.mesh, figures.warnings);
   if (!points) return points.error();
   Stopwatch watch;
@@ -103,7 +120,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, const Progres
   if (!method) return about_model(figures.model.name, method.error());
   const auto& about_method = (*method)->warnings();
   figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
-  const PathFinder finder(figures.model.mesh, *std::move(method));
+  const PathFinder finder(figures.model.mesh, *method);
   figures.setup_ms = watch.milliseconds();
   const Stopwatch finding;
   const std::size_t shared = points->size() - targets;
@@ -125,7 +142,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, const Progres
     figures.paths.push_back({std::move(stops), std::move(found->path)});
   }
   figures.path_ms = finding.milliseconds();
-  return {};
+  return check_way(task, points->front(), **method, mode, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
@@ -180,6 +197,7 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
                   "distance (-grad phi), heat (X of the heat method)")
       ->type_name("NAME");
   add_line_file_options(command, arguments.files, "the path");
+  add_no_check_option(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_backend_option(command, arguments.method);
   add_method_options(command, arguments.method);
@@ -195,16 +213,18 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
 Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress) {
   const auto task = task_of(arguments);
   if (!task) return task.error();
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
   const auto settings = expect_line_files(arguments.files, outputs);
   if (!settings) return settings.error();
   auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
-  PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}};
+  PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
   if (auto pin = check_pin(task->method.constraint, *figures.model.mesh); !pin) return pin.error();
-  if (auto found = find_paths(*task, arguments.to.size(), progress, figures); !found) {
+  if (auto found = find_paths(*task, arguments.to.size(), check->mode, progress, figures); !found) {
     return found.error();
   }
   note_unused_options(arguments.method, task->method, figures.warnings);

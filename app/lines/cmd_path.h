@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/lines/line_files.h"
 #include "app/options.h"
@@ -19,6 +20,7 @@ struct PathArguments {
   bool closed = false, hold = false;
   MethodArguments method;  ///< `method` empty: the best for the field
   LineFileArguments files;
+  CheckArguments check;
   bool quiet = false;
 
   PathArguments() { method.method.clear(); }

@@ -64,6 +64,7 @@ Json path_json(const PathFigures& figures) {
        {"timing_ms",
         {{"load", figures.model.load_ms}, {"setup", figures.setup_ms}, {"path", figures.path_ms}}},
        {"warnings", figures.warnings}});
+  if (figures.error) json["error"] = error_json(*figures.error);
   return json;
 }
 
@@ -74,6 +75,9 @@ std::string path_table(const PathFigures& figures) {
                               ", " + counted(figures.model.mesh->face_count(), "face", "faces")});
   table.add_row({"field", to_text(figures.options.field) + ", led by distances of " +
                               to_text(figures.method.method)});
+  if (figures.error && figures.error->measured) {
+    table.add_row({"error", "of the distances: " + accuracy_line(*figures.error)});
+  }
   table.add_row({"set-up", milliseconds(figures.setup_ms) + " ms"});
   table.add_row({"search", milliseconds(figures.path_ms) + " ms"});
   for (const FoundLine& line : figures.paths) {

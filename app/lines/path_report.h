@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct PathFigures {
   std::vector<FoundLine> paths;
   double setup_ms = 0, path_ms = 0;
   std::vector<std::string> warnings;
+  std::optional<AccuracyReport> error;  ///< of the distances from the start that lead the way
 };
 
 /// The first path's keys, then those of the work; with several paths each is in `paths`. points[i]

@@ -54,35 +54,79 @@ Result<void> expect_outputs(const SampleArguments& arguments, Outputs& outputs) 
   return outputs.expect(arguments.json, "--json");
 }
 
+/// What is asked for.
+struct SampleTask {
+  MethodOptions options;
+  CheckSettings check;
+  Index count = 0, first = kNoIndex;
+};
+
+Result<FarthestPoints> take_samples(const DistanceMethod& method, const TriangleMesh& mesh,
+                                    const SampleTask& task, const Progress& progress,
+                                    const Announce& announce) {
+  return farthest_points(
+      method, mesh, task.count, {task.first},
+      with_estimate(progress, announce, kSamplesStage, counted(task.count, "sample", "samples"),
+                    bytes_in_words(method.memory_mb() * kMegabyte) + " of memory for the method"));
+}
+
+/// Checks the method on some of the samples, and takes them again by the method that answers
+/// instead of a poor one.
+Result<void> check_samples(const SampleTask& task, const Progress& progress,
+                           const Announce& announce, SampleFigures& figures) {
+  std::vector<SourceSet> sets;
+  for (const FarthestSample& sample : figures.points.samples) {
+    sets.push_back(SourceSet::of_vertices({sample.vertex}));
+  }
+  auto checked = check_method(figures.model.mesh, figures.method, task.options, sets, task.check,
+                              part_of(progress, 0.0, 0.5));
+  if (!checked) return checked.error();
+  figures.error = std::move(checked->error);
+  figures.warnings = std::move(checked->warnings);
+  if (!checked->replaced) return {};
+  figures.replaced = std::move(checked->replaced);
+  figures.method = checked->method;
+  figures.options = checked->options;
+  const Stopwatch watch;
+  auto points = take_samples(*figures.method, *figures.model.mesh, task,
+                             part_of(progress, 0.5, 1.0), announce);
+  if (!points) return points.error();
+  figures.points = *std::move(points);
+  figures.sampling_ms = watch.milliseconds();
+  return {};
+}
+
 /// Without the model, which has to be loaded first.
-Result<SampleFigures> sample(Model model, const SampleArguments& arguments,
-                             const MethodOptions& options, Index count, Index first,
+Result<SampleFigures> sample(Model model, const MethodArguments& arguments, const SampleTask& task,
                              const Progress& progress, const Announce& announce) {
-  if (auto pin = check_pin(options.constraint, *model.mesh); !pin) return pin.error();
+  constexpr double kSampled = 0.9;
+  if (auto pin = check_pin(task.options.constraint, *model.mesh); !pin) return pin.error();
   // What cannot be asked for is said before the set-up.
-  if (auto fits = check_sampling(*model.mesh, count, {first}); !fits) {
+  if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
     return Error{fits.error().code, one_line(model.name) + ": " + fits.error().message};
   }
-  auto method = build_method(model.mesh, options, part_of(progress, 0.0, kSetupShare));
+  auto method = build_method(model.mesh, task.options, part_of(progress, 0.0, kSetupShare));
   if (!method) return about_model(model.name, method.error());
   const Stopwatch watch;
-  auto points = farthest_points(**method, *model.mesh, count, {first},
-                                with_estimate(part_of(progress, kSetupShare, 1.0), announce,
-                                              kSamplesStage, counted(count, "sample", "samples"),
-                                              bytes_in_words((*method)->memory_mb() * kMegabyte) +
-                                                  " of memory for the method"));
+  const bool checks = task.check.mode != CheckMode::kNone;
+  auto points = take_samples(**method, *model.mesh, task,
+                             part_of(progress, kSetupShare, checks ? kSampled : 1.0), announce);
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
-  const double peak = peak_rss_mb();
+  const double peak = peak_rss_mb();  // of the work, not of its check
   const MeshReport mesh = inspect_mesh(*model.mesh);
   SampleFigures figures{std::move(model),
                         mesh,
                         *std::move(method),
-                        options,
+                        task.options,
                         *std::move(points),
                         sampling_ms,
                         peak,
                         {}};
+  if (checks) {
+    const auto done = check_samples(task, part_of(progress, kSampled, 1.0), announce, figures);
+    if (!done) return about_model(figures.model.name, done.error());
+  }
   const auto add_warnings = [&figures](const std::vector<std::string>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
   };
@@ -91,7 +135,7 @@ Result<SampleFigures> sample(Model model, const SampleArguments& arguments,
   add_warnings(figures.points.first.warnings);
   const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
   add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
-  note_unused_options(arguments.method, options, figures.warnings);
+  note_unused_options(arguments, task.options, figures.warnings);
   return figures;
 }
 
@@ -146,6 +190,7 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
+  add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_backend_option(command, arguments.method);
   add_method_options(command, arguments.method);
@@ -169,12 +214,14 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
     if (!vertex) return vertex.error();
     first = *vertex;
   }
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   auto model = load_model(arguments.model, arguments.reading, progress);
   if (!model) return model.error();
-  const auto figures =
-      sample(*std::move(model), arguments, *options, *count, first, progress, announce);
+  const auto figures = sample(*std::move(model), arguments.method,
+                              {*options, *check, *count, first}, progress, announce);
   if (!figures) return figures.error();
 
   CommandOutput out{"", figures->warnings, {}};
@@ -192,6 +239,10 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
     const auto written =
         outputs.write_text(arguments.json, to_text(sample_json(*figures)), out.text);
     if (!written) return written.error();
+  }
+  if (figures->error) {
+    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, figures->error->report,
+                             accuracy_line(*figures->error));
   }
   if (!outputs.uses_stdout()) out.text = sample_table(*figures);
   out.made = outputs.made();

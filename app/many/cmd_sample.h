@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/announce.h"
+#include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/options.h"
 #include "solver/core/progress.h"
@@ -20,6 +21,7 @@ struct SampleArguments {
   std::vector<std::string> outputs;  ///< distances and labels of every vertex
   std::string samples;               ///< where the list of samples goes
   std::string json;
+  CheckArguments check;
   bool quiet = false;
 };
 

@@ -116,6 +116,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
         arguments.json, to_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
     if (!reported) return reported.error();
   }
+  out.note = sample_note(arguments, outputs, *figures);
   if (!outputs.uses_stdout()) {
     out.text = many_table(*work, *figures,
                           {{"model", one_line(work->model.name)},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/machine.h"
+#include "app/progress_bar.h"
 #include "app/solve_steps.h"
 #include "app/text.h"
 #include "app/text_table.h"
@@ -49,7 +50,7 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
                  other + " is about one source set, and " + option +
                      " solves for each source by itself; leave one of them out"};
   };
-  if (arguments.check) return refuse("--check");
+  if (arguments.check.check) return refuse("--check");
   if (!arguments.fields.empty()) return refuse("--fields");
   if (arguments.labels) return refuse("--labels");
   return {};
@@ -58,6 +59,8 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
 Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
   const auto options = method_options(arguments.method);
   if (!options) return options.error();
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
   auto model = load_model(arguments.model, arguments.reading, progress);
@@ -69,7 +72,7 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
       std::min(good_chunk(model->mesh->vertex_count(), options->threads, free_memory()),
                sources->sets.size());
   const MeshReport mesh = inspect_mesh(*model->mesh);
-  return ManySources{*std::move(model), mesh, *options, *std::move(sources), chunk};
+  return ManySources{*std::move(model), mesh, *options, *std::move(sources), *check, chunk};
 }
 
 Result<void> check_room(const std::string& path, double bytes) {
@@ -84,12 +87,24 @@ Result<void> check_room(const std::string& path, double bytes) {
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce) {
-  auto method = build_method(work.model.mesh, work.options, part_of(progress, 0.0, kSetupShare));
+  constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
+  auto method = build_method(work.model.mesh, work.options, part_of(progress, 0.0, kMethodShare));
   if (!method) return about_model(work.model.name, method.error());
   keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
   figures.method = *std::move(method);
+  figures.options = work.options;
   add_warnings(figures.warnings, work.model.notes);
+  if (work.check.mode != CheckMode::kNone) {
+    auto checked = check_method(work.model.mesh, figures.method, work.options, work.sources.sets,
+                                work.check, part_of(progress, kMethodShare, kSetupShare));
+    if (!checked) return about_model(work.model.name, checked.error());
+    figures.method = checked->method;
+    figures.options = checked->options;
+    figures.error = std::move(checked->error);
+    figures.replaced = std::move(checked->replaced);
+    add_warnings(figures.warnings, checked->warnings);
+  }
   add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 
@@ -135,6 +150,45 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   return figures;
 }
 
+Result<CheckedMethod> check_method(const std::shared_ptr<const TriangleMesh>& mesh,
+                                   std::shared_ptr<const DistanceMethod> method,
+                                   const MethodOptions& options, std::span<const SourceSet> sets,
+                                   const CheckSettings& settings, const Progress& progress) {
+  const Progress checking = with_prefix(progress, "checking: ");
+  const bool replaces = settings.on_poor == OnPoor::kBetter;
+  auto check = check_sample(mesh, *method, options, sets, settings.mode, !replaces, checking);
+  if (!check) return check.error();
+  CheckedMethod out{std::move(method), options, *std::move(check), {}, {}};
+  const std::string line = accuracy_line(out.error);
+  if (settings.on_poor == OnPoor::kFail) {
+    if (auto right = refuse_poor(out.error.report, line); !right) return right.error();
+  }
+  if (!replaces || !out.error.report.is_poor()) {
+    if (auto warning = accuracy_warning(out.error.report, line); !warning.empty()) {
+      out.warnings.push_back(std::move(warning));
+    }
+    return out;
+  }
+  out.options = better_options(options);
+  auto better = build_method(mesh, out.options, checking);
+  if (!better) return better.error();
+  auto judged = check_sample_against(mesh, **better, out.options, sets,
+                                     judge_of_better(settings.mode, mesh->face_count()),
+                                     *out.method, checking);
+  if (!judged) return judged.error();
+  out.warnings.push_back(replaced_note(options, out.options, line));
+  out.replaced = std::exchange(out.error, *std::move(judged));
+  out.method = *std::move(better);
+  return out;
+}
+
+std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
+                        const ManyFigures& figures) {
+  if (!figures.error) return {};
+  return accuracy_note(arguments.json, outputs, arguments.quiet, figures.error->report,
+                       accuracy_line(*figures.error));
+}
+
 std::string unreached_note(const ManySources& work, std::int64_t unreached) {
   return counted(unreached, "distance is", "distances are") +
          " infinite: no way leads there from the source (" +
@@ -153,9 +207,9 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
   }
   const SetupTiming& setup = figures.method->timing();
   const auto rows = static_cast<double>(work.sources.sets.size());
-  return {
+  Json json = {
       {"model", model_json(work.model.name, work.mesh)},
-      {"options", options_json(*figures.method, work.options, figures.first)},
+      {"options", options_json(*figures.method, figures.options, figures.first)},
       {"sources", std::move(sources)},
       {"timing_ms",
        {{"load", work.model.load_ms},
@@ -167,6 +221,9 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
       {"warnings", figures.warnings}};
+  if (figures.error) json["error"] = error_json(*figures.error);
+  if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
+  return json;
 }
 
 std::string many_table(const ManySources& work, const ManyFigures& figures,
@@ -181,6 +238,7 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
                                 milliseconds(figures.queries_ms / rows) + " ms each"});
+  if (figures.error) table.add_row({"error", accuracy_line(*figures.error)});
   return table.text();
 }
 

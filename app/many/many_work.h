@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/announce.h"
+#include "app/answer_check.h"
 #include "app/cmd_solve.h"
 #include "app/load_model.h"
 #include "app/report_json.h"
@@ -31,6 +33,7 @@ struct ManySources {
   MeshReport mesh;
   MethodOptions options;
   EachSource sources;
+  CheckSettings check;
   std::size_t chunk = 1;  ///< sources solved at once
 };
 
@@ -41,6 +44,9 @@ struct ManyFigures {
   double queries_ms = 0;  ///< from the first source to the last row
   double peak_rss_mb = 0;
   std::vector<std::string> warnings;
+  MethodOptions options;                ///< of `method`
+  std::optional<SampleCheck> error;     ///< of some of the sources; none: not to be checked
+  std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for
 };
 
 /// Takes the distances from source number `row`. In the order of the sources. An error ends the
@@ -59,18 +65,39 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
 /// Whether a file of so many bytes fits where it is to be. Errors: kBadFile, with both sizes.
 Result<void> check_room(const std::string& path, double bytes);
 
-/// Sets the method up and hands every row to `take`. `output`: what will be written, for the
-/// estimate. Warnings: those of model, sources, method,
-/// the first answers.
+/// Sets the method up, checks it on some of the sources and hands every row to `take`. `output`:
+/// what will be written, for the estimate. Warnings: those of model, sources, method, the check and
+/// the first answers. Errors: those of the work, kNumericalFailure (OnPoor::kFail, before any row).
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce);
+
+/// accuracy_note() of what was checked.
+std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
+                        const ManyFigures& figures);
 
 /// Says why so many distances are infinite.
 std::string unreached_note(const ManySources& work, std::int64_t unreached);
 
 /// model, options, sources, timing_ms, memory_mb, warnings: what both reports begin with.
 Json many_json(const ManySources& work, const ManyFigures& figures);
+
+/// What was found out about a method on many sources, and the method that takes the work on.
+struct CheckedMethod {
+  std::shared_ptr<const DistanceMethod> method;
+  MethodOptions options;
+  SampleCheck error;
+  std::optional<SampleCheck> replaced;
+  std::vector<std::string> warnings;
+};
+
+/// Checks a method on some of the source sets, and does what is to be done where it is poor.
+/// Precondition: settings.mode is not kNone. Errors: kNumericalFailure (OnPoor::kFail), those of
+/// queries, kCancelled.
+Result<CheckedMethod> check_method(const std::shared_ptr<const TriangleMesh>& mesh,
+                                   std::shared_ptr<const DistanceMethod> method,
+                                   const MethodOptions& options, std::span<const SourceSet> sets,
+                                   const CheckSettings& settings, const Progress& progress);
 
 /// What people see: `first_rows`, then method, set-up and queries.
 std::string many_table(const ManySources& work, const ManyFigures& figures,

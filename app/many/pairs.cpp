@@ -227,6 +227,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
         out.text);
     if (!written) return written.error();
   }
+  out.note = sample_note(arguments, outputs, *figures);
   if (!outputs.uses_stdout()) {
     out.text = pairs_table(*work, *figures, pairs, apart, arguments.symmetric);
   }

@@ -40,20 +40,23 @@ Json sample_json(const SampleFigures& f) {
                        {"radius", sample.radius},
                        {"cell", cells[i]}});
   }
-  return {{"model", model_json(f.model.name, f.mesh)},
-          {"options", options_json(*f.method, f.options, f.points.first)},
-          {"count", f.points.samples.size()},
-          {"radius", f.points.radius()},
-          {"separation", f.points.separation()},
-          {"unreached", std::ranges::count(f.points.distances, kUnreached)},
-          {"samples", std::move(samples)},
-          {"timing_ms",
-           {{"load", f.model.load_ms},
-            {"setup", f.method->timing().setup},
-            {"sampling", f.sampling_ms},
-            {"query", f.points.query_ms}}},
-          {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
-          {"warnings", f.warnings}};
+  Json json = {{"model", model_json(f.model.name, f.mesh)},
+               {"options", options_json(*f.method, f.options, f.points.first)},
+               {"count", f.points.samples.size()},
+               {"radius", f.points.radius()},
+               {"separation", f.points.separation()},
+               {"unreached", std::ranges::count(f.points.distances, kUnreached)},
+               {"samples", std::move(samples)},
+               {"timing_ms",
+                {{"load", f.model.load_ms},
+                 {"setup", f.method->timing().setup},
+                 {"sampling", f.sampling_ms},
+                 {"query", f.points.query_ms}}},
+               {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
+               {"warnings", f.warnings}};
+  if (f.error) json["error"] = error_json(*f.error);
+  if (f.replaced) json["replaced"] = error_json(*f.replaced);
+  return json;
 }
 
 std::string sample_table(const SampleFigures& f) {
@@ -79,6 +82,7 @@ std::string sample_table(const SampleFigures& f) {
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
   figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +
                                    milliseconds(points.query_ms) + " ms each"});
+  if (f.error) figures.add_row({"error", accuracy_line(*f.error)});
   constexpr auto kRight = TextTable::Align::kRight;
   TextTable list({{"sample", kRight}, {"vertex", kRight}, {"radius", kRight}, {"cell", kRight}});
   const std::vector<Index> cells = cell_sizes(points);

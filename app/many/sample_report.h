@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct SampleFigures {
   double sampling_ms = 0;
   double peak_rss_mb = 0;
   std::vector<std::string> warnings;
+  std::optional<SampleCheck> error = {};     ///< of some samples; none: not to be checked
+  std::optional<SampleCheck> replaced = {};  ///< of the poor method that this one stands for
 };
 
 Json sample_json(const SampleFigures& figures);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/heat/option_text.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/error_check.h"
+#include "app/answer_check.h"
 #include "app/markup.h"
 #include "app/study/log_plot.h"
 #include "app/study/study_report.h"

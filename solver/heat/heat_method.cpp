@@ -212,6 +212,10 @@ std::array<double, 2> HeatMethod::t_range() const {
 LaplacianKind HeatMethod::laplacian() const { return state_->surface->laplacian; }
 Index HeatMethod::flips() const { return state_->surface->flips; }
 const RefinementCounts& HeatMethod::refinement() const { return state_->surface->refinement; }
+std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
+  const bool flipped = state_->options.laplacian != LaplacianKind::kCotan;
+  return flipped && !state_->surface->tufted ? state_->surface : nullptr;
+}
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }
 double HeatMethod::memory_mb() const {
   const std::int64_t bytes = state_->heat->stats().bytes + state_->poisson->stats().bytes;

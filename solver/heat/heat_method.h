@@ -10,6 +10,7 @@
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
 #include "solver/geometry/intrinsic_refinement.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/fallback.h"
 #include "solver/mesh/surface_point.h"
@@ -79,6 +80,10 @@ class HeatMethod final : public DistanceMethod {
   double forecast_mb() const;                  ///< the same, as it was foreseen
   const std::vector<std::string>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
+
+  /// The triangulation of the operators, where it is Delaunay and no cover, inserted vertices
+  /// included: what waves on the same mesh may share. Null otherwise.
+  std::shared_ptr<const IntrinsicSurface> delaunay_triangulation() const;
 
  private:
   struct State;

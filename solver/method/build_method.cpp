@@ -51,7 +51,9 @@ Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions&
     return std::shared_ptr<const DistanceMethod>(
         std::make_shared<const HeatMethod>(*std::move(built)));
   }
-  if (!waves) {
+  const bool walks_on_inserted = options.method == MethodKind::kWavefront ||
+                                 options.method == MethodKind::kWavefrontFine;
+  if (!waves || (waves->base.refinement.points > 0 && !walks_on_inserted)) {
     auto made =
         build_wave_surface(mesh, part_of(progress, 0.0, 0.5), thread_count(options.threads));
     if (!made) return made.error();
@@ -154,6 +156,15 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
   return mapped(outer->mapping(), beside(*heat, *inner, progress));
 } catch (const std::bad_alloc&) {
   return memory_ended(options);
+}
+
+Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
+                                                        const Progress& progress) {
+  const HeatMethod* const heat = method.heat();
+  if (heat == nullptr || heat != &method) return std::shared_ptr<const WaveSurface>();
+  auto triangulation = heat->delaunay_triangulation();
+  if (!triangulation) return std::shared_ptr<const WaveSurface>();
+  return build_wave_surface(std::move(triangulation), progress);
 }
 
 }  // namespace geotherm

@@ -38,4 +38,9 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_near(
     std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
     const DistanceMethod* near, const Progress& progress = {});
 
+/// What waves walk over, on the triangulation that a heat method has made. Null where `method` is
+/// none, or has another triangulation or mesh. Errors: those of build_wave_surface().
+Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
+                                                        const Progress& progress = {});
+
 }  // namespace geotherm

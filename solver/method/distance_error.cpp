@@ -45,6 +45,52 @@ DistanceError distance_error(std::span<const double> d, std::span<const double> 
   return error;
 }
 
+JointError joint_error(std::span<const std::vector<double>> d,
+                       std::span<const std::vector<double>> e) {
+  JointError joint;
+  DistanceError& all = joint.figures;
+  double count = 0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const DistanceError one = distance_error(d[i], e[i]);
+    all.differently_reached += one.differently_reached;
+    if (one.worst == kNoIndex) continue;
+    ++count;
+    all.mean_relative += (one.mean_relative - all.mean_relative) / count;
+    all.mean_signed += (one.mean_signed - all.mean_signed) / count;
+    if (all.worst != kNoIndex && one.max_of_range <= all.max_of_range) continue;
+    all.max_of_range = one.max_of_range;
+    all.max = one.max;
+    all.worst = one.worst;
+    joint.worst_set = i;
+  }
+  return joint;
+}
+
+Grade grade_of(const DistanceError& error) {
+  if (error.max_of_range > kMostOfRange || error.differently_reached > 0) return Grade::kPoor;
+  if (error.mean_relative <= kNearExactError) return Grade::kNearExact;
+  if (error.mean_relative <= kGoodError) return Grade::kGood;
+  return error.mean_relative <= kFairError ? Grade::kFair : Grade::kPoor;
+}
+
+double badness(const DistanceError& error) {
+  return std::max(error.mean_relative / kGoodError, error.max_of_range / kMostOfRange);
+}
+
+std::string to_text(Grade grade) {
+  switch (grade) {
+    case Grade::kNearExact:
+      return "near exact";
+    case Grade::kGood:
+      return "good";
+    case Grade::kFair:
+      return "fair";
+    case Grade::kPoor:
+      break;
+  }
+  return "poor";
+}
+
 std::vector<double> signed_error(std::span<const double> d, std::span<const double> e) {
   std::vector<double> out(e.size(), kUnreached);
   for (std::size_t i = 0; i < e.size(); ++i) {

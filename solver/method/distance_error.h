@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solver/core/types.h"
@@ -21,6 +23,34 @@ struct DistanceError {
 
 /// Precondition: the same size. Cost: O(V).
 DistanceError distance_error(std::span<const double> d, std::span<const double> e);
+
+/// The same over several source sets: the mean of the mean errors, the largest of the largest.
+struct JointError {
+  DistanceError figures;
+  std::size_t worst_set = 0;  ///< of DistanceError::worst
+};
+/// Preconditions: as many of both, the same size in each pair.
+JointError joint_error(std::span<const std::vector<double>> d,
+                       std::span<const std::vector<double>> e);
+
+/// How right an answer is, in a word.
+enum class Grade { kNearExact, kGood, kFair, kPoor };
+
+/// Bounds of the mean relative error up to which an answer is near exact, good and fair, and of the
+/// largest error, as a share of the largest distance, above which it is poor whatever its mean: a
+/// few grossly wrong vertices do not show in that.
+inline constexpr double kNearExactError = 1e-3, kGoodError = 0.02, kFairError = 0.05;
+inline constexpr double kMostOfRange = 0.05;
+
+/// kPoor as well where one of both reaches vertices that the other does not.
+Grade grade_of(const DistanceError& error);
+
+/// How far an answer is from being good: at most 1 where it is. The larger of the mean error over
+/// kGoodError and the largest over kMostOfRange.
+double badness(const DistanceError& error);
+
+/// near exact | good | fair | poor
+std::string to_text(Grade grade);
 
 /// V: d - e, infinite where either is.
 std::vector<double> signed_error(std::span<const double> d, std::span<const double> e);

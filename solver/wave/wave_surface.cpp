@@ -94,10 +94,21 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
                                         part_of(progress, 0.0, 0.9), threads);
     if (!base) return base.error();
-    if (!report(progress, "operators", 0.9)) return cancelled_error();
-    auto surface = std::make_shared<WaveSurface>();
-    surface->base = std::move(*base);
-    surface->base.corners = {};
+    auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
+    triangulation->corners = {};
+    return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(triangulation)),
+                              part_of(progress, 0.9, 1.0));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("triangulation", faces);
+  }
+}
+
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress) {
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
+  const Index faces = triangulation->mesh->face_count();
+  try {
+    auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
     name_edges_by_first_side(*surface);
     list_sides(*surface);
     return std::shared_ptr<const WaveSurface>(std::move(surface));

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/geometry/intrinsic_surface.h"
@@ -13,9 +14,15 @@ namespace geotherm {
 /// The intrinsic Delaunay triangulation with its edges, whatever number of faces they have: what
 /// waves, fast marching and windows walk over. Immutable; one serves all of them.
 struct WaveSurface {
-  IntrinsicSurface base;
-  std::vector<Index> edge_of_side;      ///< 3F: number of the edge
-  std::vector<std::size_t> side_start;  ///< E + 1
+  explicit WaveSurface(std::shared_ptr<const IntrinsicSurface> triangulation)
+      : shared(std::move(triangulation)), base(*shared) {}
+  WaveSurface(const WaveSurface&) = delete;
+  WaveSurface& operator=(const WaveSurface&) = delete;
+
+  std::shared_ptr<const IntrinsicSurface> shared;  ///< a heat method may use it as well
+  const IntrinsicSurface& base;                    ///< the same
+  std::vector<Index> edge_of_side;                 ///< 3F: number of the edge
+  std::vector<std::size_t> side_start;             ///< E + 1
   std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is border, 3 and
                             ///< more a non-manifold edge. Two sides may run opposite ways or not.
 
@@ -29,6 +36,11 @@ struct WaveSurface {
 /// Errors: those of build_intrinsic_surface(), kOutOfMemory. Cost: O(F + flips).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
+
+/// The same on a triangulation that is there. Precondition: it is Delaunay, and no cover. Only
+/// WavefrontMethod walks over inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 
 /// `stage`: what the memory ended in.
 Error wave_out_of_memory(const char* stage, Index faces);

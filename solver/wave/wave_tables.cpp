@@ -23,10 +23,15 @@ std::uint64_t spread(std::uint64_t x) {
 
 /// Vertices that faces use, along a space-filling curve.
 std::vector<Index> morton_order(const IntrinsicSurface& base) {
-  const auto positions = base.mesh->positions();
+  std::vector<Vec3> positions(base.mesh->positions().begin(), base.mesh->positions().end());
+  positions.insert(positions.end(), base.refinement.positions.begin(),
+                   base.refinement.positions.end());
+  const auto is_used = [&base](std::size_t v) {
+    return v >= base.on_surface.size() || base.on_surface[v] != 0;
+  };
   Vec3 low = Vec3::Constant(kUnreached), high = -low;
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!base.on_surface[v]) continue;
+    if (!is_used(v)) continue;
     low = low.cwiseMin(positions[v]);
     high = high.cwiseMax(positions[v]);
   }
@@ -35,7 +40,7 @@ std::vector<Index> morton_order(const IntrinsicSurface& base) {
   const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
   std::vector<std::pair<std::uint64_t, Index>> codes;
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!base.on_surface[v]) continue;
+    if (!is_used(v)) continue;
     const Vec3 at = (positions[v] / 2 - origin) * steps;
     std::uint64_t code = 0;
     for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
@@ -257,7 +262,7 @@ std::size_t WaveTables::bytes() const {
 WaveTables build_wave_tables(const WaveSurface& surface) {
   WaveTables tables;
   tables.vertex_of_rank = morton_order(surface.base);
-  tables.rank_of_vertex.assign(surface.base.on_surface.size(), kNoIndex);
+  tables.rank_of_vertex.assign(static_cast<std::size_t>(surface.base.vertex_count()), kNoIndex);
   for (std::size_t r = 0; r < tables.vertex_of_rank.size(); ++r) {
     tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
   }

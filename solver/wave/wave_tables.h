@@ -37,7 +37,7 @@ struct WaveTables {
   std::vector<std::array<SideCode, 2>> sides;
   std::vector<SideCode> more;
 
-  std::vector<Index> rank_of_vertex;      ///< V: number here, kNoIndex when in no face
+  std::vector<Index> rank_of_vertex;      ///< V and inserted: number here, kNoIndex when in no face
   std::vector<Index> vertex_of_rank;      ///< n
   std::vector<Index> rank_of_face;        ///< F: number here of a face of the intrinsic mesh
   std::vector<Index> intrinsic_face;      ///< F: the inverse

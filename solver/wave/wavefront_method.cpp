@@ -86,15 +86,18 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
   result.timing.query = watch.lap();
   if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
   watch.lap();
+  const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
+  result.distances.resize(own);
+  if (query.nearest) result.nearest_source.resize(own);
   for (double& distance : result.distances) distance *= surface->base.mean_edge;
   result.timing.query += watch.lap();
   return result;
 }
 
-/// In the order of the file, still in units of the intrinsic mesh.
+/// In the order of the file, inserted vertices last, still in units of the intrinsic mesh.
 void WavefrontMethod::State::copy_out(const WaveFront& front, bool labels,
                                       DistanceResult& result) const {
-  const std::size_t vertices = tables.rank_of_vertex.size();
+  const auto vertices = static_cast<std::size_t>(surface->base.vertex_count());
   const auto distances = front.distances();
   result.distances.assign(vertices, kUnreached);
   if (labels) result.nearest_source.assign(vertices, kNoIndex);

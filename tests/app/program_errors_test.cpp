@@ -247,8 +247,9 @@ TEST(ProgramStreams, AClosedStandardOutputIsAnErrorAndGetsIntoNoFile) {
 TEST(ProgramStreams, APipeWithoutReaderEndsTheProgramSilently) {
   constexpr int kBrokenPipe = 128 + 13;
   const TemporaryDirectory folder;
-  const ProgramRun run = run_program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "-"},
-                                     Stdout::kPipeWithoutReader);
+  const ProgramRun run =
+      run_program(folder.path("."), {"solve", "bunny", "-s", "1", "-o", "-", "--quiet"},
+                  Stdout::kPipeWithoutReader);
   EXPECT_EQ(run.code, kBrokenPipe);
   EXPECT_EQ(run.err, "");
 }

@@ -2,6 +2,7 @@
 // Methods, the error of answers, nearest sources and paths, in a session.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -42,14 +43,47 @@ TEST_F(SessionTruth, MethodsAreSwitchedLiveAndShareTheModel) {
 
 TEST_F(SessionTruth, TheErrorFollowsTheTimeFactor) {
   run({"open " + small_model(), "source set 5"});
-  EXPECT_FALSE(session.explored().a->error) << "nobody asked";
+  ASSERT_TRUE(session.explored().a->error) << "nobody asked, and it is said";
+  EXPECT_EQ(session.explored().a->error->reference, MethodKind::kWavefront);
   run({"check exact"});
+  EXPECT_EQ(session.explored().a->error->reference, MethodKind::kExact);
   ASSERT_TRUE(session.explored().a->error);
   const double usual = session.explored().a->error->figures.mean_relative;
   run({"time-factor 100"});
   EXPECT_GT(session.explored().a->error->figures.mean_relative, 2 * usual);
   run({"method exact"});
   EXPECT_EQ(session.explored().a->error->figures.max, 0);
+}
+
+TEST_F(SessionTruth, AnAnswerIsCheckedWhenItRestsUnlessThatIsTurnedOff) {
+  run({"open " + small_model(), "source set 5"});
+  const auto lines = [&](const std::string& words) {
+    return std::ranges::count_if(session.log(), [&](const LogLine& line) {
+      return line.text.find(words) != std::string::npos;
+    });
+  };
+  const auto solved = lines("solved with"), checked = lines("of the largest distance, at vertex");
+  const std::size_t queries = session.queries().size();
+  run({"source set 8"});
+  EXPECT_EQ(lines("solved with"), solved + 1) << "the check is no second answer";
+  EXPECT_EQ(session.queries().size(), queries + 1);
+  EXPECT_EQ(lines("of the largest distance, at vertex"), checked + 1);
+  session.set_dragging(true);
+  run({"source set 6"});
+  EXPECT_FALSE(session.explored().a->error) << "it moves";
+  session.set_dragging(false);
+  ASSERT_TRUE(session.finish());
+  EXPECT_TRUE(session.explored().a->error);
+  EXPECT_FALSE(session.stale());
+  run({"check off", "source set 7"});
+  EXPECT_FALSE(session.explored().a->error);
+}
+
+TEST_F(SessionTruth, APoorAnswerNamesASettingThatIsRight) {
+  run({"open " + small_model(), "source set 5", "time-factor 3000"});
+  const auto& error = session.explored().a->error;
+  ASSERT_TRUE(error && error->is_poor());
+  EXPECT_TRUE(error->cure) << error->verdict;
 }
 
 TEST_F(SessionTruth, TheErrorBelongsToTheSources) {

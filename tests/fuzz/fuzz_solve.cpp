@@ -8,7 +8,7 @@
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/weld.h"
 #include "solver/method/distance_error.h"
-#include "solver/quality/diagnose.h"
+#include "solver/quality/accuracy.h"
 #include "solver/quality/quality_fields.h"
 #include "tests/fuzz/fuzz_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"
@@ -118,14 +118,20 @@ std::string method_fault(const FuzzCase& given, MethodKind kind, std::vector<dou
   return fields_fault(*given.mesh, *result);
 }
 
-std::string diagnosis_fault(const FuzzCase& given, std::span<const double> heat,
-                            std::span<const double> better) {
-  const auto diagnosis = diagnose(given.mesh, given.options, 1, given.sources, heat, better);
-  if (!diagnosis) return message_fault(diagnosis.error().message);
-  if (!diagnosis->cause) return "";
-  const ErrorCause& cause = *diagnosis->cause;
+std::string accuracy_fault(const FuzzCase& given, const std::vector<double>& heat) {
+  const auto method = build_method(given.mesh, given.options);
+  if (!method) return message_fault(method.error().message);
+  const CheckedAnswers answers{**method, given.options, {&given.sources, 1}, {&heat, 1}};
+  const auto report =
+      check_accuracy(given.mesh, answers, {.search = CureSearch::kWhereNotGood, .threads = 1});
+  if (!report) return message_fault(report.error().message);
+  if (const std::string fault = message_fault(report->verdict); !fault.empty()) return fault;
+  if (report->cure && !(report->cure->mean_relative <= kGoodError))
+    return "a cure that is not good";
+  if (!report->cause) return "";
+  const ErrorCause& cause = *report->cause;
   if (!(cause.mean_relative_after < cause.mean_relative_before)) return "a cause without effect";
-  return message_fault(cause.because);
+  return "";
 }
 
 std::string report_fault(const TriangleMesh& mesh) {
@@ -165,18 +171,17 @@ std::string fuzz_solve(Bytes bytes) {
   if (!given.mesh) return "";
   if (const std::string fault = report_fault(*given.mesh); !fault.empty()) return fault;
   if (const std::string fault = welding_fault(given); !fault.empty()) return "weld: " + fault;
-  std::vector<double> heat, better;
+  std::vector<double> heat;
   for (const std::string& name : method_names()) {
     const MethodKind kind = *parse_method(name);
     std::vector<double> distances;
     const std::string fault = method_fault(given, kind, distances);
     if (!fault.empty()) return name + ": " + fault;
     if (kind == MethodKind::kHeat) heat = distances;
-    if (kind == MethodKind::kWavefrontFine) better = distances;
   }
-  if (heat.empty() || better.empty()) return "";
-  const std::string fault = diagnosis_fault(given, heat, better);
-  return fault.empty() ? "" : "diagnosis: " + fault;
+  if (heat.empty()) return "";
+  const std::string fault = accuracy_fault(given, heat);
+  return fault.empty() ? "" : "accuracy: " + fault;
 }
 
 }  // namespace geotherm::test

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solver/geometry/mesh_report.h"
 #include "solver/heat/option_text.h"
 #include "solver/mesh/weld.h"
+#include "solver/quality/candidates.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -14,27 +17,88 @@ namespace {
 // That the causes are the right ones is tested where they are said, in
 // tests/app/program_cause_test.cpp.
 
+using Distances = std::vector<double>;
+
 const SourceSet kSource = SourceSet::of_vertices({0});
+
+/// What is found for distances that someone claims to be those of a method.
+Result<Diagnosis> diagnosis_of(const MeshPtr& mesh, const MethodOptions& options,
+                               const Distances& distances, MethodKind reference,
+                               const Distances& better, Index most_faces = kMostFacesDiagnosed,
+                               const Progress& progress = {}) {
+  const auto method = build_method(mesh, options);
+  if (!method) return method.error();
+  return diagnose(mesh, {**method, options, {&kSource, 1}, {&distances, 1}}, reference,
+                  {&better, 1}, most_faces, progress);
+}
+
+Distances distances_of(const MeshPtr& mesh, const MethodOptions& options) {
+  const auto method = build_method(mesh, options);
+  EXPECT_TRUE(method) << method.error().message;
+  return (*method)->solve(kSource)->distances;
+}
+
+MethodOptions of_method(MethodKind kind) {
+  MethodOptions options;
+  options.method = kind;
+  return options;
+}
+
+bool tried(const Diagnosis& found, const std::string& setting) {
+  return std::ranges::any_of(found.tried,
+                             [&](const auto& each) { return setting_text(each) == setting; });
+}
 
 TEST(DiagnoseTest, AnAnswerWithoutErrorHasNoCause) {
   const MeshPtr mesh = finish(sphere(1));
-  const std::vector<double> same(mesh->positions().size(), 1);
-  const auto diagnosis = diagnose(mesh, {}, 1, kSource, same, same);
-  ASSERT_TRUE(diagnosis);
-  EXPECT_FALSE(diagnosis->cause || diagnosis->skipped || diagnosis->refined);
+  const Distances same(mesh->positions().size(), 1);
+  const auto found = diagnosis_of(mesh, {}, same, MethodKind::kExact, same);
+  ASSERT_TRUE(found);
+  EXPECT_FALSE(found->cause || found->cure);
+  EXPECT_TRUE(found->tried.empty());
 }
 
-TEST(DiagnoseTest, WhatNoChangeLowersHasNoCause) {
-  const MeshPtr mesh = finish(sphere(1));
-  const std::size_t vertices = mesh->positions().size();
-  // Distances that no method gives: all changes leave nearly the whole error.
-  const std::vector<double> distances(vertices, 1), better(vertices, 1e6);
-  MethodOptions options;
-  options.variant = Variant::kClassic;
-  const auto diagnosis = diagnose(mesh, options, 1, kSource, distances, better);
-  ASSERT_TRUE(diagnosis) << diagnosis.error().message;
-  EXPECT_FALSE(diagnosis->cause);
-  EXPECT_TRUE(diagnosis->refined);
+TEST(DiagnoseTest, WhatNoOptionLowersIsLeftToTheMethodsAndAllOptionsWereTried) {
+  const MeshPtr mesh = finish(plane_grid(6, 6, 1, 1));
+  const Distances better = distances_of(mesh, of_method(MethodKind::kExact));
+  // A reference that the heat method is far from on this mesh, whatever its options are.
+  Distances scaled = better;
+  for (double& d : scaled) d *= 4;
+  const auto found = diagnosis_of(mesh, {}, distances_of(mesh, {}), MethodKind::kExact, scaled);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_FALSE(found->cause);
+  for (const char* setting :
+       {"--time-factor 2", "--time-factor 4", "--variant classic", "--boundary average",
+        "--boundary dirichlet", "--laplacian tufted", "--refine 1", "--method wavefront"}) {
+    EXPECT_TRUE(tried(*found, setting)) << setting;
+  }
+}
+
+TEST(DiagnoseTest, TheCheapestGoodSettingEndsTheSearch) {
+  const MeshPtr mesh = finish(sphere(3));
+  const Distances better = distances_of(mesh, {});
+  MethodOptions wrong;
+  wrong.time_step.factor = 1000;
+  const auto found =
+      diagnosis_of(mesh, wrong, distances_of(mesh, wrong), MethodKind::kExact, better);
+  ASSERT_TRUE(found && found->cure);
+  EXPECT_EQ(setting_text(*found->cure), "--time-factor 1");
+  EXPECT_EQ(found->tried.size(), 1U);
+  EXPECT_LT(found->cure->mean_relative, 1e-6) << "the cure is what the reference was made with";
+}
+
+TEST(DiagnoseTest, TheReferenceItselfIsHeldAgainstABetterMethodBeforeItIsNamed) {
+  const MeshPtr mesh = finish(jittered_plane(8, 0.3, 5));
+  const Distances waves = distances_of(mesh, of_method(MethodKind::kWavefront));
+  const Distances wrong(waves.size(), 3);
+  const auto found = diagnosis_of(mesh, of_method(MethodKind::kFastMarching), wrong,
+                                  MethodKind::kWavefront, waves);
+  ASSERT_TRUE(found && found->cure);
+  EXPECT_EQ(setting_text(*found->cure), "--method wavefront");
+  EXPECT_EQ(found->cure->against, MethodKind::kExact);
+  const Distances exact = distances_of(mesh, of_method(MethodKind::kExact));
+  EXPECT_DOUBLE_EQ(found->cure->mean_relative, distance_error(waves, exact).mean_relative);
+  EXPECT_GT(found->cure->mean_relative, 0);
 }
 
 /// Three sheets that meet in one line.
@@ -54,42 +118,60 @@ MeshPtr book() {
 TEST(DiagnoseTest, SaysWhatIsWrongWithEachLaplacian) {
   const MeshPtr mesh = book();
   ASSERT_EQ(inspect_mesh(*mesh).non_delaunay_edges, 0);
-  const auto distances_of = [&mesh](const MethodOptions& options) {
-    const auto method = build_method(mesh, options);
-    EXPECT_TRUE(method) << method.error().message;
-    return (*method)->solve(kSource)->distances;
-  };
-  const std::vector<double> better = distances_of({});
+  const Distances better = distances_of(mesh, {});
   for (const LaplacianKind kind : {LaplacianKind::kCotan, LaplacianKind::kIntrinsicDelaunay}) {
     MethodOptions options;
     options.laplacian = kind;
-    const auto diagnosis = diagnose(mesh, options, 1, kSource, distances_of(options), better);
-    ASSERT_TRUE(diagnosis) << diagnosis.error().message;
-    ASSERT_TRUE(diagnosis->cause) << to_text(kind);
-    EXPECT_EQ(diagnosis->cause->because,
+    const auto found =
+        diagnosis_of(mesh, options, distances_of(mesh, options), MethodKind::kExact, better);
+    ASSERT_TRUE(found) << found.error().message;
+    ASSERT_TRUE(found->cause) << to_text(kind);
+    EXPECT_EQ(found->cause->because,
               "the Laplacian is " + to_text(kind) + " and 1 component is no oriented manifold");
   }
 }
 
-TEST(DiagnoseTest, LargeMeshesAreNotSolvedAgain) {
-  const MeshPtr mesh = finish(plane_grid(400, 400, 1, 1));
-  ASSERT_GT(mesh->face_count(), kMostFacesDiagnosed);
-  const std::size_t vertices = mesh->positions().size();
-  const std::vector<double> distances(vertices, 1), better(vertices, 2);
-  const auto never = [](std::string_view, double) { return false; };
-  const auto diagnosis = diagnose(mesh, {}, 1, kSource, distances, better, never);
-  ASSERT_TRUE(diagnosis) << "there was nothing to cancel";
-  EXPECT_TRUE(diagnosis->skipped);
+TEST(DiagnoseTest, TheWorkIsBoundedByTheFacesOfEachSetting) {
+  const MeshPtr mesh = finish(jittered_plane(8, 0.3, 5));
+  const Distances better = distances_of(mesh, of_method(MethodKind::kExact));
+  Distances scaled = better;
+  for (double& d : scaled) d *= 4;
+  const Distances heat = distances_of(mesh, {});
+  const auto settings = [&](double meshes) {
+    const auto found = diagnosis_of(mesh, {}, heat, MethodKind::kExact, scaled,
+                                    static_cast<Index>(meshes * mesh->face_count()));
+    EXPECT_TRUE(found) << found.error().message;
+    return *found;
+  };
+  const Diagnosis factors = settings(0.5), covers = settings(2), none = settings(0.1);
+  EXPECT_TRUE(tried(factors, "--time-factor 2"));
+  EXPECT_FALSE(tried(factors, "--laplacian tufted"));
+  EXPECT_TRUE(tried(covers, "--laplacian tufted"));
+  EXPECT_FALSE(tried(covers, "--refine 1"));
+  EXPECT_FALSE(tried(none, "--time-factor 2"));
+  EXPECT_TRUE(tried(none, "--method wavefront")) << "there is always something that helps";
+}
+
+TEST(DiagnoseTest, OptionsThatAreAlreadySetAreNotTriedAgain) {
+  MethodOptions options;
+  options.time_step.factor = 2;
+  options.variant = Variant::kClassic;
+  options.laplacian = LaplacianKind::kTufted;
+  const MeshReport mesh = inspect_mesh(*finish(plane_grid(3, 3, 1, 1)));
+  for (const Candidate& candidate : heat_candidates(options, mesh, 2)) {
+    EXPECT_NE(candidate.options, options) << candidate.option << ' ' << candidate.value;
+  }
 }
 
 TEST(DiagnoseTest, CanBeCancelled) {
   const MeshPtr mesh = finish(sphere(2));
   const std::size_t vertices = mesh->positions().size();
-  const std::vector<double> distances(vertices, 1), better(vertices, 2);
+  const Distances distances(vertices, 1), better(vertices, 2);
   const auto never = [](std::string_view, double) { return false; };
-  const auto diagnosis = diagnose(mesh, {}, 1, kSource, distances, better, never);
-  ASSERT_FALSE(diagnosis);
-  EXPECT_EQ(diagnosis.error().code, ErrorCode::kCancelled);
+  const auto found =
+      diagnosis_of(mesh, {}, distances, MethodKind::kExact, better, kMostFacesDiagnosed, never);
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "solver/core/progress.h"
+#include "solver/quality/accuracy.h"
+
+// How commands hold their distances against those of a more accurate method, and what they say and
+// do when these are wrong.
+namespace geotherm::app {
+
+enum class CheckMode {
+  kNone,
+  kUsual,     ///< heat and fast marching against the method wavefront; a cure where they are poor
+  kThorough,  ///< any method against the best one that fits; a cure where it is not good
+};
+
+/// What becomes of poor distances.
+enum class OnPoor {
+  kKeep,    ///< they are handed out, with a warning
+  kBetter,  ///< the method wavefront answers instead
+  kFail,    ///< the command fails
+};
+
+struct CheckSettings {
+  CheckMode mode = CheckMode::kUsual;
+  OnPoor on_poor = OnPoor::kKeep;
+};
+
+/// Refuses distances that may turn into those of another method where the heat is needed. `what`:
+/// the option that needs it, with its value. Errors: kBadInput.
+Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
+
+/// Holds answers against better ones, without a search for a cure. Where `mode` has none for this
+/// method the report says so. `better`: the reference, for the search. Errors: kCancelled; all
+/// others are a report that says why nothing was checked.
+Result<AccuracyReport> check_answers(const std::shared_ptr<const TriangleMesh>& mesh,
+                                     const CheckedAnswers& answers, CheckMode mode,
+                                     ReferenceAnswers& better, const Progress& progress);
+
+/// The report on a method that is not held against another one in this mode.
+AccuracyReport unchecked(MethodKind method, CheckMode mode);
+
+/// The same against `reference`. `beside`: CheckedAnswers::method, or another one on the mesh whose
+/// triangulation is shared.
+Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& mesh,
+                                     const CheckedAnswers& answers, MethodKind reference,
+                                     const DistanceMethod& beside, ReferenceAnswers& better,
+                                     const Progress& progress);
+
+/// Looks for a cure as far as the mode asks for one. Errors: kCancelled.
+Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                       const CheckedAnswers& answers, const ReferenceAnswers& better,
+                       CheckMode mode, const Progress& progress);
+
+/// What the method is held against that answers instead of a poor one.
+MethodKind judge_of_better(CheckMode mode, Index faces);
+/// Options of that method.
+MethodOptions better_options(const MethodOptions& options);
+
+/// How right a method is on some of many source sets, spread over them evenly.
+struct SampleCheck {
+  AccuracyReport report;  ///< AccuracyReport::sets: how many of them
+  std::size_t of = 0;     ///< all source sets
+  std::size_t worst = 0;  ///< number of the set with the largest error
+};
+
+/// Solves for up to 8 of the sets by the method and by a better one, and looks for a cure where the
+/// method is poor and `search` is set. Errors: those of the method's queries.
+Result<SampleCheck> check_sample(const std::shared_ptr<const TriangleMesh>& mesh,
+                                 const DistanceMethod& method, const MethodOptions& options,
+                                 std::span<const SourceSet> sets, CheckMode mode, bool search,
+                                 const Progress& progress);
+
+/// The same against `reference`, without a search. `beside`: as of check_against().
+Result<SampleCheck> check_sample_against(const std::shared_ptr<const TriangleMesh>& mesh,
+                                         const DistanceMethod& method, const MethodOptions& options,
+                                         std::span<const SourceSet> sets, MethodKind reference,
+                                         const DistanceMethod& beside, const Progress& progress);
+
+/// "1.9 % on average, at most 4.3 % of the largest distance, at vertex 17, against wavefront:
+/// good".
+std::string accuracy_line(const AccuracyReport& report);
+std::string accuracy_line(const SampleCheck& check);
+
+/// What is to be warned of; empty: nothing.
+std::string accuracy_warning(const AccuracyReport& report, const std::string& line);
+
+/// For OnPoor::kFail. Errors: kNumericalFailure, where the distances are poor or nobody knows.
+Result<void> refuse_poor(const AccuracyReport& report, const std::string& line);
+
+/// Says that another method answered instead of one that was poor.
+std::string replaced_note(const MethodOptions& asked, const MethodOptions& answered,
+                          const std::string& line);
+
+/// What the values are, over a colour bar: "error against exact".
+std::string error_title(const AccuracyReport& report);
+
+/// "0.81 %".
+std::string percent(double share);
+
+}  // namespace geotherm::app

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "solver/quality/accuracy.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "solver/core/number_text.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm {
+namespace {
+
+constexpr int kBins = 41;
+
+/// What is wrong, in figures: the mean error, or the largest where that alone is too large.
+std::string figures_text(const DistanceError& error) {
+  if (error.mean_relative > kGoodError) return percent_text(error.mean_relative);
+  return "up to " + percent_text(error.max_of_range) + " of the largest distance";
+}
+
+/// What a setting gave, in the figure that is wrong.
+std::string result_text(const DistanceError& wrong, double mean_relative, double max_of_range) {
+  if (wrong.mean_relative > kGoodError) return percent_text(mean_relative);
+  return "up to " + percent_text(max_of_range);
+}
+
+std::string cure_text(const AccuracyReport& report) {
+  const Cure& cure = *report.cure;
+  std::string text = "with " + setting_text(cure) + " it is " +
+                     result_text(report.figures, cure.mean_relative, cure.max_of_range);
+  if (cure.against != report.reference) text += " (against " + to_text(cure.against) + ')';
+  return text;
+}
+
+/// The best of what was tried where nothing is good; empty: nothing is better than what there is.
+std::string nearest_text(const AccuracyReport& report) {
+  const TriedSetting* best = nullptr;
+  for (const TriedSetting& tried : report.tried) {
+    if (best == nullptr || tried.mean_relative < best->mean_relative) best = &tried;
+  }
+  if (best == nullptr || best->mean_relative >= report.figures.mean_relative) return {};
+  return "the least of what was tried is " + percent_text(best->mean_relative) + ", with " +
+         setting_text(*best);
+}
+
+std::string verdict_of(const AccuracyReport& report) {
+  std::string text = to_text(report.grade) + ": " + figures_text(report.figures);
+  const bool has_cause = report.cause.has_value();
+  const bool cure_is_cause = has_cause && report.cure &&
+                             report.cure->option == report.cause->option &&
+                             report.cure->value == report.cause->value;
+  if (has_cause && !report.cause->because.empty()) text += " because " + report.cause->because;
+  std::string helps;
+  if (has_cause && !cure_is_cause) {
+    helps = "with --" + report.cause->option + ' ' + report.cause->value + " it is " +
+            percent_text(report.cause->mean_relative_after);
+  }
+  if (report.cure) helps += (helps.empty() ? "" : ", ") + cure_text(report);
+  if (helps.empty()) helps = nearest_text(report);
+  if (helps.empty()) {
+    helps = "the " + to_text(report.reference) + " method, which it was held against, is nearer";
+  }
+  return text + "; " + helps;
+}
+
+/// Where a share of the vertices is reached by one method alone, figures say nothing.
+std::string reach_text(const DistanceError& error) {
+  const auto count = static_cast<std::size_t>(error.differently_reached);
+  return counted_text(count, "vertex is", "vertices are") +
+         " reached by one method and not by the other";
+}
+
+}  // namespace
+
+std::string percent_text(double share) {
+  const double percent = 100 * share;
+  constexpr double kWhole = 99.5;  // from here on two digits are fewer than those before the point
+  if (percent >= kWhole && percent < 1e6) return std::to_string(std::llround(percent)) + " %";
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), percent,
+                                 std::chars_format::general, 2)
+                       .ptr;
+  return std::string(buffer.data(), end) + " %";
+}
+
+Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMesh>& mesh,
+                                         MethodKind kind, std::span<const SourceSet> sources,
+                                         int threads, const DistanceMethod* beside,
+                                         const Progress& progress) try {
+  constexpr double kSetUpShare = 0.3;
+  MethodOptions options;
+  options.method = kind;
+  options.threads = threads;
+  const Stopwatch watch;
+  std::shared_ptr<const WaveSurface> waves;
+  if (beside != nullptr) {
+    auto shared = waves_beside(*beside, part_of(progress, 0.0, kSetUpShare / 2));
+    if (!shared) return shared.error();
+    waves = *std::move(shared);
+  }
+  const auto method = build_method(mesh, options, part_of(progress, 0.0, kSetUpShare), waves);
+  if (!method) return method.error();
+  auto results =
+      (*method)->solve_each(sources, {.quality = false}, part_of(progress, kSetUpShare, 1.0));
+  if (!results) return results.error();
+  ReferenceAnswers answers;
+  answers.method = kind;
+  for (DistanceResult& result : *results) answers.distances.push_back(std::move(result.distances));
+  answers.milliseconds = watch.milliseconds();
+  return answers;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended in the check by the method " +
+                                            to_text(kind) + "; take a mesh with fewer faces"};
+}
+
+AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
+                            const ReferenceAnswers& better) {
+  AccuracyReport report;
+  report.reference = better.method;
+  report.sets = distances.size();
+  report.milliseconds = better.milliseconds;
+  const JointError joint = joint_error(distances, better.distances);
+  report.figures = joint.figures;
+  report.worst_set = joint.worst_set;
+  if (report.figures.worst == kNoIndex) {
+    report.reference = checked;
+    report.verdict = "no vertex has both distances";
+    return report;
+  }
+  report.measured = true;
+  report.grade = grade_of(report.figures);
+  report.verdict = to_text(report.grade);
+  if (report.figures.differently_reached > 0) report.verdict += ": " + reach_text(report.figures);
+  if (distances.size() == 1) {
+    report.values = signed_error(distances.front(), better.distances.front());
+    report.histogram = error_histogram(report.values, kBins);
+  }
+  return report;
+}
+
+AccuracyReport unmeasured(MethodKind method, std::string verdict) {
+  AccuracyReport report;
+  report.reference = method;
+  report.verdict = std::move(verdict);
+  return report;
+}
+
+Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                       const CheckedAnswers& answers, const ReferenceAnswers& better,
+                       CureSearch search, const Progress& progress) {
+  if (!report.measured || search == CureSearch::kNever) return {};
+  const bool wanted = search == CureSearch::kWherePoor ? report.grade == Grade::kPoor
+                                                       : report.grade >= Grade::kFair;
+  if (!wanted || report.figures.differently_reached > 0) return {};
+  auto found = diagnose(mesh, answers, better.method, better.distances,
+                        search == CureSearch::kWherePoor ? kMostFacesBesides : kMostFacesDiagnosed,
+                        progress);
+  if (!found) return found.error();
+  report.cause = std::move(found->cause);
+  report.cure = std::move(found->cure);
+  report.tried = std::move(found->tried);
+  report.verdict = verdict_of(report);
+  return {};
+}
+
+Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
+                                      const CheckedAnswers& answers, const AccuracyOptions& options,
+                                      const Progress& progress) {
+  const MethodKind checked = answers.method.kind();
+  if (!is_better(options.reference, checked)) {
+    return unmeasured(
+        checked, checked == MethodKind::kExact
+                     ? "this is the most accurate method there is"
+                     : "the method " + to_text(checked) + " was not held against a better one");
+  }
+  const bool searches = options.search != CureSearch::kNever;
+  auto better = solve_reference(mesh, options.reference, answers.sources, options.threads,
+                                &answers.method, part_of(progress, 0.0, searches ? 0.3 : 1.0));
+  if (!better) return better.error();
+  AccuracyReport report = hold_against(answers.distances, checked, *better);
+  if (auto found =
+          find_cure(report, mesh, answers, *better, options.search, part_of(progress, 0.3, 1.0));
+      !found) {
+    return found.error();
+  }
+  return report;
+}
+
+}  // namespace geotherm
