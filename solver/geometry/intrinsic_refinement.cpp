@@ -176,7 +176,8 @@ Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
     int exit = -1;
     for (int k = 0; k < 3; ++k) {
       const Point2 &a = at[k], &b = at[next_corner(k)];
-      if (k == entry || cross(b - a, target - a) >= 0) continue;
+      const double beyond = -kOnEdge * cross(b - a, at[previous_corner(k)] - a);
+      if (k == entry || cross(b - a, target - a) >= beyond) continue;
       exit = k;
       if (cross(way, a - start) <= 0 && cross(way, b - start) >= 0) break;
     }
@@ -224,7 +225,7 @@ class Refiner {
       } else if (!large_.empty()) {
         const auto [size, face] = large_.top();
         large_.pop();
-        if (relative_size(face) == size && may_insert()) split_large(face);
+        if (rounded(relative_size(face)) == size && may_insert()) split_large(face);
       } else {
         return {};
       }
@@ -237,6 +238,8 @@ class Refiner {
     const double root = root_t(face);
     return longest_squared(mesh_.lengths[face]) / (root * root);
   }
+  /// Sizes that differ by rounding are one, so that a scaled mesh is refined in the same order.
+  static double rounded(double size) { return std::round(size * (1 << 20)); }
   bool is_short(Side side) const {
     return mesh_.lengths[face_of(side)][corner_of(side)] < kShortest * root_t(face_of(side));
   }
@@ -247,7 +250,7 @@ class Refiner {
 
   void note_size(Index face) {
     const double size = relative_size(face);
-    if (size > kLongest * kLongest) large_.emplace(size, face);
+    if (size > kLongest * kLongest) large_.emplace(rounded(size), face);
   }
 
   void note(Index face) {

@@ -51,8 +51,8 @@ Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions&
     return std::shared_ptr<const DistanceMethod>(
         std::make_shared<const HeatMethod>(*std::move(built)));
   }
-  const bool walks_on_inserted = options.method == MethodKind::kWavefront ||
-                                 options.method == MethodKind::kWavefrontFine;
+  const bool walks_on_inserted =
+      options.method == MethodKind::kWavefront || options.method == MethodKind::kWavefrontFine;
   if (!waves || (waves->base.refinement.points > 0 && !walks_on_inserted)) {
     auto made =
         build_wave_surface(mesh, part_of(progress, 0.0, 0.5), thread_count(options.threads));

@@ -208,7 +208,7 @@ TEST(PanelLabels, ThatReachTheRightStandApartFromThoseThere) {
   for (const Element& e : elements) {
     const auto kind = e.attributes.find("class");
     if (e.name == "text" && kind != e.attributes.end() && kind->second == "end") {
-      height[e.text] = std::stod(e.attributes.at("y"));
+      height[e.content] = std::stod(e.attributes.at("y"));
     }
   }
   ASSERT_EQ(height.size(), 3u);

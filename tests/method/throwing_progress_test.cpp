@@ -135,11 +135,13 @@ TEST(ThrowingProgressParallel, PassesThroughDiagnosis) {
   options.threads = 2;
   options.boundary = BoundaryRule::kDirichlet;
   const SourceSet sources = SourceSet::of_vertices({200});
-  const auto answer = (*build_method(mesh, options))->solve(sources);
+  const auto method = *build_method(mesh, options);
+  const auto answer = method->solve(sources);
   ASSERT_TRUE(answer);
   const std::vector<double> better(answer->distances.size(), 1.0);
   expect_passed_on([&](const Progress& progress) {
-    EXPECT_TRUE(diagnose(mesh, options, 1.0, sources, answer->distances, better, progress));
+    EXPECT_TRUE(diagnose(mesh, {*method, options, {&sources, 1}, {&answer->distances, 1}},
+                         MethodKind::kWavefront, {&better, 1}, kMostFacesDiagnosed, progress));
   });
 }
 
