@@ -121,6 +121,9 @@ class Builder {
     for (std::size_t f = 0; f < mesh_.back.size(); ++f) {
       if (mesh_.back[f] != kNoIndex) out_.doubled[out_.components.of[renamed_[f][0]]] = 1;
     }
+    out_.area.assign(static_cast<std::size_t>(parts.count), 0.0);
+    for (std::size_t i = 0; i < size_; ++i) out_.area[out_.components.of[i]] += out_.mass[i];
+    for (std::size_t c = 0; c < out_.area.size(); ++c) out_.area[c] /= out_.doubled[c] ? 2 : 1;
   }
 
  private:

@@ -32,6 +32,7 @@ struct OperatorMesh {
   RawVector<double> mass;                ///< n: a third of the incident areas, > 0
   RawVector<double> stiffness_diagonal;  ///< n: diagonal of L
   Components components;                 ///< of the vertices
+  std::vector<double> area;   ///< per component, of the surface: a cover has twice as much
   std::vector<char> doubled;  ///< per component: it is a tufted cover, each face of it stands twice
   std::uint64_t pattern = 0;  ///< pattern_hash of the elimination-ordered graph
 

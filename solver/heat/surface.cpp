@@ -90,16 +90,13 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
   for (Index i = 0; i < mesh.size(); ++i) {
     ComponentSize& size = sizes[mesh.components.of[i]];
     const Index part = surface.parts.of[surface.vertex_of_row[i]];
-    size.area += mesh.mass[i];
     size.mean_edge = surface.part_edge[part];
     if (!surface.refinement.grading.empty()) size.grading = surface.refinement.grading[part];
   }
   for (const Face& face : surface.clean_faces) {
     ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].faces;
   }
-  for (std::size_t c = 0; c < sizes.size(); ++c) {
-    if (mesh.is_doubled(static_cast<Index>(c))) sizes[c].area /= 2;
-  }
+  for (std::size_t c = 0; c < sizes.size(); ++c) sizes[c].area = mesh.area[c];
   return sizes;
 }
 

@@ -22,6 +22,10 @@ constexpr double kSafeHigh = 1e280;
 constexpr double kShort = 0.15;
 constexpr double kLong = 0.35;
 
+/// Widths of a component, area over extent, in diffusion lengths, between which it counts as narrow
+/// and no longer. Measured against exact distances on stretched planes and strips.
+constexpr double kNarrow = 4, kWide = 8;
+
 /// Rows whose logarithms are taken before they are looked at.
 constexpr std::int64_t kRowsOfPiece = 1024;
 /// Ranges of faces that are worth a thread, with one column.
@@ -127,10 +131,10 @@ UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerC
     }
   }
   log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
-  take_logarithms();
+  take_logarithms(t);
 }
 
-void UnitField::take_logarithms() {
+void UnitField::take_logarithms(const PerComponent& t) {
   const Eigen::Index columns = log_u_.cols();
   const double step = std::log(heat_.step);
   Spread all(mesh_.components, columns);
@@ -150,25 +154,50 @@ void UnitField::take_logarithms() {
     const std::lock_guard lock(mutex);
     all.take(spread);
   });
+  if (!measure_width(all.high(), all.low(), t)) {
+    root_t_ = 0;  // narrow everywhere: the published field
+    return;
+  }
   measure_trust(all.high(), all.low());
+}
+
+/// False where every component that heat has reached is narrow, for every source set.
+bool UnitField::measure_width(const Block& high, const Block& low, const PerComponent& t) {
+  std::vector<double> width(static_cast<std::size_t>(high.size()), 1.0);
+  bool wide = true, some = false;
+  for (Eigen::Index component = 0; component < high.rows(); ++component) {
+    for (Eigen::Index c = 0; c < high.cols(); ++c) {
+      const double fall = high(component, c) - low(component, c);
+      if (!(fall > 0)) continue;  // no heat here
+      const double widths = mesh_.area[static_cast<std::size_t>(component)] /
+                            (fall * t.of(static_cast<Index>(component)));
+      double& of = width[static_cast<std::size_t>(component * high.cols() + c)];
+      of = std::clamp((widths - kNarrow) / (kWide - kNarrow), 0.0, 1.0);
+      wide = wide && of == 1;
+      some = some || of > 0;
+    }
+  }
+  if (!wide) width_ = std::move(width);
+  return wide || some;
 }
 
 /// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
 void UnitField::measure_trust(const Block& high, const Block& low) {
-  std::vector<double> trust(static_cast<std::size_t>(high.size()), 1.0);
-  bool whole = true;
+  std::vector<double> trust = width_;
+  trust.resize(static_cast<std::size_t>(high.size()), 1.0);
+  bool whole = width_.empty();
   for (std::size_t e = 0; e < trust.size(); ++e) {
     const double fall = high.data()[e] - low.data()[e];
     if (!(fall * kShort < 1) || fall < 0) continue;  // also: no heat in this component
-    trust[e] = fall > 0 ? std::clamp((kLong - 1 / fall) / (kLong - kShort), 0.0, 1.0) : 0.0;
+    trust[e] *= fall > 0 ? std::clamp((kLong - 1 / fall) / (kLong - kShort), 0.0, 1.0) : 0.0;
     whole = false;
   }
   if (!whole) trust_ = std::move(trust);
 }
 
-double UnitField::trust(Index row, Eigen::Index column) const {
-  if (trust_.empty()) return 1;
-  return trust_[static_cast<std::size_t>(mesh_.components.of[row] * log_u_.cols() + column)];
+double UnitField::at(const std::vector<double>& values, Index row, Eigen::Index column) const {
+  if (values.empty()) return 1;
+  return values[static_cast<std::size_t>(mesh_.components.of[row] * log_u_.cols() + column)];
 }
 
 double UnitField::length(Index f, Eigen::Index column) const {
@@ -182,7 +211,7 @@ double UnitField::length(Index f, Eigen::Index column) const {
   const double size = std::sqrt(square);
   const double whole =
       field_length(p.base, p.x, p.height, g[0] / size, g[1] / size, size, root_t(f), 1 / root_t(f));
-  return 1 - trust(face[0], column) * (1 - whole);
+  return 1 - at(trust_, face[0], column) * (1 - whole);
 }
 
 Field UnitField::of_face(Index f, Eigen::Index column) const {
@@ -268,8 +297,9 @@ Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
   for (Eigen::Index c = 0; c < columns; ++c) {
     for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {
       const Field x = of_face(near.face, c);
+      const double share = at(width_, mesh_.faces[near.face][0], c);
       add_divergence(mesh_.faces[near.face], mesh_.layout[near.face],
-                     {near.field[0] - x[0], near.field[1] - x[1]}, b, c);
+                     {share * (near.field[0] - x[0]), share * (near.field[1] - x[1])}, b, c);
     }
   }
   return b;

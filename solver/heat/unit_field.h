@@ -18,6 +18,10 @@ namespace geotherm {
 /// in proportion (t > 0; t = 0 keeps |X| = 1, as published). Where the heat has reached everything
 /// and its slope is small everywhere, that says nothing about creases: as sqrt(t) grows from kShort
 /// to kLong of the component's extent, measured by how far log u falls, X goes back to length 1.
+///
+/// On a component that is narrower than some diffusion lengths, such as a strip one face wide, heat
+/// flows along one way only and touches the border everywhere: neither its slope nor the straight
+/// distance beside the sources says more than the published field. Both fade out there.
 class UnitField {
  public:
   /// `t` in units of the intrinsic mesh squared, or 0 everywhere. Keeps references. Cost: a
@@ -37,12 +41,14 @@ class UnitField {
   Block divergence(std::span<const SourceAnchors> anchors) const;
 
  private:
-  void take_logarithms();
+  void take_logarithms(const PerComponent& t);
   /// Adds what these faces give to b.
   void add_faces(Index first_face, Index end_face, Block& b) const;
   void add_group(Index first_face, Index end_face, Eigen::Index first, int group, Block& b) const;
   void measure_trust(const Block& high, const Block& low);
-  double trust(Index row, Eigen::Index column) const;
+  bool measure_width(const Block& high, const Block& low, const PerComponent& t);
+  /// Of the component of a row; 1 where there are none.
+  double at(const std::vector<double>& values, Index row, Eigen::Index column) const;
   double length(Index face, Eigen::Index column) const;
   double root_t(Index face) const {
     return root_t_of_face_.empty() ? root_t_ : root_t_of_face_[face];
@@ -55,6 +61,7 @@ class UnitField {
   Workspace work_;
   Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty when not needed
   std::vector<double> trust_;  ///< how far lengths count, per component and column; empty: wholly
+  std::vector<double> width_;  ///< how far what is known beside sources does; the same
 };
 
 }  // namespace geotherm

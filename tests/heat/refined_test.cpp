@@ -192,6 +192,33 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RefinedSurface,
                          testing::Values(Case{"spiky", spiky_sphere}, Case{"book", graded_book}),
                          case_name);
 
+/// Narrow regions of the plane, on which the corrections of the method say nothing.
+class NarrowPlane : public testing::TestWithParam<Case> {};
+
+TEST_P(NarrowPlane, CorrectedIsAsGoodAsClassic) {
+  constexpr double kMost = 1.1;  // of the error of classic
+  const MeshPtr mesh = finish(GetParam().draft());
+  HeatOptions classic;
+  classic.variant = Variant::kClassic;
+  const HeatMethod corrected = method_of(mesh), published = method_of(mesh, classic);
+  const auto positions = mesh->positions();
+  for (Index v = 0; v < mesh->vertex_count(); v += mesh->vertex_count() / 5) {
+    std::vector<double> straight;
+    for (const Vec3& p : positions) straight.push_back((p - positions[v]).norm());
+    const SourceSet source = SourceSet::of_vertices({v});
+    EXPECT_LE(distance_error(solve(corrected, source).distances, straight).mean_relative,
+              kMost * distance_error(solve(published, source).distances, straight).mean_relative)
+        << v;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Meshes, NarrowPlane,
+    testing::Values(Case{"one_face_wide", [] { return plane_grid(400, 1, 400, 1); }},
+                    Case{"two_faces_wide", [] { return plane_grid(300, 2, 300, 2); }},
+                    Case{"thin_faces", [] { return plane_grid(60, 6, 60, 0.5); }}),
+    case_name);
+
 TEST(RefinedGoodMeshes, PayNothing) {
   for (const auto& draft : {torus(40, 20, 0.4), plane_grid(20, 20, 1, 1)}) {
     const MeshPtr mesh = finish(draft);
