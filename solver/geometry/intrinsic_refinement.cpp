@@ -210,12 +210,12 @@ class Refiner {
 
   /// Error: kCancelled.
   Result<void> run(const Needs& needs, const Progress& progress) {
-    constexpr Index kPointsBetweenCalls = 1 << 12;
+    constexpr std::int64_t kStepsBetweenCalls = 1 << 12;
     for (Index f = 0; f < mesh_.face_count() && !needs.large.empty(); ++f) note_size(f);
     obtuse_ = needs.obtuse;
     std::ranges::reverse(obtuse_);
-    for (;;) {
-      if (out_.points % kPointsBetweenCalls == 0 && !report(progress, "operators", 0.0)) {
+    for (std::int64_t step = 0;; ++step) {
+      if (step % kStepsBetweenCalls == 0 && !report(progress, "operators", 0.0)) {
         return cancelled_error();
       }
       if (!obtuse_.empty()) {
@@ -225,7 +225,12 @@ class Refiner {
       } else if (!large_.empty()) {
         const auto [size, face] = large_.top();
         large_.pop();
-        if (rounded(relative_size(face)) == size && may_insert()) split_large(face);
+        if (rounded(relative_size(face)) != size || !may_insert()) continue;
+        const Index before = out_.points;
+        split_large(face);
+        // A split of the border need not reach the face.
+        if (out_.points > before && rounded(relative_size(face)) == size)
+          large_.emplace(size, face);
       } else {
         return {};
       }

@@ -24,7 +24,7 @@ constexpr double kLong = 0.35;
 
 /// Widths of a component, area over extent, in diffusion lengths, between which it counts as narrow
 /// and no longer. Measured against exact distances on stretched planes and strips.
-constexpr double kNarrow = 4, kWide = 8;
+constexpr double kNarrow = 2.5, kWide = 5;
 
 /// Rows whose logarithms are taken before they are looked at.
 constexpr std::int64_t kRowsOfPiece = 1024;

@@ -63,6 +63,22 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
+TEST_F(ProgramAccuracy, SaysWhatWasInsertedAndWhy) {
+  EXPECT_TRUE(write_mesh(folder.path("points.ply"), *finish(random_delaunay(300, 5))));
+  const Json options = solved({"points.ply", "-s", "5"})["options"];
+  const Json& refinement = options["refinement"];
+  EXPECT_EQ(options["laplacian"], "refined");
+  EXPECT_GT(refinement["border_splits"], 0);
+  EXPECT_GE(refinement["points"], refinement["border_splits"]);
+  EXPECT_TRUE(refinement["complete"]);
+  const std::string obtuse = refinement["obtuse_border_edges"].dump() + " obtuse border edges";
+  EXPECT_NE(run({"info", "points.ply"}).out.find(obtuse), std::string::npos) << obtuse;
+  EXPECT_NE(run({"solve", "points.ply", "-s", "5"}).out.find(obtuse), std::string::npos);
+  const Json info = json({"info", "points.ply", "--json", "-"})["model"];
+  EXPECT_EQ(info["inserted_vertices"], refinement["points"]);
+  EXPECT_EQ(solved({"sphere.ply", "-s", "5"})["options"]["refinement"]["points"], 0);
+}
+
 TEST_F(ProgramAccuracy, EverySolveSaysHowWrongItIs) {
   const Json error = solved({"sphere.ply", "-s", "5"})["error"];
   expect_keys(error, keys({"reference", "mean_relative", "max_of_range", "verdict", "cure"}), "");
