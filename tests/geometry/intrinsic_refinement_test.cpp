@@ -19,31 +19,6 @@ constexpr double kRoundOff = 1e-9;  // of lengths that are computed a few dozen 
 // degrees.
 constexpr double kLongest = 2.6, kObtuse = -0.1;
 
-Draft spiky_sphere() {
-  Draft draft = sphere(3);
-  for (const Index v : {5, 300}) draft.positions[v] *= 15;
-  return draft;
-}
-
-/// Three graded pages along one edge.
-Draft graded_book() {
-  Draft draft;
-  const Index n = 12;
-  for (int page = 0; page < 3; ++page) {
-    Draft leaf = graded_plane(n, 60);
-    const double angle = 2.1 * page;
-    for (Vec3& p : leaf.positions) p = {p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()};
-    append(draft, leaf);
-  }
-  const Index leaf = (n + 1) * (n + 1);
-  for (Face& face : draft.faces) {
-    for (Index& v : face) {
-      if (v % leaf % (n + 1) == 0) v %= leaf;  // the spine is the first page's
-    }
-  }
-  return draft;
-}
-
 Draft stretched_delaunay() {
   Draft draft = random_delaunay(300, 2);
   for (Vec3& p : draft.positions) p.x() *= 40;
@@ -62,7 +37,7 @@ const Case kCases[] = {
     {"stretched", stretched_delaunay, true, true},
     {"graded", [] { return graded_plane(20, 200); }, true, true},
     {"spiky", spiky_sphere},
-    {"book", graded_book},
+    {"book", [] { return graded_book(12); }},
 };
 
 constexpr SurfaceRules kRefine = {FlipRule::kWhereNeeded, CoverRule::kWhereNeeded,

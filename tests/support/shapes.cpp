@@ -132,6 +132,29 @@ Draft graded_plane(Index n, double ratio) {
   return out;
 }
 
+Draft graded_book(Index n) {
+  Draft draft;
+  for (int page = 0; page < 3; ++page) {
+    Draft leaf = graded_plane(n, 60);
+    const double angle = 2.1 * page;
+    for (Vec3& p : leaf.positions) p = {p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()};
+    append(draft, leaf);
+  }
+  const Index leaf = (n + 1) * (n + 1);
+  for (Face& face : draft.faces) {
+    for (Index& v : face) {
+      if (v % leaf % (n + 1) == 0) v %= leaf;  // the spine is the first page's
+    }
+  }
+  return draft;
+}
+
+Draft spiky_sphere() {
+  Draft draft = sphere(3);
+  for (const Index v : {5, 300}) draft.positions[v] *= 15;
+  return draft;
+}
+
 Draft sphere(int level) {
   Draft draft;
   const double g = std::numbers::phi;

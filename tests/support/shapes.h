@@ -42,6 +42,12 @@ Draft random_delaunay(Index count, unsigned seed);
 /// times in all.
 Draft graded_plane(Index n, double ratio);
 
+/// Three pages of n x n cells along one edge, which grow sixty times in width and height.
+Draft graded_book(Index n);
+
+/// A sphere of 1,280 faces with two spikes, 15 times as far out.
+Draft spiky_sphere();
+
 /// Icosahedron, each triangle cut into 4^level, vertices on the unit sphere.
 Draft sphere(int level);
 
