@@ -31,18 +31,18 @@ std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, boo
   const std::string of = several ? " of the largest component; " + significant(least) + " to " +
                                        significant(most) + " in all"
                                  : "";
+  const std::string for_sizes =
+      method.grading() == 1 ? "" : ", for m = " + factor + " and faces of many sizes";
   switch (step.rule) {
     case TimeRule::kMeanEdge:
-      if (!other_edge && method.grading() != 1) {
-        return significant(method.t()) + " = " + significant(method.relative_t()) +
-               " h^2, mean edge h = " + significant(mesh.mean_edge_length) + ", for m = " + factor +
-               " and faces of many sizes";
-      }
-      return significant(method.t()) + " = " + factor + " h^2, mean edge h = " +
-             significant(other_edge ? std::sqrt(method.t() / step.factor) : mesh.mean_edge_length) +
-             of;
+      return significant(method.t()) + " = " + significant(step.factor * method.grading()) +
+             " h^2, mean edge h = " +
+             significant(other_edge ? std::sqrt(method.t() / method.relative_t())
+                                    : mesh.mean_edge_length) +
+             for_sizes + of;
     case TimeRule::kMeanFaceArea:
-      return significant(method.t()) + " = " + factor + " A/F, mean face area" + of;
+      return significant(method.t()) + " = " + significant(step.factor * method.grading()) +
+             " A/F, mean face area" + for_sizes + of;
     case TimeRule::kAbsolute:
       break;
   }

@@ -24,6 +24,7 @@ use_data() {
 }
 use_data GEOTHERM_TEST_MESHES "$root/../shared/meshes" "tests on scanned meshes"
 use_data GEOTHERM_TEST_EXACT "$root/../shared/exact" "tests against exact distances"
+use_data GEOTHERM_TEST_CASES "$root/../shared/cases" "tests on graded meshes and slivers"
 
 suites=(release asan tsan)
 for suite in "${suites[@]}"; do

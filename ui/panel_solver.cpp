@@ -37,6 +37,9 @@ void draw_named_choice(Frame& frame, std::string_view name, std::string_view lab
 std::optional<double> time_now(const Frame& frame) {
   const MethodOptions& options = frame.state().options;
   if (!frame.model() || frame.model()->mesh.components != 1 || options.refine != 0) return {};
+  const app::Answer* answer = frame.answer();
+  const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
+  if (heat && heat->grading() != 1) return {};  // only a set-up tells
   return app::diffusion_time(options.time_step, frame.model()->mesh);
 }
 

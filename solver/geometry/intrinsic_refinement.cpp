@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <queue>
 
 #include "solver/core/parallel.h"
@@ -98,11 +99,10 @@ struct MeanLength {
 /// A face by its longest edge squared, and its area.
 using FaceSize = std::pair<double, double>;
 
-/// The smallest time from `least` on with which few enough vertices are wanted by the faces that
-/// are too large for it. `faces`: all that are too large for `least`.
-double resolved_time(double least, std::vector<FaceSize> faces, Index vertices) {
-  const double most_area =  // over t
-      kAreaOfPoint * std::max(kShareOfPoints * vertices, kFewPoints);
+/// The smallest time from `least` on with which at most so many vertices are wanted by the faces
+/// that are too large for it. `faces`: all that are too large for `least`.
+double resolved_time(double least, std::vector<FaceSize> faces, double points) {
+  const double most_area = kAreaOfPoint * points;  // over t
   std::ranges::sort(faces, std::greater());
   std::vector<double> areas{0};
   for (const auto& [longest, area] : faces) areas.push_back(areas.back() + area);
@@ -147,9 +147,10 @@ std::vector<double> gradings(const IntrinsicMesh& mesh, const Components& parts,
   for (const Index part : parts.of) {
     if (part != kNoIndex) ++vertices[part];
   }
+  const double total = std::accumulate(vertices.begin(), vertices.end(), 0.0);
   for (std::size_t c = 0; c < count; ++c) {
-    time[c] =
-        resolved_time(time[c], std::move(large[c]), vertices[c]) / part_edge[c] / part_edge[c];
+    const double points = std::max(kShareOfPoints, kFewPoints / total) * vertices[c];
+    time[c] = resolved_time(time[c], std::move(large[c]), points) / part_edge[c] / part_edge[c];
   }
   return time;
 }

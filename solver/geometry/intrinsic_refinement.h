@@ -36,9 +36,9 @@ struct Refinement : RefinementCounts {
 /// intrinsic triangulations Sharp, Soliman, Crane 2019, section 4.2); where the way to it leaves
 /// over the border, and where a border edge is obtuse, the edge is split.
 ///
-/// t is h^2, h the mean length of the part's edges but for those above 2.6 times their mean, or as
-/// much more as keeps the expected number of vertices inserted for it below a quarter of the
-/// part's.
+/// t is h^2, h the mean length of the part's edges but for those above 2.6 times their mean (so
+/// that `grading` may be below 1), or as much more as keeps the number of vertices to be expected
+/// for large faces below a quarter of the part's, or below its share of 500 where that is more.
 ///
 /// `mesh` must be Delaunay, its faces of vertices below parts.of.size(); `parts` names the
 /// connected part of each vertex and is continued for inserted ones; `part_edge`: the mean edge

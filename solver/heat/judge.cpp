@@ -68,8 +68,7 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
     text +=
         ": the heat carries no information there, and distances around them are too short, up to " +
         rounded_text(result.quality.clamped_reach) +
-        " from the sources in a straight line; use --method wavefront, or a larger " +
-        time_option(options.time_step.rule);
+        " from the sources in a straight line; use --method wavefront";
   }
   result.warnings.push_back(std::move(text));
 }

@@ -30,7 +30,6 @@ std::string percent(double share) { return rounded_text(100 * share) + " %"; }
 std::string cure(MethodKind method) {
   switch (method) {
     case MethodKind::kHeat:
-      return "use --method wavefront, or try --laplacian tufted";
     case MethodKind::kFastMarching:
       return "use --method wavefront";
     case MethodKind::kWavefront:

@@ -29,7 +29,7 @@ struct StreamOptions {
   /// What each query computes beside the distances; the quality figures in the first chunk alone,
   /// where they tell whether mesh and options suit each other. They would cost every answer a pass
   /// over the faces.
-  QueryOptions query;
+  QueryOptions query{};
 };
 
 /// One answer for each source set, each handed to `sink` as soon as its chunk is there and then let

@@ -92,7 +92,8 @@ TEST_P(Refinements, LeaveNoObtuseBorder) {
   for (Side side = 0; side < 3 * after.face_count(); ++side) {
     if (after.twin[side] != kNoSide) continue;
     const auto& lengths = after.lengths[face_of(side)];
-    if (lengths[corner_of(side)] < 0.02) continue;  // too short to matter
+    const double root_t = std::sqrt(refined.refinement.grading[0]);  // one part, of mean edge 1
+    if (lengths[corner_of(side)] < 0.02 * root_t) continue;          // too short to matter
     EXPECT_GE(opposite_cotangent(lengths, corner_of(side)), kObtuse) << side;
   }
 }
@@ -123,7 +124,7 @@ TEST_P(Refinements, AreTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(many.intrinsic.lengths, after.lengths);
 }
 
-TEST_P(Refinements, EndAtTheLimitWithAWarning) {
+TEST_P(Refinements, EndAtTheLimit) {
   IntrinsicSurface part = flipped;
   const IntrinsicSurface named = *build_intrinsic_surface(
       mesh, {.flip = FlipRule::kWhereNeeded, .cover = CoverRule::kWhereNeeded, .parts = true});
@@ -201,6 +202,31 @@ TEST(RefinementsOfGoodMeshes, DoNothing) {
     EXPECT_EQ(surface.refinement.points, 0);
     EXPECT_EQ(surface.refinement.grading, std::vector<double>{1});
   }
+}
+
+/// A ribbon whose border edges need two vertices each: opposite corners stand nearly over an end.
+TEST(RefinementsOfRibbons, EndAtTheLimitWithAWarning) {
+  Draft ribbon = plane_grid(1500, 1, 1500, 0.002);
+  for (Vec3& p : ribbon.positions) p.x() += p.y() > 0 ? 0.05 : 0;
+  const MeshPtr mesh = finish(ribbon);
+  const IntrinsicSurface surface = *build_intrinsic_surface(mesh, kRefine);
+  EXPECT_FALSE(surface.refinement.complete);
+  EXPECT_EQ(surface.refinement.points, mesh->vertex_count() + 1000);
+  const std::string number = std::to_string(surface.refinement.points) + " vertices were inserted";
+  EXPECT_TRUE(std::ranges::any_of(surface.warnings, [&](const std::string& warning) {
+    return warning.find(number) != std::string::npos;
+  }));
+}
+
+/// Parts share what may be inserted, whatever their order.
+TEST(RefinementsOfManyParts, AreTheSameForEach) {
+  const Draft one = graded_plane(4, 40);
+  Draft many;
+  for (int i = 0; i < 200; ++i) append(many, one);
+  const IntrinsicSurface surface = *build_intrinsic_surface(finish(many), kRefine);
+  EXPECT_TRUE(surface.refinement.complete);
+  const std::vector<double>& grading = surface.refinement.grading;
+  EXPECT_LE(std::ranges::max(grading), std::ranges::min(grading) * (1 + kRoundOff));
 }
 
 TEST(RefinementsWithProgress, EndWhenCancelled) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
+#include "solver/mesh/read_mesh.h"
 #include "solver/method/build_method.h"
 #include "solver/method/distance_error.h"
 #include "tests/support/solve.h"
@@ -167,6 +169,52 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RefinedSurface,
                          testing::Values(Case{"spiky", spiky_sphere},
                                          Case{"book", [] { return graded_book(20); }}),
                          case_name);
+
+/// Meshes on which the method was 10 to 90 % wrong; those that are not part of the project.
+struct KnownCase {
+  const char* file;
+  double mean, of_range;  ///< wanted: mean relative error, largest one of the range; in per cent
+};
+void PrintTo(const KnownCase& c, std::ostream* out) { *out << c.file; }
+
+class KnownCases : public testing::TestWithParam<KnownCase> {};
+
+TEST_P(KnownCases, AreRightOnAverageOverSources) {
+  const char* folder = std::getenv("GEOTHERM_TEST_CASES");
+  if (folder == nullptr) GTEST_SKIP() << "GEOTHERM_TEST_CASES is not set";
+  const auto file = read_mesh(std::string(folder) + '/' + GetParam().file);
+  ASSERT_TRUE(file);
+  const auto mesh = std::make_shared<const TriangleMesh>(file->mesh);
+  const HeatMethod method = method_of(mesh);
+  MethodOptions waves;
+  waves.method = MethodKind::kWavefrontFine;
+  const auto reference = *build_method(mesh, waves);
+  double mean = 0, most = 0;
+  const Index sources = 8;
+  for (Index i = 0; i < sources; ++i) {
+    const SourceSet source = SourceSet::of_vertices({i * (mesh->vertex_count() / sources)});
+    const DistanceError e =
+        distance_error(solve(method, source).distances, reference->solve(source)->distances);
+    mean += e.mean_relative / sources;
+    most = std::max(most, e.max_of_range);
+  }
+  EXPECT_LE(100 * mean, GetParam().mean);
+  EXPECT_LE(100 * most, GetParam().of_range);
+}
+
+// An error of 5 % of the range is fair; in the bow it is reached in a corner. Beside sources among
+// the tiny faces of the last two relative errors stay large: one is 233 vertices in all, in the
+// other edges differ by 10^3.
+INSTANTIATE_TEST_SUITE_P(Files, KnownCases,
+                         testing::Values(KnownCase{"uniform_delaunay_3000.ply", 1.5, 5},
+                                         KnownCase{"bow_40_0.001.ply", 1.5, 6},
+                                         KnownCase{"graded_box.obj", 1.5, 5},
+                                         KnownCase{"spikes_105.ply", 5, 5},
+                                         KnownCase{"cluster_118.ply", 20, 5}),
+                         [](const auto& each) {
+                           const std::string name = each.param.file;
+                           return name.substr(0, name.find_first_of("_."));
+                         });
 
 /// Narrow regions of the plane, on which the corrections of the method say nothing.
 class NarrowPlane : public testing::TestWithParam<Case> {};

@@ -39,7 +39,9 @@ TEST_P(Setup, TakesTheTimeFromTheMeanEdge) {
   options.time_step.factor = 2.5;
   const HeatMethod method = method_of(mesh, options);
   EXPECT_NEAR(method.t(), 2.5 * mean * mean * method.grading(), kRoundOff * mean * mean);
-  if (method.refinement().large_faces == 0) EXPECT_EQ(method.grading(), 1);
+  if (method.refinement().large_faces == 0) {
+    EXPECT_EQ(method.grading(), 1);
+  }
 }
 
 TEST_P(Setup, TakesTheTimeAsGiven) {
