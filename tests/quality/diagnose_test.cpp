@@ -120,6 +120,23 @@ TEST(DiagnoseTest, ExactDistancesAreOfferedWhereTheyAreTheReferenceAndNoOtherMet
   EXPECT_EQ(setting_text(*found->cure), "--method exact");
 }
 
+TEST(DiagnoseTest, TheMeshIsTooCoarseOnlyWhereAFinerOneIsGood) {
+  const MeshPtr mesh = finish(sphere(0));
+  MethodOptions finer;
+  finer.refine = 1;
+  // A finer mesh is nearest to this reference: exactly it, or a little more wrong than is good.
+  for (const double scale : {1.0, 1.025}) {
+    Distances better = distances_of(mesh, finer);
+    for (double& d : better) d *= scale;
+    Distances poor = better;
+    for (double& d : poor) d *= 2;
+    const auto found = diagnosis_of(mesh, {}, poor, MethodKind::kExact, better);
+    ASSERT_TRUE(found && found->cause);
+    EXPECT_EQ(found->cause->option, "refine");
+    EXPECT_EQ(found->cause->because.empty(), scale != 1) << found->cause->because;
+  }
+}
+
 TEST(DiagnoseTest, TheReferenceItselfIsHeldAgainstABetterMethodBeforeItIsNamed) {
   const MeshPtr mesh = finish(jittered_plane(8, 0.3, 5));
   const Distances waves = distances_of(mesh, of_method(MethodKind::kWavefront));
