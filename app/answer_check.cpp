@@ -81,6 +81,7 @@ Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& 
                                      const DistanceMethod& beside, ReferenceAnswers& better,
                                      const Progress& progress) {
   const MethodKind checked = answers.method.kind();
+  if (!is_better(reference, checked)) return unchecked(checked, CheckMode::kUsual);
   auto solved =
       solve_reference(mesh, reference, answers.sources, answers.options.threads, &beside, progress);
   if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
@@ -101,14 +102,23 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
   return {};  // the figures stand without it
 }
 
-MethodKind judge_of_better(CheckMode mode, Index faces) {
-  return mode == CheckMode::kThorough ? reference_for(MethodKind::kWavefront, faces)
-                                      : MethodKind::kWavefrontFine;
+MethodKind judge_of_better(MethodKind kind, CheckMode mode, Index faces) {
+  if (faces <= kMostFacesExact) return MethodKind::kExact;
+  if (mode == CheckMode::kThorough) return reference_for(kind, faces);
+  return kind == MethodKind::kWavefront ? MethodKind::kWavefrontFine : kind;
 }
 
-MethodOptions better_options(const MethodOptions& options) {
+std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces) {
+  std::vector<MethodKind> kinds = {MethodKind::kWavefront, MethodKind::kWavefrontFine};
+  const MethodKind judge = judge_of_better(MethodKind::kWavefrontFine, mode, faces);
+  if (judge == MethodKind::kExact) kinds.push_back(judge);
+  std::erase_if(kinds, [poor](MethodKind kind) { return !is_better(kind, poor); });
+  return kinds;
+}
+
+MethodOptions better_options(const MethodOptions& options, MethodKind kind) {
   MethodOptions better;
-  better.method = MethodKind::kWavefront;
+  better.method = kind;
   better.threads = options.threads;
   return better;
 }
@@ -179,7 +189,7 @@ Result<SampleCheck> check_sample_against(const std::shared_ptr<const TriangleMes
 std::string accuracy_line(const AccuracyReport& report) {
   if (!report.measured) return report.verdict;
   return figures_in_words(report.figures) + ", against " + to_text(report.reference) + ": " +
-         report.verdict;
+         to_text(report.grade) + report.advice;
 }
 
 std::string accuracy_line(const SampleCheck& check) {
@@ -188,7 +198,7 @@ std::string accuracy_line(const SampleCheck& check) {
   return "on " + grouped(static_cast<std::int64_t>(report.sets)) + " of " +
          counted(static_cast<std::int64_t>(check.of), "source", "sources") + ": " +
          figures_in_words(report.figures) + " from source " + std::to_string(check.worst) +
-         ", against " + to_text(report.reference) + ": " + report.verdict;
+         ", against " + to_text(report.reference) + ": " + to_text(report.grade) + report.advice;
 }
 
 std::string accuracy_warning(const AccuracyReport& report, const std::string& line) {
@@ -208,6 +218,13 @@ std::string replaced_note(const MethodOptions& asked, const MethodOptions& answe
                           const std::string& line) {
   return "the method " + to_text(answered.method) + " answered, for the method " +
          to_text(asked.method) + " gave poor distances: " + line;
+}
+
+std::string still_poor_warning(const AccuracyReport& report, const MethodOptions& answered,
+                               const std::string& line) {
+  if (!report.is_poor()) return report.failed ? report.verdict : std::string();
+  return "the method " + to_text(answered.method) +
+         ", which answered, gave poor distances: " + line;
 }
 
 std::string error_title(const AccuracyReport& report) {

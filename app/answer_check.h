@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "solver/core/progress.h"
 #include "solver/quality/accuracy.h"
@@ -21,7 +22,7 @@ enum class CheckMode {
 /// What becomes of poor distances.
 enum class OnPoor {
   kKeep,    ///< they are handed out, with a warning
-  kBetter,  ///< the method wavefront answers instead
+  kBetter,  ///< the method wavefront answers instead, or the next one (better_methods())
   kFail,    ///< the command fails
 };
 
@@ -44,8 +45,8 @@ Result<AccuracyReport> check_answers(const std::shared_ptr<const TriangleMesh>& 
 /// The report on a method that is not held against another one in this mode.
 AccuracyReport unchecked(MethodKind method, CheckMode mode);
 
-/// The same against `reference`. `beside`: CheckedAnswers::method, or another one on the mesh whose
-/// triangulation is shared.
+/// The same against `reference`; where that is no better than the method, the report says so.
+/// `beside`: CheckedAnswers::method, or another one on the mesh whose triangulation is shared.
 Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& mesh,
                                      const CheckedAnswers& answers, MethodKind reference,
                                      const DistanceMethod& beside, ReferenceAnswers& better,
@@ -56,10 +57,13 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
                        const CheckedAnswers& answers, const ReferenceAnswers& better,
                        CheckMode mode, const Progress& progress);
 
-/// What the method is held against that answers instead of a poor one.
-MethodKind judge_of_better(CheckMode mode, Index faces);
-/// Options of that method.
-MethodOptions better_options(const MethodOptions& options);
+/// The methods that answer instead of `poor`, the next where one is poor as well: wavefront,
+/// wavefront-fine and, where these are held against it, exact.
+std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces);
+/// What such a method is held against; `kind` itself, where nothing better fits.
+MethodKind judge_of_better(MethodKind kind, CheckMode mode, Index faces);
+/// Options of such a method.
+MethodOptions better_options(const MethodOptions& options, MethodKind kind);
 
 /// How right a method is on some of many source sets, spread over them evenly.
 struct SampleCheck {
@@ -95,6 +99,10 @@ Result<void> refuse_poor(const AccuracyReport& report, const std::string& line);
 /// Says that another method answered instead of one that was poor.
 std::string replaced_note(const MethodOptions& asked, const MethodOptions& answered,
                           const std::string& line);
+
+/// What is to be warned of the answer that replaced another one; empty: nothing.
+std::string still_poor_warning(const AccuracyReport& report, const MethodOptions& answered,
+                               const std::string& line);
 
 /// What the values are, over a colour bar: "error against exact".
 std::string error_title(const AccuracyReport& report);

@@ -265,16 +265,15 @@ Json error_json(const AccuracyReport& report) {
                {"mean_signed", figure(e.mean_signed)},
                {"worst_vertex", e.worst == kNoIndex ? Json(nullptr) : Json(e.worst)},
                {"reference_ms", figure(report.milliseconds)}};
+  json["cause"] = nullptr;
   if (report.cause) {
     json["cause"] = {{"option", report.cause->option},
                      {"value", report.cause->value},
                      {"mean_relative_before", report.cause->mean_relative_before},
                      {"mean_relative_after", report.cause->mean_relative_after}};
   }
-  if (!report.tried.empty()) {
-    json["tried"] = Json::array();
-    for (const TriedSetting& tried : report.tried) json["tried"].push_back(tried_json(tried));
-  }
+  json["tried"] = Json::array();
+  for (const TriedSetting& tried : report.tried) json["tried"].push_back(tried_json(tried));
   return json;
 }
 

@@ -2,6 +2,7 @@
 #include "app/solve_model.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "app/machine.h"
@@ -75,24 +76,47 @@ Result<void> check_and_summarize(SolveFigures& figures, CheckMode mode, Referenc
   return done;
 }
 
-/// Answers by the better method instead. Errors: those of its solve.
-Result<void> replace_poor(SolveFigures& figures, CheckMode mode, QueryOptions query,
-                          const Progress& progress) {
-  query.fields = false;
-  auto answered = solve(figures.model, better_options(figures.options), figures.sources, query,
+/// Answers by a better method instead. Errors: those of its solve.
+Result<SolveFigures> answer_by(MethodKind kind, const SolveFigures& poor, CheckMode mode,
+                               const QueryOptions& query, const Progress& progress) {
+  auto answered = solve(poor.model, better_options(poor.options, kind), poor.sources, query,
                         part_of(progress, 0.0, 0.5));
   if (!answered) return answered.error();
   ReferenceAnswers better;
-  auto report = check_against(figures.model.mesh, answers_of(*answered),
-                              judge_of_better(mode, figures.model.mesh->face_count()),
-                              *figures.method, better, part_of(progress, 0.5, 1.0));
+  const MethodKind judge = judge_of_better(kind, mode, poor.model.mesh->face_count());
+  auto report = check_against(poor.model.mesh, answers_of(*answered), judge, *poor.method, better,
+                              part_of(progress, 0.5, 1.0));
   if (!report) return report.error();
+  answered->error = *std::move(report);
+  return answered;
+}
+
+/// Answers by the first better method that is not poor, else by the last one that can answer.
+/// Errors: those of the first one's solve, kCancelled.
+Result<void> replace_poor(SolveFigures& figures, CheckMode mode, QueryOptions query,
+                          const Progress& progress) {
+  query.fields = false;
+  const auto kinds = better_methods(figures.options.method, mode, figures.model.mesh->face_count());
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
+  std::optional<SolveFigures> answered;
+  double done = 0;
+  for (const MethodKind kind : kinds) {
+    auto next = answer_by(kind, figures, mode, query, part_of(progress, done, done + share));
+    if (!next && (!answered || next.error().code == ErrorCode::kCancelled)) return next.error();
+    if (!next) break;
+    answered = *std::move(next);
+    if (!answered->error->is_poor()) break;
+    done += share;
+  }
+  if (!answered) return {};
   answered->mesh = figures.mesh;
   answered->report_ms = figures.report_ms;
-  answered->error = *std::move(report);
   answered->replaced = std::move(figures.error);
   answered->warnings.push_back(
       replaced_note(figures.options, answered->options, accuracy_line(*answered->replaced)));
+  auto poor =
+      still_poor_warning(*answered->error, answered->options, accuracy_line(*answered->error));
+  if (!poor.empty()) answered->warnings.push_back(std::move(poor));
   figures = *std::move(answered);
   return {};
 }

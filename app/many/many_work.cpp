@@ -169,16 +169,30 @@ Result<CheckedMethod> check_method(const std::shared_ptr<const TriangleMesh>& me
     }
     return out;
   }
-  out.options = better_options(options);
-  auto better = build_method(mesh, out.options, checking);
-  if (!better) return better.error();
-  auto judged = check_sample_against(mesh, **better, out.options, sets,
-                                     judge_of_better(settings.mode, mesh->face_count()),
-                                     *out.method, checking);
-  if (!judged) return judged.error();
+  out.replaced = out.error;
+  const std::shared_ptr<const DistanceMethod> poor = out.method;
+  for (const MethodKind kind : better_methods(options.method, settings.mode, mesh->face_count())) {
+    const MethodOptions next = better_options(options, kind);
+    auto better = build_method(mesh, next, checking);
+    if (!better) {
+      if (out.method == poor || better.error().code == ErrorCode::kCancelled) return better.error();
+      break;  // what was poor, too, is better than nothing
+    }
+    auto judged = check_sample_against(mesh, **better, next, sets,
+                                       judge_of_better(kind, settings.mode, mesh->face_count()),
+                                       *poor, checking);
+    if (!judged) {
+      if (out.method == poor || judged.error().code == ErrorCode::kCancelled) return judged.error();
+      break;
+    }
+    out.options = next;
+    out.error = *std::move(judged);
+    out.method = *std::move(better);
+    if (!out.error.report.is_poor()) break;
+  }
   out.warnings.push_back(replaced_note(options, out.options, line));
-  out.replaced = std::exchange(out.error, *std::move(judged));
-  out.method = *std::move(better);
+  auto still = still_poor_warning(out.error.report, out.options, accuracy_line(out.error));
+  if (!still.empty()) out.warnings.push_back(std::move(still));
   return out;
 }
 

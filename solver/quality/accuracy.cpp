@@ -15,55 +15,53 @@ namespace {
 
 constexpr int kBins = 41;
 
-/// What is wrong, in figures: the mean error, or the largest where that alone is too large.
-std::string figures_text(const DistanceError& error) {
-  if (error.mean_relative > kGoodError) return percent_text(error.mean_relative);
-  return "up to " + percent_text(error.max_of_range) + " of the largest distance";
+/// Whether the mean error decides the grade, else the largest.
+bool mean_decides(const DistanceError& error) {
+  return error.mean_relative > (grade_of(error) == Grade::kPoor ? kFairError : kGoodError);
 }
 
-/// What a setting gave, in the figure that is wrong.
-std::string result_text(const DistanceError& wrong, double mean_relative, double max_of_range) {
-  if (wrong.mean_relative > kGoodError) return percent_text(mean_relative);
-  return "up to " + percent_text(max_of_range);
+/// The figure that decides the grade of `wrong`, of these figures.
+std::string figure_text(const DistanceError& wrong, double mean_relative, double max_of_range) {
+  if (mean_decides(wrong)) return percent_text(mean_relative);
+  return "up to " + percent_text(max_of_range) + " of the largest distance";
 }
 
-std::string cure_text(const AccuracyReport& report) {
-  const Cure& cure = *report.cure;
-  std::string text = "with " + setting_text(cure) + " it is " +
-                     result_text(report.figures, cure.mean_relative, cure.max_of_range);
-  if (cure.against != report.reference) text += " (against " + to_text(cure.against) + ')';
+double badness_of(const TriedSetting& tried) {
+  DistanceError error;
+  error.mean_relative = tried.mean_relative;
+  error.max_of_range = tried.max_of_range;
+  return badness(error);
+}
+
+std::string gain_text(const AccuracyReport& report, const TriedSetting& tried) {
+  std::string text = "with " + setting_text(tried) + " it is ";
+  if (tried.option == "method" && tried.value == to_text(tried.against)) return text + tried.value;
+  text += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
+  if (tried.against != report.reference) text += " (against " + to_text(tried.against) + ')';
   return text;
 }
 
-/// The best of what was tried where nothing is good; empty: nothing is better than what there is.
-std::string nearest_text(const AccuracyReport& report) {
-  const TriedSetting* best = nullptr;
+/// Why the answer is wrong and what was found to help, to follow the grade and its figures.
+std::string advice_of(const AccuracyReport& report) {
+  const TriedSetting *best = nullptr, *cause = nullptr;
   for (const TriedSetting& tried : report.tried) {
-    if (best == nullptr || tried.mean_relative < best->mean_relative) best = &tried;
+    if (best == nullptr || badness_of(tried) < badness_of(*best)) best = &tried;
+    const bool is_cause =
+        report.cause && tried.option == report.cause->option && tried.value == report.cause->value;
+    if (is_cause) cause = &tried;
   }
-  if (best == nullptr || best->mean_relative >= report.figures.mean_relative) return {};
-  return "the least of what was tried is " + percent_text(best->mean_relative) + ", with " +
-         setting_text(*best);
-}
-
-std::string verdict_of(const AccuracyReport& report) {
-  std::string text = to_text(report.grade) + ": " + figures_text(report.figures);
-  const bool has_cause = report.cause.has_value();
-  const bool cure_is_cause = has_cause && report.cure &&
-                             report.cure->option == report.cause->option &&
-                             report.cure->value == report.cause->value;
-  if (has_cause && !report.cause->because.empty()) text += " because " + report.cause->because;
-  std::string helps;
-  if (has_cause && !cure_is_cause) {
-    helps = "with --" + report.cause->option + ' ' + report.cause->value + " it is " +
-            percent_text(report.cause->mean_relative_after);
+  std::string text;
+  if (report.cause && !report.cause->because.empty()) text = " because " + report.cause->because;
+  text += "; ";
+  if (best == nullptr || badness_of(*best) >= badness(report.figures)) {
+    return text + "the " + to_text(report.reference) +
+           " method, which it was held against, is nearer";
   }
-  if (report.cure) helps += (helps.empty() ? "" : ", ") + cure_text(report);
-  if (helps.empty()) helps = nearest_text(report);
-  if (helps.empty()) {
-    helps = "the " + to_text(report.reference) + " method, which it was held against, is nearer";
+  if (cause != nullptr && badness_of(*cause) > badness_of(*best)) {
+    text += gain_text(report, *cause) + ", ";
   }
-  return text + "; " + helps;
+  text += gain_text(report, *best);
+  return report.cure ? text : text + ", the best of what was tried";
 }
 
 /// Where a share of the vertices is reached by one method alone, figures say nothing.
@@ -133,7 +131,8 @@ AccuracyReport hold_against(std::span<const std::vector<double>> distances, Meth
   report.measured = true;
   report.grade = grade_of(report.figures);
   report.verdict = to_text(report.grade);
-  if (report.figures.differently_reached > 0) report.verdict += ": " + reach_text(report.figures);
+  if (report.figures.differently_reached > 0) report.advice = ": " + reach_text(report.figures);
+  report.verdict += report.advice;
   if (distances.size() == 1) {
     report.values = signed_error(distances.front(), better.distances.front());
     report.histogram = error_histogram(report.values, kBins);
@@ -162,7 +161,11 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
   report.cause = std::move(found->cause);
   report.cure = std::move(found->cure);
   report.tried = std::move(found->tried);
-  report.verdict = verdict_of(report);
+  report.advice = advice_of(report);
+  report.verdict =
+      to_text(report.grade) + ": " +
+      figure_text(report.figures, report.figures.mean_relative, report.figures.max_of_range) +
+      report.advice;
   return {};
 }
 

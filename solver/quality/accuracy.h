@@ -45,11 +45,12 @@ struct AccuracyReport {
   bool failed = false;                        ///< the check itself failed; the verdict says why
   DistanceError figures;
   Grade grade = Grade::kPoor;
-  std::size_t worst_set = 0;        ///< the source set of DistanceError::worst
-  std::size_t sets = 1;             ///< source sets that were solved for
-  std::vector<double> values;       ///< of one set, V: d - d_reference; infinite where either is
-  ErrorHistogram histogram;         ///< of the values
-  std::string verdict;              ///< one sentence: the grade, why, and what was tried
+  std::size_t worst_set = 0;   ///< the source set of DistanceError::worst
+  std::size_t sets = 1;        ///< source sets that were solved for
+  std::vector<double> values;  ///< of one set, V: d - d_reference; infinite where either is
+  ErrorHistogram histogram;    ///< of the values
+  std::string verdict;  ///< one sentence: the grade, the figure that decides it, and the advice
+  std::string advice;   ///< what of the verdict follows the grade and the figure: why, what helps
   double milliseconds = 0;          ///< that the reference took, set-up and queries
   std::optional<ErrorCause> cause;  ///< the one option to which most of the error is due
   std::optional<Cure> cure;         ///< a setting that was tried and is right

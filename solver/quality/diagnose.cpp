@@ -18,9 +18,6 @@ constexpr double kMostLeft = 0.8;
 /// right on some meshes only, after one that is recommended; four times as many faces.
 constexpr double kWorthOther = 0.8, kWorthFaces = 0.5;
 
-/// Exact distances, which a search takes where it needs some, need a few tenths of a second there.
-constexpr Index kMostFacesExact = 20'000;
-
 /// Shares of the progress: options of the heat method, more faces, other methods.
 constexpr double kOptionsDone = 0.5, kFacesDone = 0.8;
 
@@ -34,21 +31,24 @@ class Search {
         reference_(reference),
         better_(better),
         before_(joint_error(answers.distances, better).figures),
-        left_(badness(before_)) {}
+        left_(badness(before_)),
+        exact_answers_(reference == MethodKind::kExact) {}
 
-  /// Tries what changes an option of the heat method. It is the cause so far if it leaves less than
-  /// `share` of what was left by the best before it. What fails explains nothing. Errors:
-  /// kCancelled.
+  /// Tries what changes an option of the heat method. It is the cure if its answer is good. It is
+  /// the cause so far if it is the cure, or leaves less than `share` of what was left by the best
+  /// before it, and lowers the mean error. What fails explains nothing. Errors: kCancelled.
   Result<void> try_option(const Candidate& candidate, double share, const Progress& progress) {
     const auto error = error_of(candidate.options, better_, progress);
     if (!error) return unless_cancelled(error.error());
     const TriedSetting tried = keep(candidate.option, candidate.value, *error, reference_);
+    const double left = badness(*error);
+    const bool good = left <= 1 && left < badness(before_);
+    if (good) found.cure = tried;
     const double most = std::min(kMostLeft * badness(before_), (found.cause ? share : 1) * left_);
-    if (error->mean_relative >= before_.mean_relative || badness(*error) >= most) return {};
+    if (error->mean_relative >= before_.mean_relative || (left >= most && !good)) return {};
     found.cause = ErrorCause{candidate.option, candidate.value, candidate.because,
                              before_.mean_relative, error->mean_relative};
-    left_ = badness(*error);
-    if (left_ <= 1) found.cure = tried;
+    left_ = left;
     return {};
   }
 
@@ -59,8 +59,9 @@ class Search {
       if (auto tried = try_method(kind, progress); !tried) return tried;
       if (found.cure) return {};
     }
-    if (is_better(reference_, answers_.method.kind()) && reference_ == MethodKind::kExact) {
-      found.cure = keep("method", to_text(reference_), {}, reference_);  // by definition
+    if (exact_answers_ && is_better(MethodKind::kExact, answers_.method.kind())) {
+      // Exact distances are without error by definition.
+      found.cure = keep("method", to_text(MethodKind::kExact), {}, MethodKind::kExact);
     }
     return {};
   }
@@ -80,7 +81,10 @@ class Search {
       if (!is_better(judge, kind) || (judge == MethodKind::kExact && !small)) continue;
       const auto better = solve_reference(mesh_, judge, answers_.sources, options.threads,
                                           &answers_.method, progress);
-      if (better) return try_against(options, judge, better->distances, progress);
+      if (better) {
+        exact_answers_ = exact_answers_ || judge == MethodKind::kExact;
+        return try_against(options, judge, better->distances, progress);
+      }
       if (better.error().code == ErrorCode::kCancelled) return better.error();
     }
     return {};
@@ -142,6 +146,7 @@ class Search {
   std::span<const std::vector<double>> better_;
   DistanceError before_;
   double left_;
+  bool exact_answers_;  ///< the method exact has answered on this mesh
 };
 
 Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
@@ -163,7 +168,12 @@ Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
   }
   const Candidate refined = refined_candidate(answers.options);
   if (faces * refined.faces > most_faces) return {};
-  return search.try_option(refined, kWorthFaces, part_of(progress, done, kFacesDone));
+  const auto tried = search.try_option(refined, kWorthFaces, part_of(progress, done, kFacesDone));
+  // Only where a finer mesh makes the answer good, the mesh is what was wrong.
+  if (!search.found.cure && search.found.cause && search.found.cause->option == refined.option) {
+    search.found.cause->because.clear();
+  }
+  return tried;
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "solver/heat/heat_method.h"
 #include "solver/mesh/generate.h"
 #include "tests/support/shapes.h"
@@ -111,6 +113,30 @@ TEST(AccuracyTest, APoorAnswerNamesACureThatGivesWhatItSays) {
   constexpr double kRounding = 1e-6;
   EXPECT_NEAR(cured->figures.mean_relative, report->cure->mean_relative, kRounding);
   EXPECT_FALSE(cured->is_poor());
+}
+
+TEST(AccuracyTest, TheVerdictHasTheFigureThatMakesItPoorAndTheSameOfTheCure) {
+  const MeshPtr mesh = finish(sphere(3));
+  Asked asked = ask(mesh, {}, {0});
+  const ReferenceAnswers better = *solve_reference(mesh, MethodKind::kExact, asked.sources, 1);
+  const double largest = *std::ranges::max_element(better.distances[0]);
+  // The mean is fair, which is no reason to call it poor.
+  asked.distances = better.distances;
+  for (double& d : asked.distances[0]) d *= 1.03;
+  constexpr double kTooLarge = 0.2;
+  asked.distances[0].back() = better.distances[0].back() + kTooLarge * largest;
+  AccuracyReport report = hold_against(asked.distances, MethodKind::kHeat, better);
+  ASSERT_TRUE(report.is_poor());
+  ASSERT_GT(report.figures.mean_relative, kGoodError);
+  ASSERT_LT(report.figures.mean_relative, kFairError);
+  ASSERT_TRUE(find_cure(report, mesh, asked.answers(), better, CureSearch::kWherePoor));
+  ASSERT_TRUE(report.cure) << report.verdict;
+  EXPECT_TRUE(report.verdict.starts_with("poor: up to 20 % of the largest distance"))
+      << report.verdict;
+  const std::string gain = "with " + setting_text(*report.cure) + " it is up to " +
+                           percent_text(report.cure->max_of_range);
+  EXPECT_NE(report.verdict.find(gain), std::string::npos) << report.verdict;
+  EXPECT_EQ(report.verdict.find(percent_text(report.figures.mean_relative)), std::string::npos);
 }
 
 TEST(AccuracyTest, NothingIsMeasuredAgainstAMethodThatIsNoBetter) {

@@ -87,6 +87,56 @@ TEST(DiagnoseTest, TheCheapestGoodSettingEndsTheSearch) {
   EXPECT_LT(found->cure->mean_relative, 1e-6) << "the cure is what the reference was made with";
 }
 
+/// Distances of which all but one are those of the heat method with its usual options, and that one
+/// is wrong by `share` of the largest.
+Distances wrong_at_one_vertex(Distances distances, double share) {
+  const double largest = *std::ranges::max_element(distances);
+  distances.back() += share * largest;
+  return distances;
+}
+
+TEST(DiagnoseTest, AGoodSettingIsTheCureHoweverLittleItLowersTheError) {
+  const MeshPtr mesh = finish(sphere(3));
+  const Distances usual = distances_of(mesh, {});
+  // Both are a little too long at one vertex: as much as is good, and a tenth more.
+  const Distances better = wrong_at_one_vertex(usual, -0.95 * kMostOfRange);
+  const Distances poor = wrong_at_one_vertex(usual, 0.15 * kMostOfRange);
+  MethodOptions wrong;
+  wrong.time_step.factor = 1.5;
+  const auto found = diagnosis_of(mesh, wrong, poor, MethodKind::kExact, better);
+  ASSERT_TRUE(found && found->cure);
+  EXPECT_EQ(setting_text(*found->cure), "--time-factor 1");
+  EXPECT_EQ(found->tried.size(), 1U);
+}
+
+TEST(DiagnoseTest, ExactDistancesAreOfferedWhereTheyAreTheReferenceAndNoOtherMethodIsGood) {
+  const MeshPtr mesh = finish(sphere(2));
+  // A reference that no other method comes near.
+  Distances waves = distances_of(mesh, of_method(MethodKind::kWavefront));
+  for (double& d : waves) d *= 4;
+  const auto found = diagnosis_of(mesh, of_method(MethodKind::kFastMarching),
+                                  Distances(waves.size(), 1), MethodKind::kExact, waves);
+  ASSERT_TRUE(found && found->cure);
+  EXPECT_EQ(setting_text(*found->cure), "--method exact");
+}
+
+TEST(DiagnoseTest, TheMeshIsTooCoarseOnlyWhereAFinerOneIsGood) {
+  const MeshPtr mesh = finish(sphere(0));
+  MethodOptions finer;
+  finer.refine = 1;
+  // A finer mesh is nearest to this reference: exactly it, or a little more wrong than is good.
+  for (const double scale : {1.0, 1.025}) {
+    Distances better = distances_of(mesh, finer);
+    for (double& d : better) d *= scale;
+    Distances poor = better;
+    for (double& d : poor) d *= 2;
+    const auto found = diagnosis_of(mesh, {}, poor, MethodKind::kExact, better);
+    ASSERT_TRUE(found && found->cause);
+    EXPECT_EQ(found->cause->option, "refine");
+    EXPECT_EQ(found->cause->because.empty(), scale != 1) << found->cause->because;
+  }
+}
+
 TEST(DiagnoseTest, TheReferenceItselfIsHeldAgainstABetterMethodBeforeItIsNamed) {
   const MeshPtr mesh = finish(jittered_plane(8, 0.3, 5));
   const Distances waves = distances_of(mesh, of_method(MethodKind::kWavefront));
