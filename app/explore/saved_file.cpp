@@ -2,9 +2,7 @@
 #include "app/explore/saved_file.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 #include "app/text.h"
@@ -20,10 +18,19 @@ Error bad(const std::string& path, const std::string& cause) {
   return {ErrorCode::kBadInput, one_line(path) + ": " + cause};
 }
 
-/// Extension and hidden name; `path` has no links in it, or they have been followed.
+/// Whether the file or one of the folders that the path names is hidden.
+bool is_hidden(const fs::path& path) {
+  return std::ranges::any_of(path, [](const fs::path& part) {
+    return part.string().starts_with('.') && part != "." && part != "..";
+  });
+}
+
+/// Extension and hidden names; `path` has no links in it, or they have been followed.
 Result<void> check_name(const std::string& path, const Command& command) {
-  if (fs::path(path).filename().string().starts_with('.')) {
-    return bad(path, "commands write no hidden files; choose a name without a dot in front");
+  if (is_hidden(path)) {
+    return bad(path,
+               "commands write no hidden files and nothing into hidden folders; choose a path "
+               "without names that begin with a dot");
   }
   if (std::holds_alternative<command::SaveDistances>(command)) return check_distance_path(path);
   std::string what = "sessions and logs are", extension = ".geotherm";
@@ -36,24 +43,6 @@ Result<void> check_name(const std::string& path, const Command& command) {
   }
   if (io::file_extension(path) == extension) return {};
   return bad(path, what + " written as " + extension + "; name a FILE" + extension);
-}
-
-/// Whether a file that begins like this was written by the program.
-bool is_ours(const std::string& extension, std::string_view head) {
-  const auto holds = [head](std::string_view text) { return head.find(text) != head.npos; };
-  if (extension == ".geotherm") return head.starts_with(kScriptMark);
-  if (extension == ".png") {
-    constexpr std::string_view kSoftware("Software\0geotherm ", 18);
-    return head.starts_with("\x89PNG") && holds(kSoftware);
-  }
-  if (extension == ".json") {
-    return head.starts_with("{\n  \"model\": {\n") && holds("\"mean_edge_length\": ");
-  }
-  if (extension == ".csv") return head.starts_with("vertex,distance");
-  if (extension == ".ply")
-    return head.starts_with("ply\n") && holds("\nproperty double distance\n");
-  if (extension == ".vtp") return holds("<PointData Scalars=\"distance\">");
-  return false;
 }
 
 }  // namespace
@@ -78,11 +67,12 @@ Result<void> check_saved_name(const Command& command) {
     return Error{ErrorCode::kBadInput, "a command writes files alone; give the name of one, not -"};
   }
   if (auto checked = check_name(path, command); !checked) return checked;
+  // From the current folder, which may itself lie in a hidden one.
   std::error_code unknown;
-  if (!fs::is_symlink(path, unknown)) return {};
-  const std::string target = fs::weakly_canonical(path, unknown).string();
+  const std::string target = fs::proximate(path, unknown).string();
+  if (unknown) return {};  // Opening the file says what is wrong with its path.
   if (const auto checked = check_name(target, command); !checked) {
-    return bad(path, "is a link to " + checked.error().message);
+    return bad(path, "leads by a link to " + checked.error().message);
   }
   return {};
 }
@@ -90,21 +80,10 @@ Result<void> check_saved_name(const Command& command) {
 Result<void> check_replaced_by_script(const Command& command) {
   const std::string& path = *saved_path(command);
   std::error_code unknown;
-  const fs::file_status status = fs::symlink_status(path, unknown);
-  if (!fs::exists(status)) return {};
-  const auto refuse = [&path](const std::string& why) {
-    return bad(path, why +
-                         "; a script replaces only files of its own kind that geotherm wrote: "
-                         "remove it, or choose another name");
-  };
-  if (!fs::is_regular_file(path, unknown)) return refuse("is there already and is no plain file");
-  constexpr std::size_t kHead = 4096;
-  std::array<char, kHead> head{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(head.data(), kHead);
-  const std::string_view read(head.data(), static_cast<std::size_t>(file.gcount()));
-  if (is_ours(io::file_extension(path), read)) return {};
-  return refuse("is there already");
+  if (!fs::exists(fs::symlink_status(path, unknown))) return {};
+  return bad(path,
+             "is there already, and a script replaces only files that it wrote itself in this "
+             "run; choose another name, or remove the file");
 }
 
 }  // namespace geotherm::app

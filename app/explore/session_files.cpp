@@ -19,7 +19,8 @@ namespace {
 
 /// What sessions and logs begin with.
 std::string script_head() {
-  return std::string(kScriptMark) + "; see docs/commands.md\n" + kInertLine + '\n';
+  std::string head = "# geotherm commands; see docs/commands.md\n";
+  return head.append(kInertLine).append("\n");
 }
 
 Error not_yet(const char* what) {
@@ -89,8 +90,9 @@ std::string session_text(const ViewerState& state) {
 
 Result<void> Session::State::check_place(const Command& command, Giver giver) const {
   if (auto named = check_saved_name(command); !named) return named;
-  // A user has been asked, or knows; so does a script what it has written itself.
-  if (giver == Giver::kUser || saved.contains(full_path(*saved_path(command)))) return {};
+  // A user has been asked, or knows. Scripts may replace what scripts of this run have written.
+  if (giver == Giver::kUser || saved_by_scripts.contains(full_path(*saved_path(command))))
+    return {};
   return check_replaced_by_script(command);
 }
 
@@ -114,7 +116,11 @@ Result<void> Session::State::save(const Command& command, const Session& session
     done = write_text(state.model, path, "save log", script_head() + commands.script());
   }
   if (!done) return done;
-  saved.insert(full_path(path));
+  if (giver == Giver::kScript) {
+    saved_by_scripts.insert(full_path(path));
+  } else {
+    saved_by_scripts.erase(full_path(path));
+  }
   note(LogLine::Kind::kNote, "wrote " + one_line(path));
   return {};
 }

@@ -62,7 +62,7 @@ struct Session::State {
   std::optional<Error> first_error;
   std::deque<std::pair<std::string, ScriptLine>> script;  ///< where from, what
   int scripts_run = 0;
-  std::set<std::string> saved;  ///< files that were written, by their full paths without links
+  std::set<std::string> saved_by_scripts;  ///< full paths, without links
   std::uint64_t opening = 0, last_opening = 0;
   struct Before {
     ViewerState state;

@@ -37,14 +37,15 @@ constexpr Format kFormats[] = {{".obj", io::read_obj, io::read_obj},
 
 Result<MeshFile> finish(const std::string& name, io::RawMesh raw) {
   io::PolygonCutter cutter(raw.faces.size());
-  std::size_t folded = 0;
   for (const io::Polygon& polygon : raw.polygons) {
     const std::span fan = std::span(raw.faces).subspan(polygon.first_face, polygon.face_count);
-    if (!cutter.triangulate(raw.positions, fan)) ++folded;
-  }
-  if (folded > 0) {
-    raw.notes.push_back(counted_text(folded, "polygon", "polygons") +
-                        " with too many corners folded over may cover some places more than once");
+    if (!cutter.triangulate(raw.positions, fan)) {
+      return Error{ErrorCode::kBadFile,
+                   name + ": a polygon with " + std::to_string(polygon.face_count + 2) +
+                       " corners needs more than the " + std::to_string(cutter.most_tests()) +
+                       " tests of points that all polygons of this file may take; triangulate it "
+                       "in the program that wrote it"};
+    }
   }
   Result<TriangleMesh> mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
   if (!mesh) return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message};

@@ -15,11 +15,7 @@ namespace fs = std::filesystem;
 
 class SavedFile : public SessionFixture {
  protected:
-  SavedFile() {
-    fs::remove_all(place());
-    fs::create_directories(place());
-  }
-  ~SavedFile() override { fs::remove_all(place()); }
+  SavedFile() { fs::create_directories(place()); }
 
   std::string place(const std::string& name = "") const { return folder() + "files/" + name; }
 
@@ -80,24 +76,51 @@ TEST_F(SavedFile, OfAScriptReplacesNothingThatGeothermDidNotWrite) {
 }
 
 TEST_F(SavedFile, OfAScriptReplacesWhatItWroteItself) {
-  const std::string lines = "open " + small_model() + "\nsource set 5\nsave session " +
-                            place("s.geotherm") + "\nsave log " + place("l.geotherm") +
-                            "\nsave distances " + place("d.csv") + "\nsave distances " +
-                            place("d.ply") + "\nsave distances " + place("d.vtp") +
-                            "\nsave figures " + place("f.json") + "\n";
-  for (int i = 0; i < 2; ++i) {  // the second time all of them are there
-    const auto ran = run_foreign(lines + lines);
+  std::string lines = "open " + small_model() + "\nsource set 5\nsave session " +
+                      place("s.geotherm") + "\nsave log " + place("l.geotherm") +
+                      "\nsave figures " + place("f.json") + "\n";
+  for (const char* const name : {"d.csv", "d.ply", "d.vtp", "d.npy"}) {
+    lines += "save distances " + place(name) + "\n";
+  }
+  const auto ran = run_foreign(lines + lines);
+  EXPECT_TRUE(ran) << ran.error().message;
+}
+
+TEST_F(SavedFile, OfAScriptReplacesNothingOfARunBefore) {
+  const std::pair<const char*, const char*> saved[] = {
+      {"session", "s.geotherm"}, {"log", "l.geotherm"},  {"figures", "f.json"},
+      {"distances", "d.csv"},    {"distances", "d.ply"}, {"distances", "d.vtp"},
+      {"distances", "d.npy"}};
+  for (const auto& [what, name] : saved) {
+    const std::string line = std::string("save ") + what + ' ' + place(name);
+    const auto ran = run_foreign("open " + small_model() + "\nsource set 5\n" + line + "\n");
     ASSERT_TRUE(ran) << ran.error().message;
+    expect_kept(line, place(name), std::string(name) + ": is there already");
   }
 }
 
-TEST_F(SavedFile, OfAnArrayIsReplacedByTheScriptThatMadeItAlone) {
-  const std::string lines = "open " + small_model() + "\nsource set 5\nsave distances " +
-                            place("d.npy") + "\nsave distances " + place("d.npy") + "\n";
-  EXPECT_TRUE(run_foreign(lines));
-  const auto again = run_foreign(lines);
-  ASSERT_FALSE(again);
-  EXPECT_NE(again.error().message.find("d.npy: is there already"), std::string::npos);
+TEST_F(SavedFile, OfAScriptReplacesNothingThatItsUserSaved) {
+  ASSERT_TRUE(session.submit(command::SaveLog{place("a.geotherm")}));
+  const std::string before = text_of(place("a.geotherm"));
+  write(place("foreign.geotherm"), "save session " + place("a.geotherm") + "\n");
+  EXPECT_FALSE(session.submit(command::Run{place("foreign.geotherm")}));
+  EXPECT_EQ(text_of(place("a.geotherm")), before);
+}
+
+TEST_F(SavedFile, IsInNoHiddenFolder) {
+  fs::create_directories(place(".ssh/deep"));
+  fs::create_directory_symlink(place(".ssh"), place("link"));
+  for (const char* const folder : {".ssh/", ".ssh/deep/", "link/"}) {
+    for (const char* const name : {"log x.geotherm", "figures x.json", "distances x.csv"}) {
+      std::string line = std::string("save ") + name;
+      const std::size_t at = line.rfind(' ') + 1;
+      const std::string path = place(folder) + line.substr(at);
+      expect_kept(line.replace(at, std::string::npos, path), path, "hidden folders");
+      EXPECT_FALSE(fs::exists(path));
+    }
+  }
+  const auto saved = session.submit(command::SaveLog{place("./x.geotherm")});
+  EXPECT_TRUE(saved) << saved.error().message;
 }
 
 TEST_F(SavedFile, OfAUserReplacesWhatIsThere) {
@@ -109,7 +132,7 @@ TEST_F(SavedFile, OfAUserReplacesWhatIsThere) {
 TEST_F(SavedFile, IsNotReachedThroughALink) {
   write(place(".profile"), "mine\n");
   fs::create_symlink(place(".profile"), place("a.geotherm"));
-  expect_kept("save log " + place("a.geotherm"), place(".profile"), "is a link to ");
+  expect_kept("save log " + place("a.geotherm"), place(".profile"), "leads by a link to ");
   EXPECT_FALSE(session.submit(command::SaveLog{place("a.geotherm")}));
   EXPECT_EQ(text_of(place(".profile")), "mine\n");
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -18,8 +19,11 @@ class SessionFixture : public testing::Test {
  protected:
   SessionFixture() {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = testing::TempDir() + "geotherm_" + test->test_suite_name() + "_" + test->name() + "_";
+    folder_ = testing::TempDir() + "geotherm_" + test->test_suite_name() + "_" + test->name() + "/";
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
   }
+  ~SessionFixture() override { std::filesystem::remove_all(folder_); }
 
   const std::string& folder() const { return folder_; }
 

@@ -65,16 +65,20 @@ class PolygonCutter {
  public:
   /// `triangles`: those of all polygons of the file.
   explicit PolygonCutter(std::size_t triangles)
-      : tests_(kTestsAtLeast + kTestsEach * static_cast<std::int64_t>(triangles)) {}
+      : most_tests_(kTestsAtLeast + kTestsEach * static_cast<std::int64_t>(triangles)) {}
 
-  /// False: the limit is reached, and the polygon keeps its fan although it folds.
+  std::int64_t most_tests() const { return most_tests_; }
+
+  /// False: the limit is reached, and the fan is folded still.
   bool triangulate(std::span<const Vec3> positions, std::span<Face> fan);
 
  private:
-  // Some nanoseconds each; polygons of CAD and outlines of letters take some ten for each corner.
-  static constexpr std::int64_t kTestsAtLeast = 10'000'000, kTestsEach = 40;
+  // About two nanoseconds each; polygons of CAD and outlines of letters take some ten for each
+  // corner.
+  static constexpr std::int64_t kTestsAtLeast = 50'000'000, kTestsEach = 40;
 
-  std::int64_t tests_;  ///< points that may still be tested
+  std::int64_t most_tests_;
+  std::int64_t tests_ = most_tests_;  ///< points that may still be tested
 };
 
 }  // namespace geotherm::io

@@ -31,28 +31,37 @@ class CornerGrid {
     for (const Point& p : points_) ++starts_[cell(p) + 1];
     for (std::size_t c = 1; c < starts_.size(); ++c) starts_[c] += starts_[c - 1];
     order_.resize(points_.size());
-    std::vector<int> next(starts_.begin(), starts_.end() - 1);
+    ends_.assign(starts_.begin(), starts_.end() - 1);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      order_[static_cast<std::size_t>(next[cell(points_[i])]++)] = static_cast<int>(i);
+      order_[static_cast<std::size_t>(ends_[cell(points_[i])]++)] = {points_[i],
+                                                                     static_cast<int>(i)};
     }
   }
 
-  /// The first corner in the box around three of them for which `is_found`, or -1. `tests` becomes
-  /// less by the cells and corners that were looked at.
+  /// Precondition: the corner is there.
+  void remove(int corner) {
+    const std::size_t at_cell = cell(at(corner));
+    const auto first = order_.begin() + starts_[at_cell];
+    *std::find_if(first, order_.end(), [&](const Entry& e) { return e.corner == corner; }) =
+        order_[static_cast<std::size_t>(--ends_[at_cell])];
+  }
+
+  /// A corner in or close to the triangle of three of them for which `is_found`, or -1. `tests`
+  /// becomes less by the cells and corners that were looked at.
   template <class IsFound>
   int find(int a, int b, int c, std::int64_t& tests, const IsFound& is_found) const {
     const Point room = Point::Constant(slack_);
     const Point low = at(a).cwiseMin(at(b)).cwiseMin(at(c)) - room;
     const Point high = at(a).cwiseMax(at(b)).cwiseMax(at(c)) + room;
+    const Side sides[] = {{at(a), at(b), slack_}, {at(b), at(c), slack_}, {at(c), at(a), slack_}};
     const int right = column(high.x(), low_.x()), top = column(high.y(), low_.y());
     for (int y = column(low.y(), low_.y()); y <= top; ++y) {
       for (int x = column(low.x(), low_.x()); x <= right; ++x) {
         const auto at_cell = static_cast<std::size_t>(y * side_ + x);
-        tests -= 1 + starts_[at_cell + 1] - starts_[at_cell];
-        for (int k = starts_[at_cell]; k < starts_[at_cell + 1]; ++k) {
-          const int corner = order_[static_cast<std::size_t>(k)];
-          const Point& p = at(corner);
-          if (p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y()) continue;
+        tests -= 1 + ends_[at_cell] - starts_[at_cell];
+        for (int k = starts_[at_cell]; k < ends_[at_cell]; ++k) {
+          const auto& [p, corner] = order_[static_cast<std::size_t>(k)];
+          if (sides[0].is_beyond(p) || sides[1].is_beyond(p) || sides[2].is_beyond(p)) continue;
           if (is_found(corner)) return corner;
         }
       }
@@ -62,6 +71,23 @@ class CornerGrid {
 
  private:
   static constexpr double kRounding = 1e-9;  ///< of the polygon's size: more than turns are off by
+
+  struct Entry {
+    Point point;
+    int corner;
+  };
+
+  /// The line through two points, counterclockwise around a triangle.
+  struct Side {
+    Side(const Point& from, const Point& to, double slack)
+        : outwards(to.y() - from.y(), from.x() - to.x()),
+          most(outwards.dot(from) + slack * outwards.lpNorm<1>()) {}
+
+    bool is_beyond(const Point& p) const { return outwards.dot(p) > most; }
+
+    Point outwards;
+    double most;
+  };
 
   const Point& at(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
   int column(double x, double low) const {
@@ -75,7 +101,8 @@ class CornerGrid {
   Point low_, high_;
   double slack_ = 0, per_length_ = 0;
   int side_ = 1;
-  std::vector<int> starts_, order_;
+  std::vector<int> starts_, ends_;
+  std::vector<Entry> order_;  ///< the corners that are left, cell by cell
 };
 
 std::vector<CornerGrid::Point> in_plane(std::span<const Vec3> positions, const Vec3& normal,
@@ -155,8 +182,8 @@ class EarCutter {
     if (tests < 0) return;
     const Face t = triangle_at(i);
     if (!(turn(t[0], t[1], t[2]) > 0)) return;
-    const int blocker = grid_.find(c.before, i, c.after, tests,
-                                   [&](int k) { return corner(k).left && holds(t, vertex(k)); });
+    const int blocker =
+        grid_.find(c.before, i, c.after, tests, [&](int k) { return holds(t, vertex(k)); });
     if (blocker >= 0) {
       link(i, blocker);
     } else {
@@ -198,6 +225,7 @@ class EarCutter {
   void remove(int i, std::int64_t& tests) {
     Corner& c = corner(i);
     c.left = false;
+    grid_.remove(i);
     unlink(i);
     corner(c.before).after = c.after;
     corner(c.after).before = c.before;
