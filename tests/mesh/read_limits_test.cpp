@@ -2,6 +2,9 @@
 // Files that are large in one way only: lines, numbers and counts without measure.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {
@@ -17,10 +20,17 @@ std::string repeated(const std::string& text, std::size_t count) {
 }
 
 TEST(LongLine, HoldsAFaceOfAnyNumberOfCorners) {
-  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  const auto file = read_bytes("a.obj", vertices + "f" + repeated(" 1 2 3", kMany) + "\n");
+  constexpr int kCorners = 40000;  // of a convex polygon
+  std::string text, face = "f";
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    text += "v " + std::to_string(1e6 * std::cos(angle)) + ' ' +
+            std::to_string(1e6 * std::sin(angle)) + " 0\n";
+    face += ' ' + std::to_string(i + 1);
+  }
+  const auto file = read_bytes("a.obj", text + face + "\n");
   ASSERT_TRUE(file) << file.error().message;
-  EXPECT_EQ(file->mesh.face_count(), static_cast<Index>(3 * kMany - 2));
+  EXPECT_EQ(file->mesh.face_count(), Index{kCorners - 2});
   EXPECT_EQ(file->polygons, 1);
 }
 
