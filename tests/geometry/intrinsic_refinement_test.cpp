@@ -197,7 +197,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RefinementsOfThePlane, testing::ValuesIn(planar
                          case_name);
 
 TEST(RefinementsOfGoodMeshes, DoNothing) {
-  for (const auto draft : {torus(40, 20, 0.4), plane_grid(20, 20, 1, 1), sphere(3)}) {
+  for (const auto& draft : {torus(40, 20, 0.4), plane_grid(20, 20, 1, 1), sphere(3)}) {
     const IntrinsicSurface surface = *build_intrinsic_surface(finish(draft), kRefine);
     EXPECT_EQ(surface.refinement.points, 0);
     EXPECT_EQ(surface.refinement.grading, std::vector<double>{1});
