@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/core/disjoint_sets.h"
 #include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/geometry/face_components.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
@@ -97,17 +97,12 @@ void measure_points(IntrinsicSurface& surface) {
 
 /// Parts of the surface and the mean lengths of their edges; that of the only one is exactly 1.
 void name_parts(const CleanFaces& clean, IntrinsicSurface& surface) {
-  DisjointSets sets(static_cast<std::size_t>(surface.mesh->vertex_count()));
-  for (const Face& face : clean.faces) {
-    sets.join(face[0], face[1]);
-    sets.join(face[1], face[2]);
-  }
+  const FaceComponents faces = face_components(clean.faces, surface.mesh->vertex_count());
   Components& parts = surface.parts;
+  parts.count = faces.count;
   parts.of.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kNoIndex);
-  for (Index v = 0; v < surface.mesh->vertex_count(); ++v) {
-    if (clean.corners.at(v).empty()) continue;
-    const Index lowest = sets.root(v);
-    parts.of[v] = lowest == v ? parts.count++ : parts.of[lowest];
+  for (std::size_t f = 0; f < clean.faces.size(); ++f) {
+    for (const Index v : clean.faces[f]) parts.of[v] = faces.of[f];
   }
   surface.part_edge.assign(static_cast<std::size_t>(parts.count), 1.0);
   if (parts.count == 1) return;

@@ -9,7 +9,6 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-#include "solver/geometry/intrinsic_refinement.h"
 #include "solver/geometry/intrinsic_surface.h"
 #include "solver/heat/heat_options.h"
 #include "solver/linear/fallback.h"
