@@ -57,8 +57,8 @@ CureSearch search_of(CheckMode mode) {
 
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what) {
   if (settings.on_poor != OnPoor::kBetter) return {};
-  return Error{ErrorCode::kBadInput, "--on-poor better may answer by the method wavefront, and " +
-                                         what + " is about the heat u; leave one of them out"};
+  return Error{ErrorCode::kBadInput, "--on-poor better may answer by another method, and " + what +
+                                         " is about the heat u; leave one of them out"};
 }
 
 AccuracyReport unchecked(MethodKind method, CheckMode mode) {
@@ -69,10 +69,10 @@ Result<AccuracyReport> check_answers(const std::shared_ptr<const TriangleMesh>& 
                                      const CheckedAnswers& answers, CheckMode mode,
                                      ReferenceAnswers& better, const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  const MethodKind reference = mode == CheckMode::kThorough
-                                   ? reference_for(checked, mesh->face_count())
-                                   : MethodKind::kWavefront;
-  if (!is_better(reference, checked)) return unchecked(checked, mode);
+  const bool thorough = mode == CheckMode::kThorough;
+  if (!thorough && !is_better(MethodKind::kWavefront, checked)) return unchecked(checked, mode);
+  const Index faces = mesh->face_count();
+  const MethodKind reference = thorough ? reference_for(checked, faces) : usual_reference(faces);
   return check_against(mesh, answers, reference, answers.method, better, progress);
 }
 

@@ -11,8 +11,9 @@ void add_check_options(CLI::App& command, CheckArguments& arguments) {
   add_no_check_option(command, arguments);
   command
       .add_option("--on-poor", arguments.on_poor,
-                  "what becomes of poor distances: keep (default: a warning), better (the method "
-                  "wavefront answers instead), fail (exit code 1, nothing is written)")
+                  "what becomes of poor distances: keep (default: a warning), better (the first of "
+                  "wavefront, wavefront-fine, exact that is right answers instead), fail (exit "
+                  "code 1, nothing is written)")
       ->type_name("WHAT")
       ->group("Accuracy");
 }

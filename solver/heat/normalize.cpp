@@ -101,14 +101,17 @@ class Scatter {
   bool has_negative(std::size_t column) const {
     return least_[column] < -kRoundOff * most_[column];
   }
-  Index count_negative(std::size_t column) const {
+  /// But for those for which there is a better distance.
+  Index count_negative(std::size_t column, std::span<const NearVertex> near) const {
     const auto c = static_cast<Eigen::Index>(column);
     Index count = 0;
-    for (Eigen::Index i = 0; i < phi_.rows(); ++i) {
-      if (!is_of_mesh(surface_, i)) continue;
-      count +=
-          phi_(i, c) + add_(surface_.operators->components.of[i], c) < -kRoundOff * most_[column];
-    }
+    const auto is_negative = [&](Eigen::Index row) {
+      if (!is_of_mesh(surface_, row)) return false;
+      const double add = add_(surface_.operators->components.of[row], c);
+      return phi_(row, c) + add < -kRoundOff * most_[column];
+    };
+    for (Eigen::Index row = 0; row < phi_.rows(); ++row) count += is_negative(row) ? 1 : 0;
+    for (const NearVertex& vertex : near) count -= is_negative(vertex.row) ? 1 : 0;
     return count;
   }
 
@@ -206,8 +209,9 @@ double shift_of(const Surface& surface, const PoissonAnswer& answer, Index row,
 }  // namespace
 
 Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
-                       std::span<const SourceAnchors> anchors, ConstraintMode mode, int threads,
-                       std::span<DistanceResult> results) {
+                       std::span<const SourceAnchors> anchors,
+                       std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
+                       int threads, std::span<DistanceResult> results) {
   const bool pinned = mode == ConstraintMode::kPinSources;
   if (!pinned) shift_to_mean(surface.operators->components, answer, anchors);
   Scatter scatter(surface, answer, anchors, results);
@@ -230,7 +234,16 @@ Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
       if (!pinned || !is_of_mesh(surface, anchor.row)) continue;
       result.distances[surface.vertex_of_row[anchor.row]] = anchor.offset * unit;
     }
-    if (scatter.has_negative(c)) result.quality.clamped_vertices = scatter.count_negative(c);
+    const std::span<const NearVertex> near_here =
+        near.empty() ? std::span<const NearVertex>() : near[c];
+    if (scatter.has_negative(c)) {
+      result.quality.clamped_vertices = scatter.count_negative(c, near_here);
+    }
+    for (const NearVertex& vertex : near_here) {
+      if (!is_of_mesh(surface, vertex.row)) continue;
+      double& distance = result.distances[surface.vertex_of_row[vertex.row]];
+      distance = vertex.share * distance + (1 - vertex.share) * vertex.distance * unit;
+    }
   }
   return {};
 }

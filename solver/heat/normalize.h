@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/heat/diffuse.h"
+#include "solver/heat/near_field.h"
 #include "solver/heat/poisson.h"
 #include "solver/heat/source_anchors.h"
 #include "solver/method/distance_result.h"
@@ -13,13 +14,14 @@ namespace geotherm {
 /// Makes distances of a Poisson answer (n x K, elimination order, units of the intrinsic mesh), one
 /// source set a column. Under kPinSources the anchors have their value exactly; otherwise each
 /// component is shifted so that phi agrees with the anchors in the mean: `answer.shift` says by how
-/// much then. Distances below 0 become 0 and are counted where that is more than round-off. Fills
-/// `distances` (file order, model units, kUnreached elsewhere), `max_source_distance` and
-/// `clamped_vertices` of the results. Errors: kNumericalFailure when a value is not finite. Cost:
-/// one pass over the vertices.
+/// much then. Distances below 0 become 0 and are counted where that is more than round-off; then
+/// those of `near` (find_near_field() of each set, or empty) come in. Fills `distances` (file
+/// order, model units, kUnreached elsewhere), `max_source_distance` and `clamped_vertices` of the
+/// results. Errors: kNumericalFailure when a value is not finite. Cost: one pass over the vertices.
 Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
-                       std::span<const SourceAnchors> anchors, ConstraintMode mode, int threads,
-                       std::span<DistanceResult> results);
+                       std::span<const SourceAnchors> anchors,
+                       std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
+                       int threads, std::span<DistanceResult> results);
 
 /// phi of one column after normalize(), as the distances have it but for the clamping.
 std::vector<double> shifted_phi(const Surface& surface, const PoissonAnswer& answer,

@@ -12,6 +12,7 @@
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/judge.h"
+#include "solver/heat/near_field.h"
 #include "solver/heat/normalize.h"
 #include "solver/heat/quality.h"
 #include "solver/heat/unit_field.h"
@@ -117,6 +118,21 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   return solves + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
+/// None where the published method is asked for, or a mode that is there to be studied.
+std::vector<std::vector<NearVertex>> near_fields(const QueryPipeline& p,
+                                                 const std::vector<SourceAnchors>& anchors,
+                                                 int threads) {
+  if (p.options.variant == Variant::kClassic) return {};
+  if (p.options.constraint.mode == ConstraintMode::kPenalty) return {};
+  std::vector<std::vector<NearVertex>> near(anchors.size());
+  parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      near[i] = find_near_field(p.surface, anchors[i]);
+    }
+  });
+  return near;
+}
+
 /// `threads`: of this group alone.
 Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets,
                          const std::vector<SourceAnchors>& anchors, const QueryOptions& query,
@@ -143,7 +159,8 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
       p.poisson.solve(std::move(b), anchors, work, part_of(progress, kHeatShare, kSolvedShare));
   if (!answer) return answer.error();
   const ConstraintMode mode = p.options.constraint.mode;
-  const auto normalized = normalize(p.surface, *answer, anchors, mode, work.threads, results);
+  const auto near = near_fields(p, anchors, work.threads);
+  const auto normalized = normalize(p.surface, *answer, anchors, near, mode, work.threads, results);
   if (!normalized) return with_cure(normalized.error());
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();

@@ -56,6 +56,7 @@ class Placer {
   SourceAnchors finish() {
     measure_near_faces();
     SourceAnchors out;
+    out.pieces = std::move(pieces_);
     std::set<Index> components;
     for (const auto& [row, anchor] : anchors_) {
       out.anchors.push_back({row, std::min(anchor.offset, near_.at(row)), anchor.heat});
@@ -143,10 +144,21 @@ class Placer {
         add_vertex(face[l]);
         const Index a = surface_.row_of_vertex[face[k]], b = surface_.row_of_vertex[face[l]];
         edges_.insert({std::min(a, b), std::max(a, b)});
+        add_on_side(3 * piece.face + (l == next_corner(k) ? k : l));
         return true;
       }
     }
     return false;
+  }
+
+  /// A whole side, as both faces at it see it.
+  void add_on_side(Side side) {
+    for (const Side of : {side, surface_.intrinsic.twin[side]}) {
+      if (of == kNoSide) continue;
+      const Index f = face_number(face_of(of));
+      const auto at = corners(surface_.operators->layout[f]);
+      pieces_.push_back({f, at[corner_of(of)], at[next_corner(corner_of(of))]});
+    }
   }
 
   Index face_number(Index intrinsic_face) const {
@@ -166,6 +178,7 @@ class Placer {
       return Point2(w[0] * at[0] + w[1] * at[1] + w[2] * at[2]);
     };
     const Point2 from = place(piece.from), to = place(piece.to);
+    pieces_.push_back({f, from, to});
     for (int k = 0; k < 3; ++k) {
       Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
       if (entry.offset == 0) continue;  // a source itself, with all its heat
@@ -221,6 +234,7 @@ class Placer {
 
   const Surface& surface_;
   std::map<Index, Entry> anchors_;
+  std::vector<SourceAnchors::Piece> pieces_;
   std::map<Index, double> near_;
   std::set<Index> touched_;
   std::set<std::array<Index, 2>> edges_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,15 @@ struct SourceAnchors {
     std::array<double, 2> field;  ///< gradient of the interpolated straight distance
   };
 
+  /// A point (both ends the same) or a straight piece of a curve inside one face or along its side,
+  /// in the face's layout; what lies on a side stands in both faces at it.
+  struct Piece {
+    Index face;
+    Eigen::Vector2d from, to;
+  };
+
   std::vector<Anchor> anchors;       ///< ascending rows, each once
+  std::vector<Piece> pieces;         ///< of the sources that are no vertices
   std::vector<NearFace> near_faces;  ///< each face once
   std::vector<Index> components;     ///< that hold a source, ascending
 

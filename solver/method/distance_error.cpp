@@ -11,7 +11,7 @@ namespace {
 constexpr double kAtSource = 1e-12;
 
 /// Windows need some seconds there.
-constexpr Index kMostFacesExact = 200'000;
+constexpr Index kMostFacesExact = 200'000, kMostFacesUsuallyExact = 1'000;
 
 }  // namespace
 
@@ -129,6 +129,10 @@ MethodKind reference_for(MethodKind kind, Index faces) {
       break;
   }
   return faces <= kMostFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+}
+
+MethodKind usual_reference(Index faces) {
+  return faces <= kMostFacesUsuallyExact ? MethodKind::kExact : MethodKind::kWavefront;
 }
 
 bool is_better(MethodKind a, MethodKind b) {

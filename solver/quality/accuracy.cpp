@@ -173,15 +173,17 @@ Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>&
                                       const CheckedAnswers& answers, const AccuracyOptions& options,
                                       const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  if (!is_better(options.reference, checked)) {
+  const MethodKind reference = options.reference.value_or(usual_reference(mesh->face_count()));
+  const bool near_exact = !is_better(MethodKind::kWavefront, checked);
+  if ((near_exact && !options.reference) || !is_better(reference, checked)) {
     return unmeasured(
         checked, checked == MethodKind::kExact
                      ? "this is the most accurate method there is"
                      : "the method " + to_text(checked) + " was not held against a better one");
   }
   const bool searches = options.search != CureSearch::kNever;
-  auto better = solve_reference(mesh, options.reference, answers.sources, options.threads,
-                                &answers.method, part_of(progress, 0.0, searches ? 0.3 : 1.0));
+  auto better = solve_reference(mesh, reference, answers.sources, options.threads, &answers.method,
+                                part_of(progress, 0.0, searches ? 0.3 : 1.0));
   if (!better) return better.error();
   AccuracyReport report = hold_against(answers.distances, checked, *better);
   if (auto found =

@@ -23,9 +23,9 @@ enum class CureSearch {
 };
 
 struct AccuracyOptions {
-  /// What the distances are held against: kWavefront takes about as long as one heat query;
-  /// reference_for() is the most accurate method that fits the mesh.
-  MethodKind reference = MethodKind::kWavefront;
+  /// What the distances are held against: reference_for() is the most accurate method that fits the
+  /// mesh. None: usual_reference().
+  std::optional<MethodKind> reference = std::nullopt;
   CureSearch search = CureSearch::kWherePoor;
   int threads = 0;  ///< 0: all cores
 };

@@ -122,6 +122,15 @@ void WaveFront::seed_face(const WaveSurface& surface, const SourceSeeds::Piece& 
   }
 }
 
+double WaveFront::least_on(Index edge) const {
+  const SideCode code = tables_.sides[edge][0];
+  const WaveFace& face = tables_.faces[face_of_code(code)];
+  const int k = corner_of_code(code);
+  double least = std::min(distance_[face.vertex[k]], distance_[face.vertex[next_corner(k)]]);
+  for (int i = 0; i < samples_; ++i) least = std::min(least, sample_[samples_ * edge + i]);
+  return least;
+}
+
 void WaveFront::lower(double& value, Index* label, double candidate, Index group) {
   if (!(candidate < value)) return;
   value = candidate;

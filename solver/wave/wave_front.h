@@ -32,6 +32,8 @@ class WaveFront {
   std::span<const double> distances() const { return distance_; }
   /// Groups of the nearest sources, when labels were asked for.
   std::span<const Index> labels() const { return label_; }
+  /// The least of the distances at an edge's ends and samples, in the same units.
+  double least_on(Index edge) const;
   /// What has to be added to every distance: the least offset.
   double base() const { return base_; }
   /// The work: edges that were visited, and corners where fans touch.
