@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "solver/core/raw_vector.h"
 #include "solver/wave/wave_surface.h"
 
 namespace geotherm {
@@ -40,7 +41,7 @@ struct WaveTables {
   std::vector<Index> rank_of_vertex;      ///< V and inserted: number here, kNoIndex when in no face
   std::vector<Index> vertex_of_rank;      ///< n
   std::vector<Index> rank_of_face;        ///< F: number here of a face of the intrinsic mesh
-  std::vector<Index> intrinsic_face;      ///< F: the inverse
+  RawVector<Index> intrinsic_face;        ///< F: the inverse
   std::vector<std::size_t> corner_start;  ///< n + 1
   std::vector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
 
@@ -54,7 +55,7 @@ struct WaveTables {
   std::size_t bytes() const;
 };
 
-/// Cost: O(F + V log V).
-WaveTables build_wave_tables(const WaveSurface& surface);
+/// The same with any number of threads. Cost: O(F + V log V).
+WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
 
 }  // namespace geotherm

@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 
+#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
 #include "solver/wave/judge_wave.h"
@@ -16,6 +17,8 @@ namespace {
 
 /// What a query takes at least for each face.
 constexpr double kFaceNanoseconds = 100;
+/// What the tables take for each face.
+constexpr double kSetUpNanoseconds = 250;
 
 /// Fronts kept between queries: fresh memory would be handed out and cleared page by page, which at
 /// a million faces takes as long as a tenth of the query. Grows to one for each thread.
@@ -124,7 +127,8 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     state->samples = samples;
     state->threads.most = threads;
     state->threads.nanoseconds = kFaceNanoseconds * faces;
-    state->tables = build_wave_tables(*state->surface);
+    state->tables = build_wave_tables(
+        *state->surface, threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces));
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();
