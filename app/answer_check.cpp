@@ -69,10 +69,10 @@ Result<AccuracyReport> check_answers(const std::shared_ptr<const TriangleMesh>& 
                                      const CheckedAnswers& answers, CheckMode mode,
                                      ReferenceAnswers& better, const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  const bool thorough = mode == CheckMode::kThorough;
-  if (!thorough && !is_better(MethodKind::kWavefront, checked)) return unchecked(checked, mode);
   const Index faces = mesh->face_count();
-  const MethodKind reference = thorough ? reference_for(checked, faces) : usual_reference(faces);
+  const MethodKind reference = mode == CheckMode::kThorough ? reference_for(checked, faces)
+                                                            : usual_reference(checked, faces);
+  if (!is_better(reference, checked)) return unchecked(checked, mode);
   return check_against(mesh, answers, reference, answers.method, better, progress);
 }
 

@@ -58,12 +58,11 @@ Result<void> choose_solvers(const CompareArguments& arguments, const MethodOptio
 /// Finds what is wrong with the command line before any work is done.
 Result<Plan> plan_of(const CompareArguments& arguments) {
   Plan plan;
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
-  if (auto chosen = choose_solvers(arguments, *options, plan.task); !chosen) return chosen.error();
-  const auto reading = model_reading(arguments.reading);
-  if (!reading) return reading.error();
-  plan.reading = *reading;
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  if (auto chosen = choose_solvers(arguments, options, plan.task); !chosen) return chosen.error();
+  plan.reading = asked->reading;
   const auto queries = number_in<Index>(arguments.queries);
   if (!queries || *queries < 1 || *queries > kMostQueries) {
     return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
@@ -161,7 +160,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
                   "input")
       ->required()
       ->type_name("");
-  add_reading_options(command, arguments.reading);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kModel));
   add("--backends,--backend", arguments.backends, "A,B",
       "all (default: " + joined(backend_names()) +
           "), or some of them and of wavefront, wavefront-fine, fast-marching, exact");
@@ -174,7 +173,8 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   add("--html", arguments.html, "FILE", "table and chart as a page of its own");
   add_quiet_option(command, arguments.quiet);
   add_source_options(command, arguments.sources);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings,
+                      names_of(SettingGroup::kMethod, {"backend", "strict"}));
   command.footer(
       "A solver that fails is a row with its message. Where all fail on a model the exit code is "
       "1,\nand the rows are written all the same.\n"
@@ -207,8 +207,8 @@ Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progr
   }
   const auto& solvers = plan->task.solvers;
   const auto heat = std::ranges::find(solvers, MethodKind::kHeat, &MethodOptions::method);
-  note_unused_options(arguments.method, heat == solvers.end() ? solvers.front() : *heat,
-                      out.warnings);
+  note_unused_settings(arguments.settings, heat == solvers.end() ? solvers.front() : *heat,
+                       out.warnings);
   if (auto done = write_reports(arguments, rows, outputs, out); !done) return done.error();
   out.made = outputs.made();
   return out;

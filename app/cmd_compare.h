@@ -12,12 +12,11 @@ namespace geotherm::app {
 
 struct CompareArguments {
   std::vector<std::string> models;
-  ReadingArguments reading;
+  SettingArguments settings;
   std::string backends = "all";
   std::string queries = "10";
   std::string reference;  ///< empty: the first of the backends
   SourceArguments sources;
-  MethodArguments method;
   std::string json, csv, html;
   bool quiet = false;
 };

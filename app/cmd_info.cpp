@@ -24,7 +24,7 @@ Json cracks_json(const CrackReport& cracks) {
 }  // namespace
 
 void add_info_options(CLI::App& command, InfoArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);
@@ -39,7 +39,9 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
       return expected.error();
     }
   }
-  const auto model = load_model(arguments.model, arguments.reading, progress);
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
   const MeshReport mesh = inspect_mesh(*model->mesh);
   CommandOutput out{"", model->notes, {}};

@@ -5,7 +5,7 @@
 
 #include "app/cli_app.h"
 #include "app/command_output.h"
-#include "app/model_reading.h"
+#include "app/settings_options.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
 
@@ -13,7 +13,7 @@ namespace geotherm::app {
 
 struct InfoArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   std::string json;
   bool quiet = false;
 };

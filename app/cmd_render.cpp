@@ -107,11 +107,12 @@ Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& sol
 }
 
 /// Solves where sources are given, and fills the data.
-Result<PictureData> prepare(const RenderArguments& arguments, const MethodOptions& options,
+Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState& asked,
                             const std::vector<Source>& sources, CheckSettings check,
                             const Progress& progress, PictureFigures& figures,
                             std::vector<std::string>& warnings) {
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  const MethodOptions& options = asked.options;
+  auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
   figures.model = model->name;
@@ -210,7 +211,7 @@ std::vector<std::string> typed_sources(const SourceArguments& arguments) {
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   command.add_option("-o,--output", arguments.output, "the picture, .png; - is standard output")
       ->type_name("FILE")
       ->required();
@@ -226,10 +227,9 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
-  add_picture_options(command, arguments.picture);
+  add_picture_options(command, arguments.settings, arguments.picture);
   add_source_options(command, arguments.sources);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Examples:\n"
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
@@ -241,14 +241,15 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
 Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
                                  const Progress& progress) {
   const std::vector<std::string> colour_maps = drawing.colour_maps();
-  const auto settings = picture_settings(arguments.picture, colour_maps);
+  const auto settings = picture_settings(arguments.settings, arguments.picture, colour_maps);
   if (!settings) return settings.error();
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
-  if (needs_fields(settings->view) && options->method != MethodKind::kHeat) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  if (needs_fields(settings->view) && options.method != MethodKind::kHeat) {
     return Error{ErrorCode::kBadInput,
                  "--view " + to_text(settings->view) + " shows the heat u, which --method " +
-                     to_text(options->method) + " has not; use --method heat or another view"};
+                     to_text(options.method) + " has not; use --method heat or another view"};
   }
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
@@ -278,10 +279,10 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   figures.device = *std::move(device);
   figures.paths = frame_paths(arguments.output, *settings);
   CommandOutput out;
-  auto data = prepare(arguments, *options, *sources, *check, progress, figures, out.warnings);
+  auto data = prepare(arguments, *asked, *sources, *check, progress, figures, out.warnings);
   if (!data) return data.error();
   if (figures.solve) {
-    note_unused_options(arguments.method, *options, figures.solve->warnings);
+    note_unused_settings(arguments.settings, options, figures.solve->warnings);
     out.warnings = figures.solve->warnings;
   }
   figures.scale = picture_scale(*data, *settings);

@@ -15,9 +15,8 @@ namespace geotherm::app {
 
 struct RenderArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   SourceArguments sources;
-  MethodArguments method;
   PictureArguments picture;
   CheckArguments check;
   std::vector<std::string> targets;  ///< paths lead there from the sources

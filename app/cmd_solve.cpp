@@ -42,7 +42,7 @@ bool has_several_sources(const SolveFigures& figures) {
 }  // namespace
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
   command
       .add_option("-o,--output", arguments.outputs,
@@ -93,8 +93,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
       ->group("Many sources");
   add_quiet_option(command, arguments.quiet);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Examples:\n"
       "  geotherm solve model.obj -s 17 -o distances.ply --json figures.json\n"
@@ -145,24 +144,25 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (arguments.each) return run_each(arguments, progress, announce);
   if (arguments.pairs) return run_pairs(arguments, progress, announce);
   if (auto fits = refuse_options_of_many(arguments); !fits) return fits.error();
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
-  const auto wanted = wanted_fields(arguments.fields, options->method, arguments.outputs);
+  const auto wanted = wanted_fields(arguments.fields, options.method, arguments.outputs);
   if (!wanted) return wanted.error();
-  const auto check = settings_of(arguments, *options, *wanted);
+  const auto check = settings_of(arguments, options, *wanted);
   if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
   QueryOptions query;
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);
   query.fields = wanted->has_heat();
-  auto figures = solve_model(*std::move(model), *options, *named, query, *check, progress);
+  auto figures = solve_model(*std::move(model), options, *named, query, *check, progress);
   if (!figures) return figures.error();
-  note_unused_options(arguments.method, *options, figures->warnings);
+  note_unused_settings(arguments.settings, options, figures->warnings);
   const auto fields = make_fields(*wanted, *figures);
   if (!fields) return fields.error();
 

@@ -14,9 +14,8 @@ namespace geotherm::app {
 
 struct SolveArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   SourceArguments sources;
-  MethodArguments method;
   std::vector<std::string> outputs;
   std::string json;
   CheckArguments check;

@@ -144,7 +144,7 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
 }  // namespace
 
 void add_view_options(CLI::App& command, ViewArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading);
+  add_model_option(command, arguments.model, arguments.settings);
   command.add_option("--script", arguments.script, "commands to run (docs/commands.md)")
       ->type_name("FILE");
   command
@@ -162,10 +162,9 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_flag("--validation", arguments.validation,
                    "what Vulkan's validation layer reports is an error");
   add_quiet_option(command, arguments.quiet);
-  add_picture_options(command, arguments.picture);
+  add_picture_options(command, arguments.settings, arguments.picture);
   add_source_options(command, arguments.sources);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Examples:\n"
       "  geotherm model.obj\n"
@@ -175,20 +174,18 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
 
 Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
                                          std::span<const std::string> colour_maps) {
-  const auto heat = method_options(arguments.method);
-  if (!heat) return heat.error();
-  const auto picture = picture_settings(arguments.picture, colour_maps);
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto picture = picture_settings(arguments.settings, arguments.picture, colour_maps);
   if (!picture) return picture.error();
   const auto sources = source_texts(arguments.sources);
   if (!sources) return sources.error();
-  const auto reading = model_reading(arguments.reading);
-  if (!reading) return reading.error();
   ViewerState state = initial_state();
-  state.options = *heat;
-  state.reading = *reading;
+  state.options = asked->options;
+  state.reading = asked->reading;
   state.picture = *picture;
   state.picture.device.clear();
-  if (arguments.picture.fit.empty()) state.picture.camera.fit = PictureFit::kSphere;
+  if (!arguments.settings.has("fit")) state.picture.camera.fit = PictureFit::kSphere;
   if (!arguments.model.empty()) {
     // Opening resets what belongs to a model, so it comes first.
     const auto opened = app::apply(initial_state(), command::Open{arguments.model});
@@ -221,8 +218,8 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   start.scale = scale;
   start.validation = arguments.validation;
   start.command = arguments.command;
-  if (arguments.picture.size != PictureArguments().size) {
-    const auto settings = picture_settings(arguments.picture, colour_maps);
+  if (arguments.settings.has("size")) {
+    const auto settings = picture_settings(arguments.settings, arguments.picture, colour_maps);
     start.width = settings->width;
     start.height = settings->height;
   }

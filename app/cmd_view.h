@@ -14,9 +14,8 @@ namespace geotherm::app {
 
 struct ViewArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   SourceArguments sources;
-  MethodArguments method;
   PictureArguments picture;
   std::string script;  ///< commands to run, in the window or without
   std::string replay;  ///< commands to run without a window and without writing files

@@ -123,11 +123,4 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   return model;
 }
 
-Result<Model> load_model(const std::string& text, const ReadingArguments& arguments,
-                         const Progress& progress) {
-  const auto reading = model_reading(arguments);
-  if (!reading) return reading.error();
-  return load_model(text, *reading, progress);
-}
-
 }  // namespace geotherm::app

@@ -25,10 +25,6 @@ struct Model {
 Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
                          const Progress& progress = {});
 
-/// The same, with the errors of model_reading().
-Result<Model> load_model(const std::string& text, const ReadingArguments& reading,
-                         const Progress& progress);
-
 bool is_bundled(std::string_view name);
 
 }  // namespace geotherm::app

@@ -3,21 +3,10 @@
 
 #include <cmath>
 
-#include "app/option_value.h"
 #include "app/text.h"
 #include "solver/mesh/read_mesh.h"
 
 namespace geotherm::app {
-
-Result<ModelReading> model_reading(const ReadingArguments& arguments) {
-  ModelReading reading;
-  const Result<void> all = first_failure({
-      take(parse_format(arguments.format), "--format", reading.format),
-      take(parse_weld(arguments.weld), "--weld", reading.weld),
-  });
-  if (!all) return all.error();
-  return reading;
-}
 
 Result<std::string> parse_format(const std::string& text) {
   if (text.empty() || text == "auto") return std::string();

@@ -17,17 +17,8 @@ struct ModelReading {
   bool operator==(const ModelReading&) const = default;
 };
 
-/// As typed.
-struct ReadingArguments {
-  std::string format;  ///< empty: the extension's
-  std::string weld;    ///< empty: off
-};
-
 /// The name that is standard input.
 inline constexpr std::string_view kStandardInput = "-";
-
-/// Errors: kBadInput or kNotAvailable, with the option's name and what is expected.
-Result<ModelReading> model_reading(const ReadingArguments& arguments);
 
 /// "auto", and empty, are the extension's.
 Result<std::string> parse_format(const std::string& text);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "app/report_json.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
+#include "app/explore/settings.h"
 #include "app/mesh_words.h"
 #include "app/nearest_sources.h"
 #include "app/process_clock.h"
 #include "app/resolve_sources.h"
+#include "app/text.h"
 #include "solver/core/parallel.h"
 #include "solver/heat/heat_method.h"
 #include "solver/heat/option_text.h"
@@ -214,40 +218,50 @@ Json times_json(const HeatMethod& heat) {
   return least < most ? Json{least, most} : Json::array({least});
 }
 
+/// What the setting is, as its kind is written in JSON.
+Json setting_json(const Setting& setting, const ViewerState& state) {
+  const std::string text = setting.get(state);
+  if (setting.kind == SettingKind::kSwitch) return text == "on";
+  if (setting.kind == SettingKind::kWord) return text;
+  if (const auto whole = number_in<std::int64_t>(text)) return *whole;
+  return *number_in<double>(text);
+}
+
+std::string key_of(const Setting& setting) {
+  std::string key(setting.name);
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
+/// The settings as they were used, then what the method made of them.
 Json options_json(const DistanceMethod& method, const MethodOptions& asked,
                   const DistanceResult& answer) {
   const HeatMethod* const heat = method.heat();
-  if (heat == nullptr) {  // which has most of these
-    Json json = {{"method", to_text(method.kind())}};
-    for (const char* key :
-         {"backend", "time_step", "time_factor", "t", "constraint", "heat", "boundary"}) {
-      json[key] = nullptr;
-    }
+  ViewerState state;
+  state.options = asked;
+  if (heat != nullptr) static_cast<HeatOptions&>(state.options) = heat->options();
+  Json json;
+  for (const Setting& setting : settings()) {
+    if (setting.group != SettingGroup::kMethod) continue;
+    const bool unused = heat == nullptr && setting.of_heat;
+    json[key_of(setting)] = unused ? Json(nullptr) : setting_json(setting, state);
+  }
+  json["threads"] = thread_count(asked.threads);
+  if (heat == nullptr) {
+    json["t"] = nullptr;
     json["laplacian"] = to_text(LaplacianKind::kIntrinsicDelaunay);
-    json["threads"] = thread_count(asked.threads);
-    json["refine"] = asked.refine;
     return json;
   }
-  const HeatOptions& options = heat->options();
-  const bool absolute = options.time_step.rule == TimeRule::kAbsolute;  // and has no factor
-  return {{"method", "heat"},
-          {"backend", answer.backend},
-          {"backend_asked", asked.backend},
-          {"fallbacks", fallbacks_json(*heat, answer)},
-          {"time_step", to_text(options.time_step)},
-          {"time_factor", absolute ? Json(nullptr) : Json(options.time_step.factor)},
-          {"t", heat->t()},
-          {"t_of_components", times_json(*heat)},
-          {"constraint", to_text(options.constraint)},
-          {"heat", to_text(options.heat)},
-          {"boundary", to_text(options.boundary)},
-          {"laplacian", to_text(heat->laplacian())},
-          {"threads", thread_count(options.threads)},
-          {"refine", asked.refine},
-          {"variant", to_text(options.variant)},
-          {"precision", to_text(options.precision)},
-          {"flips", heat->flips()},
-          {"refinement", refinement_json(*heat)}};
+  json["backend"] = answer.backend;
+  json["laplacian"] = to_text(heat->laplacian());
+  if (heat->options().time_step.rule == TimeRule::kAbsolute) json["time_factor"] = nullptr;
+  json.update({{"backend_asked", asked.backend},
+               {"fallbacks", fallbacks_json(*heat, answer)},
+               {"t", heat->t()},
+               {"t_of_components", times_json(*heat)},
+               {"flips", heat->flips()},
+               {"refinement", refinement_json(*heat)}});
+  return json;
 }
 
 Json error_json(const AccuracyReport& report) {

@@ -16,7 +16,7 @@ void draw_settings(Frame& frame) {
   kept.options = *frame.state().kept;
   bool any = false;
   for (const app::Setting& setting : app::settings()) {
-    if (!setting.of_method) continue;
+    if (!setting.of_method()) continue;
     const std::string a = setting.get(frame.state()), b = setting.get(kept);
     if (a == b) continue;
     any = true;

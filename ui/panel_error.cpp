@@ -49,7 +49,7 @@ std::string point_at(const TriangleMesh& mesh, Index vertex) {
 
 void draw_error_panel(Frame& frame) {
   if (!draw_section(frame, "Exact error", false)) return;
-  draw_setting_choice(frame, "check", "check");
+  draw_setting(frame, *app::find_setting("check"));
   const app::Answer* answer = frame.answer();
   if (!answer || !answer->error) {
     return draw_dim(frame, frame.state().check == app::Check::kOff

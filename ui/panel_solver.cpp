@@ -21,15 +21,14 @@ constexpr double kLeastFactor = 0.01, kMostFactor = 1000;  ///< of the slider
 
 /// The choice of a setting whose text is NAME or NAME:VALUE. `value` gives what follows a name.
 template <class Value>
-void draw_named_choice(Frame& frame, std::string_view name, std::string_view label,
-                       std::string_view tip, Value value) {
-  const app::Setting* setting = app::find_setting(name);
-  if (!setting) return;
+void draw_named_choice(Frame& frame, const app::Setting& setting, Value value) {
   std::vector<std::string> names;
-  for (const std::string& each : setting->values()) names.push_back(name_part(each));
-  draw_label(frame, label, std::string(setting->help) + "\n" + std::string(tip));
-  const auto chosen = draw_choice(frame, name, name_part(setting->get(frame.state())), names);
-  if (chosen) frame.set(name, *chosen + value(*chosen));
+  for (const std::string& each : setting.values()) names.push_back(name_part(each));
+  draw_setting_label(frame, setting);
+  const std::string now = name_part(setting.get(frame.state()));
+  if (const auto chosen = draw_choice(frame, setting.name, now, names)) {
+    frame.set(setting.name, *chosen + value(*chosen));
+  }
 }
 
 /// The t that the present settings mean, as far as it is known without solving: with several
@@ -52,10 +51,7 @@ std::string rounded_time(const Frame& frame) {
 }
 
 void draw_factor(Frame& frame) {
-  draw_label(
-      frame, "factor m",
-      "m of t = m h\u00b2 or t = m A/F. Around 1 is right for most meshes; larger smooths the "
-      "distances, smaller costs accuracy on coarse meshes.");
+  draw_setting_label(frame, *app::find_setting("time-factor"));
   const double current = frame.state().options.time_step.factor;
   const float width = ImGui::GetContentRegionAvail().x;
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -74,12 +70,10 @@ void draw_factor(Frame& frame) {
   }
 }
 
-void draw_time(Frame& frame) {
-  draw_named_choice(frame, "time-step", "time rule",
-                    "mean-edge: t = m h\u00b2; mean-face-area: t = m A/F; absolute: t itself.",
-                    [&frame](const std::string& name) {
-                      return name == "absolute" ? ":" + rounded_time(frame) : std::string();
-                    });
+void draw_time(Frame& frame, const app::Setting& setting) {
+  draw_named_choice(frame, setting, [&frame](const std::string& name) {
+    return name == "absolute" ? ":" + rounded_time(frame) : std::string();
+  });
   const TimeStep& step = frame.state().options.time_step;
   if (step.rule == TimeRule::kAbsolute) {
     draw_label(frame, "t", "Diffusion time, model units squared.");
@@ -104,15 +98,10 @@ void draw_time(Frame& frame) {
   }
 }
 
-void draw_constraint(Frame& frame) {
-  draw_named_choice(
-      frame, "constraint", "constraint",
-      "pin-sources: \u03c6 = 0 on every source; pin-vertex: on one vertex; penalty: a "
-      "number on the diagonal; conserve-energy: the total of \u03c6 is fixed; "
-      "pseudo-inverse: the smallest solution.",
-      [](const std::string& name) {
-        return name == "penalty" ? std::string(":10") : std::string();
-      });
+void draw_constraint(Frame& frame, const app::Setting& setting) {
+  draw_named_choice(frame, setting, [](const std::string& name) {
+    return name == "penalty" ? std::string(":10") : std::string();
+  });
   const std::string text = setting_text(frame, "constraint");
   const std::string name = name_part(text);
   if (name == "penalty") {
@@ -130,21 +119,13 @@ void draw_constraint(Frame& frame) {
 }
 
 /// The backend that was asked for, and the one at work where that is another.
-void draw_backend(Frame& frame) {
-  draw_setting_choice(frame, "backend", "backend");
+void draw_backend(Frame& frame, const app::Setting& setting) {
+  draw_setting(frame, setting);
   const app::Answer* answer = frame.answer();
   if (answer && answer->method->heat() && answer->result.backend != answer->options.backend) {
     draw_value(frame, "at work", answer->result.backend, "",
                "The backend that was asked for failed; the log says why.", frame.colours().warning);
   }
-}
-
-/// What backends may take, and what follows where they fail.
-void draw_limits(Frame& frame) {
-  draw_setting_field(frame, "threads", "threads");
-  draw_setting_field(frame, "memory-limit", "memory limit", "",
-                     "Most that factors may take, MB; free: what the machine has left.");
-  draw_setting_flag(frame, "strict", "no other backend where one fails");
 }
 
 void draw_failure(Frame& frame) {
@@ -156,29 +137,25 @@ void draw_failure(Frame& frame) {
   }
 }
 
-std::string laplacian_tip(const Frame& frame) {
-  std::string tip =
-      "auto flips edges where weights would be negative, on the tufted cover where edges have "
-      "three faces, and inserts vertices (refined) where faces are too large or the border is "
-      "obtuse; cotan takes the mesh as it is.";
+/// What the answer's triangulation is.
+std::string triangulation_now(const Frame& frame) {
   const app::Answer* answer = frame.answer();
-  if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
-    tip += "\nNow: " + app::laplacian_name(*heat) + ", " +
-           app::counted(heat->flips(), "flip", "flips");
-    if (heat->refinement().points > 0) tip += ", " + app::refinement_in_words(heat->refinement());
-    tip += ".";
-  }
-  return tip;
+  const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
+  if (heat == nullptr) return {};
+  std::string text =
+      "Now: " + app::laplacian_name(*heat) + ", " + app::counted(heat->flips(), "flip", "flips");
+  if (heat->refinement().points > 0) text += ", " + app::refinement_in_words(heat->refinement());
+  return text + ".";
 }
 
-/// What is done to the mesh first, whatever the method.
-void draw_mesh_settings(Frame& frame) {
-  draw_setting_choice(frame, "refine", "refine",
-                      "Each time there are four times as many faces to solve on, and less "
-                      "error; the distances shown are those at the model's own vertices.");
-  draw_setting_field(frame, "weld", "weld", "off",
-                     "Closes cracks: such as 1e-5, or 0 where vertices are equal; off: none.");
-  draw_setting_choice(frame, "format", "file format", "auto: what the name's extension says.");
+/// The row of a setting, and what belongs to it.
+void draw_row(Frame& frame, const app::Setting& setting) {
+  if (setting.name == "backend") return draw_backend(frame, setting);
+  if (setting.name == "time-step") return draw_time(frame, setting);
+  if (setting.name == "time-factor") return;  // with the time step
+  if (setting.name == "constraint") return draw_constraint(frame, setting);
+  if (setting.name == "laplacian") return draw_setting(frame, setting, triangulation_now(frame));
+  draw_setting(frame, setting);
 }
 
 }  // namespace
@@ -187,31 +164,10 @@ void draw_solver_panel(Frame& frame) {
   if (!draw_section(frame, "Solver")) return;
   draw_work_row(frame);
   draw_failure(frame);
-  draw_setting_choice(
-      frame, "method", "method",
-      "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
-      "the classic; exact: slow, and the truth.");
-  if (frame.state().options.method != MethodKind::kHeat) {
-    draw_setting_field(frame, "threads", "threads");
-    return draw_mesh_settings(frame);
+  const bool heat = frame.state().options.method == MethodKind::kHeat;
+  for (const app::Setting& setting : app::settings()) {
+    if (setting.of_method() && (heat || !setting.of_heat)) draw_row(frame, setting);
   }
-  draw_backend(frame);
-  draw_time(frame);
-  draw_constraint(frame);
-  draw_setting_choice(frame, "heat", "heat",
-                      "unit: 1 on every source; diffuse: weighted with the source's area; hold: "
-                      "u = 1 held on the sources.");
-  draw_setting_choice(frame, "boundary", "boundary",
-                      "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean "
-                      "of both.");
-  draw_setting_choice(frame, "laplacian", "Laplacian", laplacian_tip(frame));
-  draw_setting_choice(frame, "variant", "variant",
-                      "corrected: this program's; classic: as first published.");
-  draw_limits(frame);
-  draw_mesh_settings(frame);
-  draw_setting_choice(frame, "precision", "precision",
-                      "compact: factors at half the size where the backend can; refined: the same, "
-                      "and each solve made accurate by another; full: factors in double.");
 }
 
 }  // namespace geotherm::ui

@@ -51,22 +51,26 @@ void draw_spacing(Frame& frame) {
   }
 }
 
-void draw_flags(Frame& frame) {
+/// The switches, two side by side.
+void draw_switches(Frame& frame) {
   const float second = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x / 2;
-  draw_setting_flag(frame, "reverse", "reverse");
-  ImGui::SameLine(second);
-  draw_setting_flag(frame, "bar", "colour bar");
-  draw_setting_flag(frame, "caption", "caption");
-  ImGui::SameLine(second);
-  draw_setting_flag(frame, "markers", "markers");
+  bool right = false;
+  for (const app::Setting& setting : app::settings()) {
+    const bool is_switch = setting.kind == app::SettingKind::kSwitch;
+    if (setting.group != app::SettingGroup::kPicture || !is_switch) continue;
+    if (right) ImGui::SameLine(second);
+    draw_setting(frame, setting);
+    right = !right;
+  }
 }
 
 /// A number of the camera, shown with few digits but changed only by typing.
-void draw_camera_number(Frame& frame, const char* name, const char* label, double value,
-                        const char* help) {
-  draw_label(frame, label, help);
-  const std::string shown = app::significant(value, 5);
-  if (const auto typed = draw_field(frame, name, shown)) frame.set(name, *typed);
+void draw_camera_number(Frame& frame, const app::Setting& setting) {
+  draw_setting_label(frame, setting);
+  const double value = app::number_in<double>(setting.get(frame.state())).value_or(0);
+  if (const auto typed = draw_field(frame, setting.name, app::significant(value, 5))) {
+    frame.set(setting.name, *typed);
+  }
 }
 
 void draw_pan(Frame& frame) {
@@ -85,19 +89,17 @@ void draw_pan(Frame& frame) {
 }
 
 void draw_camera(Frame& frame) {
-  const app::CameraSettings& camera = frame.state().picture.camera;
   draw_heading(frame, "Camera");
-  draw_setting_choice(frame, "projection", "projection");
-  draw_setting_choice(frame, "fit", "fit",
-                      "tight: as large as it can be from here; sphere: the same size from "
-                      "everywhere.");
-  draw_camera_number(frame, "azimuth", "azimuth", camera.azimuth,
-                     "Degrees of the eye about the vertical axis.");
-  draw_camera_number(frame, "elevation", "elevation", camera.elevation,
-                     "Degrees of the eye, -90 to 90.");
-  draw_camera_number(frame, "zoom", "zoom", camera.zoom, "1: as large as it fits.");
-  draw_pan(frame);
-  draw_setting_field(frame, "centre", "centre");
+  for (const app::Setting& setting : app::settings()) {
+    if (setting.group != app::SettingGroup::kCamera) continue;
+    if (setting.name == "pan") {
+      draw_pan(frame);
+    } else if (setting.kind == app::SettingKind::kNumber) {
+      draw_camera_number(frame, setting);
+    } else {
+      draw_setting(frame, setting);
+    }
+  }
   const float width = button_width(3);
   if (draw_button(frame, "frame", "Frame", frame.model(), width)) perform(frame, Action::kFrame);
   draw_tip(frame, "The whole model in the middle; the direction stays (f).");
@@ -120,14 +122,21 @@ void draw_camera(Frame& frame) {
 
 void draw_view_panel(Frame& frame) {
   if (!draw_section(frame, "View", false)) return;
-  draw_setting_choice(frame, "view", "view", "Keys 1 to 9, 0, g, t and n.");
-  draw_colour_map(frame);
-  draw_range(frame);
-  draw_spacing(frame);
-  draw_setting_choice(frame, "light", "light");
-  draw_setting_choice(frame, "background", "background");
-  draw_setting_choice(frame, "samples", "samples", "4: smooth edges; 1: faster.");
-  draw_flags(frame);
+  for (const app::Setting& setting : app::settings()) {
+    const bool is_switch = setting.kind == app::SettingKind::kSwitch;
+    if (setting.group != app::SettingGroup::kPicture || is_switch) continue;
+    if (setting.name == "size") continue;  // in the dialog that saves a picture
+    if (setting.name == "colour-map") {
+      draw_colour_map(frame);
+    } else if (setting.name == "range") {
+      draw_range(frame);
+    } else if (setting.name == "spacing") {
+      draw_spacing(frame);
+    } else {
+      draw_setting(frame, setting, setting.name == "view" ? "Keys 1 to 9, 0, g, t and n." : "");
+    }
+  }
+  draw_switches(frame);
   draw_camera(frame);
 }
 

@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "ui/setting_rows.h"
 
-#include "app/explore/settings.h"
+#include <algorithm>
+
 #include "ui/widgets.h"
 
 namespace geotherm::ui {
 namespace {
 
+/// The phrase, what the values mean, and more.
 std::string tip_of(const app::Setting& setting, std::string_view more) {
   std::string tip(setting.help);
-  if (!more.empty()) (tip += "\n") += more;
+  for (const std::string_view part : {setting.detail, more}) {
+    if (!part.empty()) (tip += "\n") += part;
+  }
   return tip;
+}
+
+std::string label_of(const app::Setting& setting) {
+  std::string label(setting.name);
+  std::ranges::replace(label, '-', ' ');
+  return label;
+}
+
+void draw_switch(Frame& frame, const app::Setting& setting) {
+  bool on = setting.get(frame.state()) == "on";
+  if (draw_checkbox(frame, setting.name, label_of(setting).c_str(), on)) {
+    frame.set(setting.name, on ? "on" : "off");
+  }
+  draw_tip(frame, tip_of(setting, {}));
 }
 
 }  // namespace
@@ -20,31 +38,22 @@ std::string setting_text(const Frame& frame, std::string_view name) {
   return setting ? setting->get(frame.state()) : std::string();
 }
 
-void draw_setting_choice(Frame& frame, std::string_view name, std::string_view label,
-                         std::string_view tip) {
-  const app::Setting* setting = app::find_setting(name);
-  if (!setting) return;
-  draw_label(frame, label, tip_of(*setting, tip));
-  const auto values = setting->values();
-  const auto chosen = draw_choice(frame, name, setting->get(frame.state()), values);
-  if (chosen) frame.set(name, *chosen);
+void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_view more) {
+  draw_label(frame, label_of(setting), tip_of(setting, more));
 }
 
-void draw_setting_field(Frame& frame, std::string_view name, std::string_view label,
-                        const char* hint, std::string_view tip) {
-  const app::Setting* setting = app::find_setting(name);
-  if (!setting) return;
-  draw_label(frame, label, tip_of(*setting, tip));
-  const auto typed = draw_field(frame, name, setting->get(frame.state()), hint);
-  if (typed && !typed->empty()) frame.set(name, *typed);
-}
-
-void draw_setting_flag(Frame& frame, std::string_view name, const char* label) {
-  const app::Setting* setting = app::find_setting(name);
-  if (!setting) return;
-  bool on = setting->get(frame.state()) == "on";
-  if (draw_checkbox(frame, name, label, on)) frame.set(name, on ? "on" : "off");
-  draw_tip(frame, setting->help);
+void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more) {
+  if (setting.kind == app::SettingKind::kSwitch) return draw_switch(frame, setting);
+  draw_setting_label(frame, setting, more);
+  const std::string text = setting.get(frame.state());
+  if (setting.values != nullptr && setting.forms.empty()) {
+    if (const auto chosen = draw_choice(frame, setting.name, text, setting.values())) {
+      frame.set(setting.name, *chosen);
+    }
+    return;
+  }
+  const auto typed = draw_field(frame, setting.name, text);
+  if (typed && !typed->empty()) frame.set(setting.name, *typed);
 }
 
 std::string name_part(const std::string& text) { return text.substr(0, text.find(':')); }

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/explore/settings.h"
 #include "ui/frame.h"
 
 // Rows of panels that show a setting (app/explore/settings.h) and change it by a command.
@@ -12,16 +13,11 @@ namespace geotherm::ui {
 /// The setting's text; empty where there is no such setting.
 std::string setting_text(const Frame& frame, std::string_view name);
 
-/// A list of its values. `tip`: beside the setting's own line of help.
-void draw_setting_choice(Frame& frame, std::string_view name, std::string_view label,
-                         std::string_view tip = {});
+/// The name with its help as a tip. `more`: further sentences of the tip.
+void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_view more = {});
 
-/// A field for its text.
-void draw_setting_field(Frame& frame, std::string_view name, std::string_view label,
-                        const char* hint = "", std::string_view tip = {});
-
-/// A check box for `on` and `off`.
-void draw_setting_flag(Frame& frame, std::string_view name, const char* label);
+/// The whole row: a check box, a list of the values, or a field.
+void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more = {});
 
 /// What stands before the colon of NAME:VALUE, and what stands after it.
 std::string name_part(const std::string& text);

@@ -88,11 +88,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
 
 MethodKind Explorer::reference_of(const ExploreRequest& request, const Answer& answer) const {
   const Index faces = model_->model.mesh->face_count();
-  if (request.check == Check::kOn) {
-    // What is near exact is not held against anything unasked.
-    const bool asks = is_better(MethodKind::kWavefront, answer.options.method);
-    return asks ? usual_reference(faces) : MethodKind::kWavefront;
-  }
+  if (request.check == Check::kOn) return usual_reference(answer.options.method, faces);
   if (request.check == Check::kExact) return MethodKind::kExact;
   if (request.check == Check::kWavefrontFine) return MethodKind::kWavefrontFine;
   // While a source is dragged exact distances must take no longer than a frame or two.

@@ -22,7 +22,7 @@ enum class Shown {
 /// What distances are held against.
 enum class Check {
   kOff,
-  kOn,    ///< the method wavefront, for answers that rest: they are shown before they are checked
+  kOn,    ///< usual_reference(), for answers that rest: they are shown before they are checked
   kAuto,  ///< the best method that fits the mesh (reference_for())
   kWavefrontFine,
   kExact,

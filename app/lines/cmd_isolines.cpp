@@ -135,7 +135,7 @@ LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isol
 }  // namespace
 
 void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
   command.add_option("--spacing", arguments.spacing, "between lines, in model units")
       ->type_name("D");
@@ -143,11 +143,10 @@ void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
       .add_option("--count", arguments.count,
                   "of levels, evenly between 0 and the largest distance")
       ->type_name("N");
-  add_line_file_options(command, arguments.files, "the lines");
+  add_line_file_options(command, arguments.files, arguments.settings, "the lines");
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Examples:\n"
       "  geotherm isolines bunny -s 0 --count 20 -o lines.obj\n"
@@ -155,24 +154,25 @@ void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
 }
 
 Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Progress& progress) {
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
-  const auto asked = levels_in(arguments);
+  const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  const auto wanted = levels_in(arguments);
+  if (!wanted) return wanted.error();
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   Outputs outputs;
   protect_inputs(arguments.model, arguments.sources, outputs);
-  const auto settings = expect_line_files(arguments.files, outputs);
-  if (!settings) return settings.error();
+  const auto expected = expect_line_files(arguments.files, outputs);
+  if (!expected) return expected.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  auto figures = solve_model(*std::move(model), *options, *named, {}, *check, progress);
+  auto figures = solve_model(*std::move(model), options, *named, {}, *check, progress);
   if (!figures) return figures.error();
-  note_unused_options(arguments.method, *options, figures->warnings);
-  const auto levels = levels_up_to(figures->distance.max, *asked);
+  note_unused_settings(arguments.settings, options, figures->warnings);
+  const auto levels = levels_up_to(figures->distance.max, *wanted);
   if (!levels) return levels.error();
   const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
 
@@ -182,7 +182,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   }
   CommandOutput out{"", figures->warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
-                                        *settings, progress, outputs, out);
+                                        asked->picture, progress, outputs, out);
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json = outputs.write_text(

@@ -12,9 +12,8 @@ namespace geotherm::app {
 
 struct IsolinesArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   SourceArguments sources;
-  MethodArguments method;
   std::string spacing, count;  ///< one of them is given
   LineFileArguments files;
   CheckArguments check;

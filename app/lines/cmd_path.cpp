@@ -17,6 +17,8 @@ namespace {
 
 /// What the words of the command line say.
 struct PathTask {
+  ModelReading reading;
+  PictureSettings picture;
   MethodOptions method;
   PathOptions options;
   std::vector<Source> points;  ///< from, via, then each to
@@ -50,17 +52,16 @@ Result<std::vector<Source>> points_of(const PathArguments& arguments) {
 }
 
 Result<PathTask> task_of(const PathArguments& arguments) {
-  PathTask task;
+  auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  PathTask task{asked->reading, asked->picture, {}, {}, {}};
   auto all = take(parse_path_field(arguments.field), "--field", task.options.field);
   if (!all) return all.error();
   task.options.closed = arguments.closed;
   task.options.hold_points = arguments.hold;
-  MethodArguments method = arguments.method;
   const bool geodesic = task.options.field == PathField::kGeodesic;
-  if (method.method.empty()) method.method = geodesic ? "wavefront" : "heat";
-  auto options = method_options(method);
-  if (!options) return options.error();
-  task.method = *std::move(options);
+  task.method = asked->options;
+  if (geodesic && !arguments.settings.has("method")) task.method.method = MethodKind::kWavefront;
   if (task.options.field == PathField::kHeat && task.method.method != MethodKind::kHeat) {
     return Error{ErrorCode::kBadInput, "--field heat follows the heat u, which --method " +
                                            to_text(task.method.method) +
@@ -164,7 +165,7 @@ LinePicture picture_of_paths(const PathFigures& figures) {
 }  // namespace
 
 void add_path_options(CLI::App& command, PathArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   const auto add_points = [&command](const char* name, std::vector<std::string>& points,
                                      const char* help) {
     return command.add_option(name, points, help)
@@ -196,11 +197,10 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
                   "what it follows: geodesic (default: the shortest path, straight across faces), "
                   "distance (-grad phi), heat (X of the heat method)")
       ->type_name("NAME");
-  add_line_file_options(command, arguments.files, "the path");
+  add_line_file_options(command, arguments.files, arguments.settings, "the path");
   add_no_check_option(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "The method finds the distances that lead the way: wavefront for a geodesic, heat for the "
       "other fields, unless --method names one.\n"
@@ -217,9 +217,9 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!check) return check.error();
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
-  const auto settings = expect_line_files(arguments.files, outputs);
-  if (!settings) return settings.error();
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  const auto expected = expect_line_files(arguments.files, outputs);
+  if (!expected) return expected.error();
+  auto model = load_model(arguments.model, task->reading, progress);
   if (!model) return model.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
@@ -227,10 +227,10 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (auto found = find_paths(*task, arguments.to.size(), check->mode, progress, figures); !found) {
     return found.error();
   }
-  note_unused_options(arguments.method, task->method, figures.warnings);
+  note_unused_settings(arguments.settings, task->method, figures.warnings);
 
   CommandOutput out{"", figures.warnings, {}};
-  const auto written = write_line_files(arguments.files, picture_of_paths(figures), *settings,
+  const auto written = write_line_files(arguments.files, picture_of_paths(figures), task->picture,
                                         progress, outputs, out);
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {

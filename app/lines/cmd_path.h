@@ -13,17 +13,14 @@ namespace geotherm::app {
 
 struct PathArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   std::string from;
   std::vector<std::string> to, via;
   std::string field = "geodesic";
   bool closed = false, hold = false;
-  MethodArguments method;  ///< `method` empty: the best for the field
   LineFileArguments files;
   CheckArguments check;
   bool quiet = false;
-
-  PathArguments() { method.method.clear(); }
 };
 
 void add_path_options(CLI::App& command, PathArguments& arguments);

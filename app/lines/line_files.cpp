@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/picture/picture_options.h"
 #include "app/text.h"
 #include "solver/mesh/io/file_extension.h"
 
@@ -21,7 +22,7 @@ Result<void> check_line_path(const std::string& path) {
 }  // namespace
 
 void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
-                           const std::string& what) {
+                           SettingArguments& settings, const std::string& what) {
   command
       .add_option("-o,--output", arguments.outputs,
                   "where " + what +
@@ -33,24 +34,19 @@ void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
-  add_line_picture_options(command, arguments.picture);
+  add_line_picture_options(command, settings);
 }
 
-Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments,
-                                              Outputs& outputs) {
-  auto settings = line_picture_settings(arguments.picture);
-  if (!settings) return settings;
+Result<void> expect_line_files(const LineFileArguments& arguments, Outputs& outputs) {
   for (const std::string& path : arguments.outputs) {
-    if (auto known = check_line_path(path); !known) return known.error();
-    if (auto expected = outputs.expect(path, "--output"); !expected) return expected.error();
+    if (auto known = check_line_path(path); !known) return known;
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
-  if (arguments.json.empty()) return settings;
-  if (auto expected = outputs.expect(arguments.json, "--json"); !expected) return expected.error();
-  return settings;
+  return arguments.json.empty() ? Result<void>() : outputs.expect(arguments.json, "--json");
 }
 
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
-                              const LinePictureSettings& settings, const Progress& progress,
+                              const PictureSettings& settings, const Progress& progress,
                               Outputs& outputs, CommandOutput& out) {
   const TriangleMesh& mesh = *picture.mesh;
   for (const std::string& path : arguments.outputs) {

@@ -9,6 +9,7 @@
 #include "app/command_output.h"
 #include "app/lines/line_picture.h"
 #include "app/outputs.h"
+#include "app/settings_options.h"
 #include "solver/core/progress.h"
 #include "solver/path/write_polylines.h"
 
@@ -18,21 +19,20 @@ namespace geotherm::app {
 struct LineFileArguments {
   std::vector<std::string> outputs;
   std::string json;
-  LinePictureArguments picture;
 };
 
 /// `what`: "the path", for the help.
 void add_line_file_options(CLI::App& command, LineFileArguments& arguments,
-                           const std::string& what);
+                           SettingArguments& settings, const std::string& what);
 
 /// Errors: kBadInput and kNotAvailable (an ending, a picture's option), those of Outputs::expect().
-Result<LinePictureSettings> expect_line_files(const LineFileArguments& arguments, Outputs& outputs);
+Result<void> expect_line_files(const LineFileArguments& arguments, Outputs& outputs);
 
 /// Writes the lines to every output; "-" is CSV, which the output's text takes. Warns of pictures
 /// that show none of them.
 /// Errors: kBadFile, kCancelled, those of line_picture_svg().
 Result<void> write_line_files(const LineFileArguments& arguments, const LinePicture& picture,
-                              const LinePictureSettings& settings, const Progress& progress,
+                              const PictureSettings& settings, const Progress& progress,
                               Outputs& outputs, CommandOutput& out);
 
 }  // namespace geotherm::app

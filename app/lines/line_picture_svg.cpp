@@ -65,7 +65,7 @@ std::string commands(const std::vector<Outline>& outlines, bool closed) {
 
 class SvgDrawing {
  public:
-  SvgDrawing(const LinePicture& picture, const LinePictureSettings& settings, const RayTree& tree)
+  SvgDrawing(const LinePicture& picture, const PictureSettings& settings, const RayTree& tree)
       : picture_(picture),
         settings_(settings),
         style_(style_of(settings.background)),
@@ -172,7 +172,7 @@ class SvgDrawing {
   void draw_title() { write(16 * unit_, settings_.height - 14 * unit_, picture_.title, "start"); }
 
   const LinePicture& picture_;
-  const LinePictureSettings& settings_;
+  const PictureSettings& settings_;
   Style style_;
   const RayTree& tree_;
   double unit_;  // of what has a size on paper
@@ -184,8 +184,7 @@ class SvgDrawing {
 
 }  // namespace
 
-Result<LinePictureSvg> line_picture_svg(const LinePicture& picture,
-                                        const LinePictureSettings& settings,
+Result<LinePictureSvg> line_picture_svg(const LinePicture& picture, const PictureSettings& settings,
                                         const Progress& progress) {
   const auto tree = RayTree::build(picture.mesh, progress);
   if (!tree) return tree.error();

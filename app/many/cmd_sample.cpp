@@ -97,7 +97,7 @@ Result<void> check_samples(const SampleTask& task, const Progress& progress,
 }
 
 /// Without the model, which has to be loaded first.
-Result<SampleFigures> sample(Model model, const MethodArguments& arguments, const SampleTask& task,
+Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
                              const Progress& progress, const Announce& announce) {
   constexpr double kSampled = 0.9;
   if (auto pin = check_pin(task.options.constraint, *model.mesh); !pin) return pin.error();
@@ -135,7 +135,7 @@ Result<SampleFigures> sample(Model model, const MethodArguments& arguments, cons
   add_warnings(figures.points.first.warnings);
   const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
   add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
-  note_unused_options(arguments, task.options, figures.warnings);
+  note_unused_settings(arguments, task.options, figures.warnings);
   return figures;
 }
 
@@ -169,7 +169,7 @@ Result<void> write_samples(const std::string& path, const SampleFigures& figures
 }  // namespace
 
 void add_sample_options(CLI::App& command, SampleArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   command.add_option("-n,--count", arguments.count, "how many samples")->type_name("K")->required();
   command
       .add_option("--first", arguments.first,
@@ -192,8 +192,7 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
       ->type_name("FILE");
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
-  add_backend_option(command, arguments.method);
-  add_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Each sample is the vertex farthest from all before it; parts of the surface that none of "
       "them reaches come first.\n"
@@ -204,8 +203,9 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
 
 Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progress& progress,
                                  const Announce& announce) {
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
   const auto count = number_in_option(arguments.count, "--count", 1, "number of samples");
   if (!count) return count.error();
   Index first = kNoIndex;
@@ -218,10 +218,10 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   if (!check) return check.error();
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  const auto figures = sample(*std::move(model), arguments.method,
-                              {*options, *check, *count, first}, progress, announce);
+  const auto figures = sample(*std::move(model), arguments.settings,
+                              {options, *check, *count, first}, progress, announce);
   if (!figures) return figures.error();
 
   CommandOutput out{"", figures->warnings, {}};

@@ -14,8 +14,7 @@ namespace geotherm::app {
 
 struct SampleArguments {
   std::string model;
-  ReadingArguments reading;
-  MethodArguments method;
+  SettingArguments settings;
   std::string count;
   std::string first;                 ///< a vertex id; empty: chosen by the program
   std::vector<std::string> outputs;  ///< distances and labels of every vertex

@@ -57,22 +57,23 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
 }
 
 Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
-  auto model = load_model(arguments.model, arguments.reading, progress);
+  auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  if (auto pin = check_pin(options->constraint, *model->mesh); !pin) return pin.error();
+  if (auto pin = check_pin(options.constraint, *model->mesh); !pin) return pin.error();
   auto sources = resolve_each(*named, *model->mesh);
   if (!sources) return sources.error();
   const std::size_t chunk =
-      std::min(good_chunk(model->mesh->vertex_count(), options->threads, free_memory()),
+      std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
                sources->sets.size());
   const MeshReport mesh = inspect_mesh(*model->mesh);
-  return ManySources{*std::move(model), mesh, *options, *std::move(sources), *check, chunk};
+  return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
 }
 
 Result<void> check_room(const std::string& path, double bytes) {
@@ -146,7 +147,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                          counted(static_cast<std::int64_t>(work.chunk), "source", "sources"));
   }
   add_warnings(figures.warnings, of_answers);
-  note_unused_options(arguments.method, work.options, figures.warnings);
+  note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;
 }
 

@@ -32,6 +32,7 @@ Result<Pan> parse_pan(const std::string& text);                        // RIGHT:
 Result<bool> parse_projection(const std::string& text);                // true: orthographic
 Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text);  // X:Y:Z | auto
 Result<bool> parse_switch(const std::string& text);                                  // on | off
+inline std::string switch_text(bool on) { return on ? "on" : "off"; }
 Result<int> whole_between(const std::string& text, int least, int most, const std::string& why);
 
 /// Bounds of the camera.

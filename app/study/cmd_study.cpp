@@ -70,7 +70,7 @@ Result<void> expect_outputs(const StudyArguments& arguments, Outputs& outputs) {
 }  // namespace
 
 void add_study_options(CLI::App& command, StudyArguments& arguments) {
-  add_model_option(command, arguments.model, arguments.reading)->required();
+  add_model_option(command, arguments.model, arguments.settings)->required();
   command
       .add_option("--factors", arguments.factors,
                   "time factors m that are tried, the same ratio apart, default 0.1:100:13")
@@ -81,8 +81,9 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);
   add_source_options(command, arguments.sources);
-  add_backend_option(command, arguments.method);
-  add_study_method_options(command, arguments.method);
+  add_setting_options(command, arguments.settings,
+                      names_of(SettingGroup::kMethod, {"method", "time-step", "time-factor",
+                                                       "constraint", "boundary"}));  // swept
   command.footer(
       "Sweeps m over both time rules, all constraint modes and, where the surface has a border, "
       "the boundary rules; each answer is held against exact distances, or wavefront-fine on "
@@ -94,9 +95,10 @@ void add_study_options(CLI::App& command, StudyArguments& arguments) {
 
 Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress& progress) {
   StudyTask task;
-  const auto options = method_options(arguments.method);
-  if (!options) return options.error();
-  task.options = *options;
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  task.options = options;
   auto factors = parse_factors(arguments.factors);
   if (!factors) return factors.error();
   task.factors = *std::move(factors);
@@ -104,7 +106,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   const auto named = sources_of(arguments.sources);
   if (!named) return named.error();
-  const auto model = load_model(arguments.model, arguments.reading, progress);
+  const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
   CommandOutput out{"", model->notes, {}};
   auto sources = sources_on(*model, *named, out.warnings);

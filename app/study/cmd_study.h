@@ -11,9 +11,8 @@ namespace geotherm::app {
 
 struct StudyArguments {
   std::string model;
-  ReadingArguments reading;
+  SettingArguments settings;
   SourceArguments sources;
-  MethodArguments method;
   std::string factors = "0.1:100:13";
   std::string json, svg;
   bool quiet = false;

@@ -55,7 +55,8 @@ enum class BoundaryRule {
 
 /// How the method is discretised (docs/numerics.md, "What is corrected").
 enum class Variant {
-  kCorrected,  ///< half-lumped mass, |X| < 1 where fronts meet, near-exact beside the sources
+  kCorrected,  ///< half-lumped mass, |X| < 1 where fronts meet, exact field in the source's
+               ///< faces; where vertices were inserted, near-exact distances around sources
   kClassic,    ///< as published: lumped mass, |X| = 1 on every face
 };
 

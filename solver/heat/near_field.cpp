@@ -8,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "solver/wave/segment_distance.h"
 #include "solver/wave/wave_front.h"
 
 namespace geotherm {
@@ -17,19 +18,18 @@ namespace {
 constexpr double kRadius = 8;
 /// Up to this share of the radius the near-exact distances count alone.
 constexpr double kInner = 0.5;
-/// Faces that a wave walks over for one source: in proportion to the share of vertices that had to
-/// be inserted, up to the most; many sources walk over a tenth of all faces together.
+/// Faces that a wave walks over for one source of a component: in proportion to the share of its
+/// vertices that had to be inserted, up to the most; many sources walk over a tenth of its faces
+/// together, or over those at the sources.
 constexpr double kFacesOfShare = 5000, kMost = 800, kShareOfMany = 0.1;
 /// Fewer faces than lie around a vertex and its neighbours tell nothing.
 constexpr double kFewest = 24;
 
-std::size_t faces_worth_walking(const Surface& surface, std::size_t sources) {
-  const double inserted = static_cast<double>(surface.refinement.points) / surface.vertex_count();
-  const double one = std::min(kFacesOfShare * inserted, kMost);
+std::size_t faces_worth_walking(const ComponentSize& component, std::size_t sources) {
+  const double one = std::min(kFacesOfShare * component.inserted, kMost);
   if (one < kFewest) return 0;
-  const double many = kShareOfMany * surface.intrinsic.face_count();
-  return static_cast<std::size_t>(
-      std::max(one, std::min(one * static_cast<double>(sources), many)));
+  const double many = std::min(one * static_cast<double>(sources), kShareOfMany * component.faces);
+  return static_cast<std::size_t>(std::max(one, many));
 }
 
 constexpr int kSamples = 1;  ///< on each edge
@@ -70,32 +70,46 @@ class Numbering {
   std::vector<Index> slots_ = std::vector<Index>(1024, kNoIndex);  ///< a power of two
 };
 
-/// The faces around the sources as a surface of their own. Rows and faces have numbers of their own
-/// here.
+/// The faces around the sources of a component as a surface of their own. Rows and faces have
+/// numbers of their own here.
 class Neighbourhood {
  public:
-  Neighbourhood(const Surface& surface, const SourceAnchors& anchors)
-      : surface_(surface), mesh_(*surface.operators), anchors_(anchors) {}
+  Neighbourhood(const Surface& surface, const SourceAnchors& anchors, Index component)
+      : surface_(surface),
+        mesh_(*surface.operators),
+        per_length_(1 / (surface.components[component].mean_edge *
+                         std::sqrt(surface.components[component].grading))) {
+    const auto is_here = [&](Index row) { return mesh_.components.of[row] == component; };
+    for (const auto& anchor : anchors.anchors) {
+      if (is_here(anchor.row)) anchors_.push_back(anchor);
+    }
+    for (const auto& piece : anchors.pieces) {
+      if (is_here(mesh_.faces[piece.face][0])) pieces_.push_back(piece);
+    }
+  }
 
-  /// Takes in about so many faces by the distance of their vertices along edges, up to the radius.
+  std::size_t source_count() const { return anchors_.size(); }
+
+  /// Takes in the faces at the sources, then about so many in all by the distance of their vertices
+  /// along edges, up to the radius.
   void gather(std::size_t most) {
-    for (const auto& anchor : anchors_.anchors) reach(anchor.row, anchor.offset);
+    for (const auto& anchor : anchors_) reach(anchor.row, anchor.offset);
+    for (const auto& piece : pieces_) add_face(piece.face);
     double last = 0;
     while (!queue_.empty()) {
-      const auto [key, number] = queue_.top();
-      if (faces_.keys().size() >= most && key > last) return;  // no order among equals
-      last = key;
+      const auto [distance, number] = queue_.top();
+      if (faces_.keys().size() >= most && distance > last) return;  // no order among equals
+      last = distance;
       queue_.pop();
       if (vertices_[number].whole) continue;
       vertices_[number].whole = true;
-      const double from = vertices_[number].along_edges;
       for (const Side corner : mesh_.corners.at(rows_.keys()[number])) {
-        const Index f = face_of(corner), face = mesh_.intrinsic_face[f];
+        const Index f = face_of(corner);
         const int k = corner_of(corner);
-        const auto& l = surface_.intrinsic.lengths[face];
-        reach(mesh_.faces[f][next_corner(k)], from + l[k]);
-        reach(mesh_.faces[f][previous_corner(k)], from + l[previous_corner(k)]);
-        if (faces_.add(face).second) operator_face_.push_back(f);
+        const auto& l = surface_.intrinsic.lengths[mesh_.intrinsic_face[f]];
+        reach(mesh_.faces[f][next_corner(k)], distance + l[k]);
+        reach(mesh_.faces[f][previous_corner(k)], distance + l[previous_corner(k)]);
+        add_face(f);
       }
     }
   }
@@ -122,57 +136,61 @@ class Neighbourhood {
     return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(out)));
   }
 
-  /// Whether every source is on these faces.
-  bool holds_sources() const {
-    const auto is_here = [this](const SourceAnchors::Piece& piece) {
-      return faces_.find(mesh_.intrinsic_face[piece.face]) != kNoIndex;
-    };
-    return std::ranges::all_of(anchors_.pieces, is_here);  // vertices are the first to be reached
-  }
-
-  SourceSeeds seeds() const {
+  SourceSeeds sources() const {
     SourceSeeds out;
-    for (const auto& anchor : anchors_.anchors) {
+    for (const auto& anchor : anchors_) {
       if (anchor.offset == 0) out.vertices.push_back({rows_.find(anchor.row), 0.0, 0});
     }
-    for (const auto& piece : anchors_.pieces) {
+    for (const auto& piece : pieces_) {
       const Index face = faces_.find(mesh_.intrinsic_face[piece.face]);
       out.pieces.push_back({face, piece.from, piece.to, 0.0, 0});
     }
     return out;
   }
 
-  /// Shortest ways that leave these faces cross a side where they end: up to the least distance
-  /// there, all distances are those of the whole surface.
-  std::vector<NearVertex> answer(const WaveFront& front, const WaveTables& tables) const {
-    double radius = kRadius;
+  /// The sides beyond which there are other faces.
+  SourceSeeds ends() const {
+    SourceSeeds out;
+    for (Index number = 0; number < static_cast<Index>(operator_face_.size()); ++number) {
+      const auto at = corners_of(mesh_.layout[operator_face_[number]]);
+      for (int k = 0; k < 3; ++k) {
+        if (ends_at(number, k)) out.pieces.push_back({number, at[k], at[next_corner(k)], 0.0, 0});
+      }
+    }
+    return out;
+  }
+
+  /// The least distance from a source to an end, or below it.
+  double least_outward(const WaveFront& wave, const WaveTables& tables) const {
+    double least = kUnreached;
     for (std::size_t rank = 0; rank < tables.faces.size(); ++rank) {
       const WaveFace& face = tables.faces[rank];
       for (int k = 0; k < 3; ++k) {
         if (!ends_at(tables.intrinsic_face[rank], k)) continue;
-        // No point of a side is farther than this from an end or a sample.
+        // No point of a side is farther than this from an end of it or a sample.
         const double between = face.length[k] / (2 * (kSamples + 1));
-        const double least = front.least_on(face.edge[k]) - between;
-        const Index vertex = tables.vertex_of_rank[face.vertex[k]];
-        radius = std::min(radius, least * vertices_[vertex].per_length);
+        least = std::min(least, wave.least_on(face.edge[k]) - between);
       }
     }
-    std::vector<NearVertex> out;
-    for (std::size_t rank = 0; rank < front.distances().size() && radius > 0; ++rank) {
-      const Index vertex = tables.vertex_of_rank[rank];
-      const double distance = std::max(front.distances()[rank], 0.0);
-      const double part = distance * vertices_[vertex].per_length / radius;
-      if (!(part < 1)) continue;
-      const double share = std::max(0.0, (part - kInner) / (1 - kInner));
-      out.push_back({rows_.keys()[vertex], distance, share});
+    return std::max(least, 0.0);
+  }
+
+  /// A way through other faces is at least as long as the shortest way to an end, and from any end
+  /// to the vertex: distances up to there are those of the whole surface.
+  void add_to(std::vector<NearVertex>& out, const WaveTables& tables, const WaveFront& wave,
+              double outward, const WaveFront& inward) const {
+    for (std::size_t rank = 0; rank < tables.vertex_of_rank.size(); ++rank) {
+      const double distance = std::max(wave.distances()[rank], 0.0);
+      const double limit = std::min(kRadius / per_length_, outward + inward.distances()[rank]);
+      if (!(distance < limit)) continue;
+      const double share = std::max(0.0, (distance / limit - kInner) / (1 - kInner));
+      out.push_back({rows_.keys()[tables.vertex_of_rank[rank]], distance, share});
     }
-    return out;
   }
 
  private:
   struct Vertex {
     double along_edges;  ///< from the nearest source
-    double per_length;   ///< 1 over the length that its component resolves
     bool whole = false;  ///< all its faces are here
   };
   using Entry = std::pair<double, Index>;
@@ -180,15 +198,16 @@ class Neighbourhood {
   /// Notes a way to a row along edges.
   void reach(Index row, double distance) {
     const auto [number, is_new] = rows_.add(row);
-    if (is_new) {
-      const ComponentSize& size = surface_.components[mesh_.components.of[row]];
-      vertices_.push_back({kUnreached, 1 / (size.mean_edge * std::sqrt(size.grading))});
-    }
+    if (is_new) vertices_.push_back({kUnreached});
     Vertex& vertex = vertices_[number];
     if (!(distance < vertex.along_edges)) return;
     vertex.along_edges = distance;
-    const double key = distance * vertex.per_length;
-    if (key <= kRadius) queue_.emplace(key, number);
+    if (distance * per_length_ <= kRadius) queue_.emplace(distance, number);
+  }
+
+  void add_face(Index f) {
+    for (const Index row : mesh_.faces[f]) reach(row, kUnreached);
+    if (faces_.add(mesh_.intrinsic_face[f]).second) operator_face_.push_back(f);
   }
 
   const Vec3& position(Index vertex) const {
@@ -209,7 +228,9 @@ class Neighbourhood {
 
   const Surface& surface_;
   const OperatorMesh& mesh_;
-  const SourceAnchors& anchors_;
+  const double per_length_;  ///< 1 over the length that the component resolves
+  std::vector<SourceAnchors::Anchor> anchors_;
+  std::vector<SourceAnchors::Piece> pieces_;
   Numbering rows_;
   Numbering faces_;                   ///< of the intrinsic mesh
   std::vector<Index> operator_face_;  ///< of each
@@ -217,20 +238,33 @@ class Neighbourhood {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
+/// Errors: kOutOfMemory.
+Result<void> add_component(const Surface& surface, const SourceAnchors& anchors, Index component,
+                           std::vector<NearVertex>& out) {
+  Neighbourhood near(surface, anchors, component);
+  const std::size_t faces = faces_worth_walking(surface.components[component], near.source_count());
+  if (faces == 0) return {};
+  near.gather(faces);
+  const auto local = near.surface();
+  if (!local) return local.error();
+  const WaveTables tables = build_wave_tables(**local);
+  WaveFront wave(tables, kSamples), inward(tables, kSamples);
+  using Outcome = WaveFront::Outcome;
+  if (wave.run(**local, near.sources(), false, {}) != Outcome::kDone) return {};
+  if (inward.run(**local, near.ends(), false, {}) != Outcome::kDone) return {};
+  near.add_to(out, tables, wave, near.least_outward(wave, tables), inward);
+  return {};
+}
+
 }  // namespace
 
-std::vector<NearVertex> find_near_field(const Surface& surface, const SourceAnchors& anchors) {
-  const std::size_t faces = faces_worth_walking(surface, anchors.anchors.size());
-  if (faces == 0) return {};
-  Neighbourhood near(surface, anchors);
-  near.gather(faces);
-  if (!near.holds_sources()) return {};
-  const auto local = near.surface();
-  if (!local) return {};
-  const WaveTables tables = build_wave_tables(**local);
-  WaveFront front(tables, kSamples);
-  if (front.run(**local, near.seeds(), false, {}) != WaveFront::Outcome::kDone) return {};
-  return near.answer(front, tables);
+Result<std::vector<NearVertex>> find_near_field(const Surface& surface,
+                                                const SourceAnchors& anchors) {
+  std::vector<NearVertex> out;
+  for (const Index component : anchors.components) {
+    if (auto added = add_component(surface, anchors, component, out); !added) return added.error();
+  }
+  return out;
 }
 
 }  // namespace geotherm

@@ -15,11 +15,12 @@ struct NearVertex {
 };
 
 /// What is known around the sources without heat: a wave (docs/numerics.md, "Wavefront") walks over
-/// the faces nearest to them. Its distances count alone up to half the radius, and up to the radius
-/// they fade into heat's. The radius is a few edges, or less where more faces lie within it than
-/// are worth walking over.
-/// Cost: that of a wave over some hundreds of faces; for many sources, over those at the sources or
-/// a tenth of all.
-std::vector<NearVertex> find_near_field(const Surface& surface, const SourceAnchors& anchors);
+/// the faces nearest to them. Its distances count alone up to half as far as it is sure of them, at
+/// most half of eight times the length that the triangulation resolves, and fade into heat's from
+/// there on. Errors: kOutOfMemory.
+/// Cost: that of two waves over some hundreds of faces; for many sources, over those at the sources
+/// or a tenth of all.
+Result<std::vector<NearVertex>> find_near_field(const Surface& surface,
+                                                const SourceAnchors& anchors);
 
 }  // namespace geotherm

@@ -101,7 +101,7 @@ class Scatter {
   bool has_negative(std::size_t column) const {
     return least_[column] < -kRoundOff * most_[column];
   }
-  /// But for those for which there is a better distance.
+  /// But for those that have no part in the answer.
   Index count_negative(std::size_t column, std::span<const NearVertex> near) const {
     const auto c = static_cast<Eigen::Index>(column);
     Index count = 0;
@@ -111,7 +111,9 @@ class Scatter {
       return phi_(row, c) + add < -kRoundOff * most_[column];
     };
     for (Eigen::Index row = 0; row < phi_.rows(); ++row) count += is_negative(row) ? 1 : 0;
-    for (const NearVertex& vertex : near) count -= is_negative(vertex.row) ? 1 : 0;
+    for (const NearVertex& vertex : near) {
+      count -= vertex.share == 0 && is_negative(vertex.row) ? 1 : 0;
+    }
     return count;
   }
 

@@ -110,26 +110,38 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
 double query_nanoseconds(const QueryPipeline& p, bool quality) {
   constexpr double kEntry = 1;  // the factors are read three times
   constexpr double kIteration = 75, kIterations = 2;
-  constexpr double kFace = 10, kFaceJudged = 70;
+  constexpr double kFace = 10, kFaceJudged = 70, kNearField = 1e5;
   const double faces = p.surface.operators->face_count();
   const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
   const double solves =
       entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
-  return solves + (kFace + (quality ? kFaceJudged : 0)) * faces;
+  const double near = p.surface.refinement.points > 0 ? kNearField : 0;
+  return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
-/// None where the published method is asked for, or a mode that is there to be studied.
-std::vector<std::vector<NearVertex>> near_fields(const QueryPipeline& p,
-                                                 const std::vector<SourceAnchors>& anchors,
-                                                 int threads) {
-  if (p.options.variant == Variant::kClassic) return {};
-  if (p.options.constraint.mode == ConstraintMode::kPenalty) return {};
-  std::vector<std::vector<NearVertex>> near(anchors.size());
+/// None where the published method is asked for, or a mode that is there to be studied. Errors:
+/// those of find_near_field().
+Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
+                                                         const std::vector<SourceAnchors>& anchors,
+                                                         int threads) {
+  std::vector<std::vector<NearVertex>> near;
+  if (p.options.variant == Variant::kClassic) return near;
+  if (p.options.constraint.mode == ConstraintMode::kPenalty) return near;
+  near.resize(anchors.size());
+  std::vector<Result<void>> done(anchors.size());
   parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      near[i] = find_near_field(p.surface, anchors[i]);
+      auto found = find_near_field(p.surface, anchors[i]);
+      if (found) {
+        near[i] = *std::move(found);
+      } else {
+        done[i] = found.error();
+      }
     }
   });
+  for (const Result<void>& each : done) {
+    if (!each) return each.error();
+  }
   return near;
 }
 
@@ -151,6 +163,8 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   const UnitField field(*p.surface.operators, heat->field,
                         p.options.variant == Variant::kClassic ? 0.0 : p.times.t, work);
   Block b = field.divergence(anchors);
+  const auto near = near_fields(p, anchors, work.threads);
+  if (!near) return near.error();
   const double gradient_ms = watch.lap();
   Block right;
   if (query.quality) right = b;
@@ -159,8 +173,8 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
       p.poisson.solve(std::move(b), anchors, work, part_of(progress, kHeatShare, kSolvedShare));
   if (!answer) return answer.error();
   const ConstraintMode mode = p.options.constraint.mode;
-  const auto near = near_fields(p, anchors, work.threads);
-  const auto normalized = normalize(p.surface, *answer, anchors, near, mode, work.threads, results);
+  const auto normalized =
+      normalize(p.surface, *answer, anchors, *near, mode, work.threads, results);
   if (!normalized) return with_cure(normalized.error());
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();

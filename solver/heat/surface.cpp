@@ -87,16 +87,22 @@ std::vector<char> find_border(const Surface& surface) {
 std::vector<ComponentSize> measure_components(const Surface& surface) {
   const OperatorMesh& mesh = *surface.operators;
   std::vector<ComponentSize> sizes(static_cast<std::size_t>(mesh.components.count));
+  std::vector<Index> vertices(sizes.size(), 0);
   for (Index i = 0; i < mesh.size(); ++i) {
     ComponentSize& size = sizes[mesh.components.of[i]];
     const Index part = surface.parts.of[surface.vertex_of_row[i]];
+    ++vertices[mesh.components.of[i]];
+    if (surface.vertex_of_row[i] >= surface.mesh->vertex_count()) ++size.inserted;
     size.mean_edge = surface.part_edge[part];
     if (!surface.refinement.grading.empty()) size.grading = surface.refinement.grading[part];
   }
   for (const Face& face : surface.clean_faces) {
     ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].faces;
   }
-  for (std::size_t c = 0; c < sizes.size(); ++c) sizes[c].area = mesh.area[c];
+  for (std::size_t c = 0; c < sizes.size(); ++c) {
+    sizes[c].area = mesh.area[c];
+    sizes[c].inserted /= vertices[c];
+  }
   return sizes;
 }
 

@@ -17,8 +17,9 @@ namespace geotherm {
 struct ComponentSize {
   double mean_edge = 1;
   double area = 0;
-  Index faces = 0;     ///< of the mesh that were not left out
-  double grading = 1;  ///< the diffusion time that its triangulation resolves over mean_edge^2
+  Index faces = 0;      ///< of the mesh that were not left out
+  double inserted = 0;  ///< share of the vertices that the mesh has not
+  double grading = 1;   ///< the diffusion time that its triangulation resolves over mean_edge^2
 };
 
 /// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAtSource = 1e-12;
 
 /// Windows need some seconds there.
-constexpr Index kMostFacesExact = 200'000, kMostFacesUsuallyExact = 1'000;
+constexpr Index kMostFacesExact = 200'000;
 
 }  // namespace
 
@@ -131,8 +131,10 @@ MethodKind reference_for(MethodKind kind, Index faces) {
   return faces <= kMostFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
 }
 
-MethodKind usual_reference(Index faces) {
-  return faces <= kMostFacesUsuallyExact ? MethodKind::kExact : MethodKind::kWavefront;
+MethodKind usual_reference(MethodKind kind, Index faces) {
+  constexpr Index kFewFaces = 1'000;
+  if (!is_better(MethodKind::kWavefront, kind)) return kind;
+  return faces <= kFewFaces ? MethodKind::kExact : MethodKind::kWavefront;
 }
 
 bool is_better(MethodKind a, MethodKind b) {

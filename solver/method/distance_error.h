@@ -67,10 +67,11 @@ ErrorHistogram error_histogram(std::span<const double> signed_error, int bins);
 /// the exact one, or wavefront-fine. `kind` itself, where there is none.
 MethodKind reference_for(MethodKind kind, Index faces);
 
-/// What heat distances are held against where nobody chose: waves, which take about as long as one
-/// heat query; on up to 1,000 faces, where waves may be as wrong as heat, exact distances, which
-/// take no longer there.
-MethodKind usual_reference(Index faces);
+/// What distances are held against where nobody chose: those of heat and fast marching against
+/// waves, which take about as long as one heat query; on up to 1,000 faces, where waves may be as
+/// wrong, against exact ones, which take a few milliseconds there. `kind` itself, where it is near
+/// exact.
+MethodKind usual_reference(MethodKind kind, Index faces);
 
 /// Whether a is by its kind more accurate than b: heat and fast marching, wavefront,
 /// wavefront-fine, exact.

@@ -173,9 +173,9 @@ Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>&
                                       const CheckedAnswers& answers, const AccuracyOptions& options,
                                       const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  const MethodKind reference = options.reference.value_or(usual_reference(mesh->face_count()));
-  const bool near_exact = !is_better(MethodKind::kWavefront, checked);
-  if ((near_exact && !options.reference) || !is_better(reference, checked)) {
+  const MethodKind reference =
+      options.reference.value_or(usual_reference(checked, mesh->face_count()));
+  if (!is_better(reference, checked)) {
     return unmeasured(
         checked, checked == MethodKind::kExact
                      ? "this is the most accurate method there is"

@@ -37,8 +37,8 @@ struct WaveSurface {
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
 
-/// The same on a triangulation that is there. Precondition: it is Delaunay, and no cover. Only
-/// WavefrontMethod walks over inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
+/// The same on a triangulation that is there. Precondition: it is Delaunay. What is to be held
+/// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 

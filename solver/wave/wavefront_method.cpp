@@ -127,8 +127,9 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     state->samples = samples;
     state->threads.most = threads;
     state->threads.nanoseconds = kFaceNanoseconds * faces;
-    state->tables = build_wave_tables(
-        *state->surface, threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces));
+    const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
+    const ThreadCrew crew(worth);
+    state->tables = build_wave_tables(*state->surface, worth);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();

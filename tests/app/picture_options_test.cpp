@@ -13,35 +13,36 @@ using app::picture_settings;
 using app::PictureArguments;
 using app::PictureFit;
 using app::PictureSettings;
+using app::SettingArguments;
 
 const std::vector<std::string> kMaps = {"red-blue", "viridis"};
 
 TEST(PictureOptions, AreTheDefaultsOfTheSettingsWhenNothingIsTyped) {
-  const auto settings = picture_settings({}, kMaps);
+  const auto settings = picture_settings({}, {}, kMaps);
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(*settings, PictureSettings());
 }
 
 TEST(PictureOptions, ReachTheSettings) {
-  PictureArguments a;
-  a.view = "gradient-error";
-  a.size = "8192x17";
-  a.samples = "1";
-  a.colour_map = "viridis";
-  a.reverse = a.no_bar = a.no_caption = a.no_markers = true;
-  a.range = "-0.5:2e3";
-  a.spacing = "0";
-  a.light = "headlight";
-  a.background = "transparent";
-  a.azimuth = "-400";
-  a.elevation = "-90";
-  a.zoom = "2.5";
-  a.pan = "0.1:-.25";
-  a.fit = "sphere";
-  a.projection = "orthographic";
-  a.turntable = "12";
-  a.device = "llvm";
-  const auto s = picture_settings(a, kMaps);
+  const SettingArguments typed{{{"view", "gradient-error"},
+                                {"size", "8192x17"},
+                                {"samples", "1"},
+                                {"colour-map", "viridis"},
+                                {"reverse", "on"},
+                                {"bar", "off"},
+                                {"caption", "off"},
+                                {"markers", "off"},
+                                {"range", "-0.5:2e3"},
+                                {"spacing", "0"},
+                                {"light", "headlight"},
+                                {"background", "transparent"},
+                                {"azimuth", "-400"},
+                                {"elevation", "-90"},
+                                {"zoom", "2.5"},
+                                {"pan", "0.1:-.25"},
+                                {"fit", "sphere"},
+                                {"projection", "orthographic"}}};
+  const auto s = picture_settings(typed, {"12", "llvm"}, kMaps);
   ASSERT_TRUE(s) << s.error().message;
   EXPECT_EQ(s->view, app::View::kGradientError);
   EXPECT_EQ(s->width, 8192);
@@ -67,20 +68,16 @@ TEST(PictureOptions, ReachTheSettings) {
 }
 
 TEST(PictureOptions, MayLeaveOneEndOfTheRangeOpen) {
-  PictureArguments a;
-  a.range = ":3";
-  EXPECT_EQ(picture_settings(a, kMaps)->range_max, 3);
-  EXPECT_FALSE(picture_settings(a, kMaps)->range_min);
-  a.range = "1:";
-  EXPECT_EQ(picture_settings(a, kMaps)->range_min, 1);
+  const auto settings = picture_settings({{{"range", ":3"}}}, {}, kMaps);
+  EXPECT_EQ(settings->range_max, 3);
+  EXPECT_FALSE(settings->range_min);
+  EXPECT_EQ(picture_settings({{{"range", "1:"}}}, {}, kMaps)->range_min, 1);
 }
 
 TEST(PictureOptions, OfATurntableFitTheSphereUnlessToldOtherwise) {
-  PictureArguments a;
-  a.turntable = "4";
-  EXPECT_EQ(picture_settings(a, kMaps)->camera.fit, PictureFit::kSphere);
-  a.fit = "tight";
-  EXPECT_EQ(picture_settings(a, kMaps)->camera.fit, PictureFit::kTight);
+  const PictureArguments turns{"4", ""};
+  EXPECT_EQ(picture_settings({}, turns, kMaps)->camera.fit, PictureFit::kSphere);
+  EXPECT_EQ(picture_settings({{{"fit", "tight"}}}, turns, kMaps)->camera.fit, PictureFit::kTight);
 }
 
 TEST(PictureOptions, OfABareFitAreTight) {
@@ -112,7 +109,7 @@ TEST(PictureText, ReadsBack) {
 
 struct Wrong {
   const char* name;
-  std::string PictureArguments::*option;
+  std::string setting;
   std::string value;
   std::vector<std::string> says;
 };
@@ -121,8 +118,13 @@ class PictureOptionsWrong : public testing::TestWithParam<Wrong> {};
 
 TEST_P(PictureOptionsWrong, SayOptionValueAndCure) {
   PictureArguments arguments;
-  arguments.*GetParam().option = GetParam().value;
-  const auto settings = picture_settings(arguments, kMaps);
+  SettingArguments typed;
+  if (GetParam().setting == "turntable") {
+    arguments.turntable = GetParam().value;
+  } else {
+    typed.texts[GetParam().setting] = GetParam().value;
+  }
+  const auto settings = picture_settings(typed, arguments, kMaps);
   ASSERT_FALSE(settings);
   EXPECT_EQ(settings.error().code, ErrorCode::kBadInput);
   const std::string& message = settings.error().message;
@@ -132,35 +134,33 @@ TEST_P(PictureOptionsWrong, SayOptionValueAndCure) {
   }
 }
 
-using Arguments = PictureArguments;
 INSTANTIATE_TEST_SUITE_P(
     Of, PictureOptionsWrong,
-    testing::Values(
-        Wrong{"View", &Arguments::view, "heat", {"--view", "contours, wireframe"}},
-        Wrong{"Size", &Arguments::size, "800", {"--size", "WxH", "1920x1080"}},
-        Wrong{"SizeZero", &Arguments::size, "0x10", {"--size", "1 to 8192"}},
-        Wrong{"SizeHuge", &Arguments::size, "8193x10", {"--size", "1 to 8192"}},
-        Wrong{"SizeTail", &Arguments::size, "10x10x10", {"--size"}},
-        Wrong{"Samples", &Arguments::samples, "2", {"--samples", "1 or 4"}},
-        Wrong{"ColourMap", &Arguments::colour_map, "jet", {"--colour-map", "red-blue, viridis"}},
-        Wrong{"Range", &Arguments::range, "1", {"--range", "MIN:MAX"}},
-        Wrong{"RangeTurned", &Arguments::range, "2:1", {"--range", "MIN below MAX"}},
-        Wrong{"RangeEmpty", &Arguments::range, "1:1", {"--range"}},
-        Wrong{"RangeOpen", &Arguments::range, ":", {"--range"}},
-        Wrong{"RangeInfinite", &Arguments::range, "0:inf", {"--range"}},
-        Wrong{"Spacing", &Arguments::spacing, "-1", {"--spacing", "0 for none"}},
-        Wrong{"SpacingNan", &Arguments::spacing, "nan", {"--spacing"}},
-        Wrong{"Light", &Arguments::light, "sun", {"--light", "three-point, headlight, none"}},
-        Wrong{"Background", &Arguments::background, "red", {"--background", "light, dark"}},
-        Wrong{"Azimuth", &Arguments::azimuth, "north", {"--azimuth", "degrees"}},
-        Wrong{"AzimuthNan", &Arguments::azimuth, "nan", {"--azimuth"}},
-        Wrong{"Elevation", &Arguments::elevation, "91", {"--elevation", "-90", "to 90"}},
-        Wrong{"Zoom", &Arguments::zoom, "0", {"--zoom", "0.001"}},
-        Wrong{"Pan", &Arguments::pan, "1", {"--pan", "RIGHT:UP"}},
-        Wrong{"PanText", &Arguments::pan, "1:up", {"--pan"}},
-        Wrong{"Fit", &Arguments::fit, "loose", {"--fit", "tight, sphere"}},
-        Wrong{"Projection", &Arguments::projection, "fisheye", {"--projection", "orthographic"}},
-        Wrong{"Turntable", &Arguments::turntable, "0", {"--turntable", "1 to 3600"}}),
+    testing::Values(Wrong{"View", "view", "heat", {"--view", "contours, wireframe"}},
+                    Wrong{"Size", "size", "800", {"--size", "WxH", "1920x1080"}},
+                    Wrong{"SizeZero", "size", "0x10", {"--size", "1 to 8192"}},
+                    Wrong{"SizeHuge", "size", "8193x10", {"--size", "1 to 8192"}},
+                    Wrong{"SizeTail", "size", "10x10x10", {"--size"}},
+                    Wrong{"Samples", "samples", "2", {"--samples", "1 or 4"}},
+                    Wrong{"ColourMap", "colour-map", "jet", {"--colour-map", "red-blue, viridis"}},
+                    Wrong{"Range", "range", "1", {"--range", "MIN:MAX"}},
+                    Wrong{"RangeTurned", "range", "2:1", {"--range", "MIN below MAX"}},
+                    Wrong{"RangeEmpty", "range", "1:1", {"--range"}},
+                    Wrong{"RangeOpen", "range", ":", {"--range"}},
+                    Wrong{"RangeInfinite", "range", "0:inf", {"--range"}},
+                    Wrong{"Spacing", "spacing", "-1", {"--spacing", "0 for none"}},
+                    Wrong{"SpacingNan", "spacing", "nan", {"--spacing"}},
+                    Wrong{"Light", "light", "sun", {"--light", "three-point, headlight, none"}},
+                    Wrong{"Background", "background", "red", {"--background", "light, dark"}},
+                    Wrong{"Azimuth", "azimuth", "north", {"--azimuth", "degrees"}},
+                    Wrong{"AzimuthNan", "azimuth", "nan", {"--azimuth"}},
+                    Wrong{"Elevation", "elevation", "91", {"--elevation", "-90", "to 90"}},
+                    Wrong{"Zoom", "zoom", "0", {"--zoom", "0.001"}},
+                    Wrong{"Pan", "pan", "1", {"--pan", "RIGHT:UP"}},
+                    Wrong{"PanText", "pan", "1:up", {"--pan"}},
+                    Wrong{"Fit", "fit", "loose", {"--fit", "tight, sphere"}},
+                    Wrong{"Projection", "projection", "fisheye", {"--projection", "orthographic"}},
+                    Wrong{"Turntable", "turntable", "0", {"--turntable", "1 to 3600"}}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

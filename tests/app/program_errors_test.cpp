@@ -109,7 +109,7 @@ const std::vector<Failure>& failures() {
        {"solve", "bunny", "-s", "1", "--memory-limit", "100K", "--strict"},
        1,
        {"MB for 2 factors", "the limit is 0.0977 MB; raise --memory-limit"}},
-      {"Threads", {"solve", "bunny", "-s", "1", "--threads", "0"}, 2, {"--threads", "1 to"}},
+      {"Threads", {"solve", "bunny", "-s", "1", "--threads", "-1"}, 2, {"--threads", "1 to"}},
       {"ThreadsText", {"solve", "bunny", "-s", "1", "--threads", "two"}, 2, {"--threads"}},
       {"Backends", {"compare", "bunny", "--backends", "magic"}, 2, {"'magic'", "cg"}},
       {"Reference", {"compare", "bunny", "--reference", "magic"}, 2, {"--reference", "'magic'"}},

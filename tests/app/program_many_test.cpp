@@ -6,8 +6,8 @@
 #include <cmath>
 #include <csignal>
 
+#include "app/explore/settings.h"
 #include "app/many/many_work.h"
-#include "app/option_values.h"
 #include "solver/core/stopwatch.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
@@ -188,7 +188,9 @@ TEST(Sizes, AreOfTwoToTheTenthEach) {
   EXPECT_EQ(app::bytes_in_words(3.2 * 0x1p30), "3.2 GB");
   EXPECT_EQ(app::bytes_in_words(1000 * app::kMegabyte), "0.977 GB");
   EXPECT_EQ(app::bytes_in_words(800 * app::kMegabyte), "800 MB");
-  EXPECT_EQ(*app::parse_memory_limit("800") * app::kMegabyte, 800 * 0x1p20);
+  app::ViewerState state;
+  ASSERT_TRUE(app::find_setting("memory-limit")->set(state, "800"));
+  EXPECT_EQ(state.options.memory_limit_mb * app::kMegabyte, 800 * 0x1p20);
   EXPECT_EQ(app::bytes_in_words(1023), "1,023 bytes");
   EXPECT_EQ(app::bytes_in_words(1), "1 byte");
 }

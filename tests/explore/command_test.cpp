@@ -102,7 +102,8 @@ class SettingText : public testing::TestWithParam<std::string> {};
 TEST_P(SettingText, EveryValueItNamesIsACommandThatReadsBack) {
   const Setting& setting = *find_setting(GetParam());
   const ViewerState start = initial_state();
-  std::vector<std::string> values = setting.values();
+  std::vector<std::string> values;
+  if (setting.values != nullptr) values = setting.values();
   values.push_back(setting.get(start));
   for (const std::string& value : values) {
     const Command command = Set{GetParam(), value};

@@ -107,6 +107,62 @@ TEST_P(RefinedPlane, IsNearExactBesideTheSource) {
   }
 }
 
+/// The vertices nearest to a source, and what each is off by there, over the right distance.
+std::vector<double> errors_nearby(const std::vector<double>& distances,
+                                  const std::vector<double>& right, std::size_t count) {
+  std::vector<std::size_t> nearest(right.size());
+  std::iota(nearest.begin(), nearest.end(), 0);
+  std::ranges::sort(nearest, {}, [&](std::size_t v) { return right[v]; });
+  std::vector<double> errors;
+  for (const std::size_t v : nearest) {
+    if (right[v] > 0 && errors.size() < count) {
+      errors.push_back(std::abs(distances[v] - right[v]) / right[v]);
+    }
+  }
+  return errors;
+}
+
+TEST_P(RefinedPlane, IsNearExactBesideEachOfSeveralSources) {
+  const std::vector<Index> sources = {3, mesh->vertex_count() / 2, mesh->vertex_count() - 5};
+  const auto distances = solve(method, SourceSet::of_vertices(sources)).distances;
+  for (const Index source : sources) {
+    std::vector<double> right(distances.size(), kUnreached);
+    for (Index v = 0; v < mesh->vertex_count(); ++v) {
+      const auto to = [&](Index s) { return (at(v) - at(s)).norm(); };
+      const bool nearest =
+          std::ranges::all_of(sources, [&](Index s) { return to(source) <= to(s); });
+      if (nearest) right[v] = to(source);
+    }
+    for (const double error : errors_nearby(distances, right, 2)) EXPECT_LE(error, kNearExact);
+  }
+}
+
+TEST_P(RefinedPlane, IsNearExactBesideOtherComponents) {
+  Draft draft = GetParam().draft();
+  const auto own = static_cast<Index>(draft.positions.size());
+  const Draft other = plane_grid(80, 80, 100, 100);  // that needs no inserted vertex
+  for (const Vec3& p : other.positions) draft.positions.emplace_back(p + Vec3(0, 0, 500));
+  for (const Face& f : other.faces) draft.faces.push_back({f[0] + own, f[1] + own, f[2] + own});
+  const auto joined = finish(draft);
+  const auto both = solve(method_of(joined), SourceSet::of_vertices({3, own + 800})).distances;
+  std::vector<double> right;
+  for (const Vec3& p : mesh->positions()) right.push_back((p - at(3)).norm());
+  for (const double error : errors_nearby(both, right, 2)) EXPECT_LE(error, kNearExact);
+  const auto grid = solve(finish(other), {800}).distances;
+  for (std::size_t v = 0; v < grid.size(); ++v) {
+    EXPECT_NEAR(both[own + v], grid[v], kSolved * 100) << v;
+  }
+}
+
+TEST_P(RefinedPlane, IsAsPublishedBesideTheSourceOfClassic) {
+  HeatOptions classic;
+  classic.variant = Variant::kClassic;
+  std::vector<double> right;
+  for (const Vec3& p : mesh->positions()) right.push_back((p - at(11)).norm());
+  const auto near = errors_nearby(solve(mesh, {11}, classic).distances, right, 4);
+  EXPECT_GT(*std::ranges::max_element(near), kNearExact);
+}
+
 TEST_P(RefinedPlane, IsRightFromEdgesAlongTheBorder) {
   std::vector<std::array<Index, 2>> border;
   const IntrinsicSurface surface = *build_intrinsic_surface(mesh, {});

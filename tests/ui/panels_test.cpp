@@ -150,11 +150,30 @@ TEST_F(Panels, ShowEverySettingOfTheMethodAndThePicture) {
   for (const app::Setting& setting : app::settings()) {
     const std::string name(setting.name);
     if (name == "size") continue;  // in the dialog that saves a picture
-    std::string in = setting.of_method ? "Solver/" : "View/";
+    std::string in = setting.of_method() ? "Solver/" : "View/";
     if (name == "check") in = "Exact error/";
     const std::string item = name == "range" ? "range min" : name == "pan" ? "pan up" : name;
     EXPECT_TRUE(is_drawn(in + item)) << name;
   }
+}
+
+TEST_F(Panels, ShowASettingThatIsAddedToTheTable) {
+  static std::string dial;
+  dial = "1";
+  const app::ExtraSetting extra({.name = "test-dial",
+                                 .help = "for this test",
+                                 .get = [](const app::ViewerState&) { return dial; },
+                                 .set =
+                                     [](app::ViewerState&, const std::string& text) {
+                                       dial = text;
+                                       return Result<void>();
+                                     }});
+  open_square();
+  ASSERT_TRUE(is_drawn("Solver/test-dial"));
+  click_item("Solver/test-dial");
+  type("4");
+  click_item("Quality/");
+  EXPECT_EQ(sent(), Texts{"test-dial 4"});
 }
 
 TEST_F(Panels, FieldThatIsLeftSendsWhatWasTyped) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The table of settings: one entry is an option, its help, a command and a key of the JSON.
+#include "app/settings_options.h"
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/explore/command.h"
+#include "app/report_json.h"
+#include "app/solve_model.h"
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+using app::add_setting_options;
+using app::names_of;
+using app::Setting;
+using app::SettingArguments;
+using app::SettingGroup;
+using app::SettingKind;
+using app::ViewerState;
+
+/// What a command with all settings of methods makes of these words.
+Result<ViewerState> typed(const std::vector<std::string>& words, SettingArguments& arguments) {
+  CLI::App command;
+  add_setting_options(command, arguments, names_of(SettingGroup::kMethod));
+  std::vector<std::string> reversed(words.rbegin(), words.rend());
+  command.parse(reversed);
+  return app::settings_in(arguments);
+}
+
+TEST(SettingsOptions, OfASettingThatIsAddedToTheTableAreEverywhere) {
+  static double dial;
+  dial = 1;
+  const app::ExtraSetting extra({.name = "test-dial",
+                                 .kind = SettingKind::kNumber,
+                                 .value_name = "D",
+                                 .help = "for this test",
+                                 .get = [](const ViewerState&) { return std::to_string(dial); },
+                                 .set =
+                                     [](ViewerState&, const std::string& text) {
+                                       dial = std::stod(text);
+                                       return Result<void>();
+                                     }});
+  CLI::App command;
+  SettingArguments arguments;
+  add_setting_options(command, arguments, names_of(SettingGroup::kMethod));
+  EXPECT_NE(command.help().find("--test-dial D"), std::string::npos) << command.help();
+  EXPECT_NE(command.help().find("for this test, default 1"), std::string::npos);
+
+  ASSERT_TRUE(typed({"--test-dial", "7"}, arguments));
+  EXPECT_EQ(dial, 7);
+  const auto parsed = app::parse_command("test-dial 8");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  EXPECT_EQ(app::to_text(*parsed), "test-dial 8.000000");
+  const auto unknown = app::parse_command("no-such-command");
+  EXPECT_NE(unknown.error().message.find("test-dial"), std::string::npos) << "it is completed";
+
+  dial = 2.5;
+  app::Model model;
+  model.name = "square";
+  model.mesh = finish(plane_grid(3, 3, 1, 1));
+  const auto sources = app::parse_source("0");
+  const auto solved = app::solve_model(model, app::usual_settings().options,
+                                       {{*sources, "-s 0", ErrorCode::kBadInput}}, {}, {}, {});
+  ASSERT_TRUE(solved) << solved.error().message;
+  EXPECT_EQ(app::solve_json(*solved)["options"]["test_dial"], 2.5);
+}
+
+TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
+  CLI::App command;
+  SettingArguments arguments;
+  add_setting_options(command, arguments, names_of(SettingGroup::kMethod));
+  const std::string help = command.help();
+  for (const char* part : {"-m,--time-factor M", "m of the time step, default 1",
+                           "auto (default), cotan, intrinsic-delaunay", "--strict"}) {
+    EXPECT_NE(help.find(part), std::string::npos) << part << help;
+  }
+}
+
+TEST(SettingsOptions, AreBlamedByTheirName) {
+  SettingArguments arguments;
+  const auto state = typed({"--heat", "lots"}, arguments);
+  ASSERT_FALSE(state);
+  EXPECT_EQ(state.error().message.find("--heat: "), 0U) << state.error().message;
+}
+
+}  // namespace
+}  // namespace geotherm::test
