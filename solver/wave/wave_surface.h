@@ -38,7 +38,8 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
 
 /// The same on a triangulation that is there. Precondition: it is Delaunay. What is to be held
-/// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
+/// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors:
+/// kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 
