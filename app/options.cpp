@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "app/bundled_models.h"
 #include "app/load_model.h"
 #include "app/option_value.h"
 #include "app/option_values.h"
