@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "app/bundled_models.h"
 #include "app/compare_report.h"
 #include "app/method_words.h"
 #include "app/outputs.h"
@@ -74,9 +75,9 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   if (!sources) return sources.error();
   plan.sources = *std::move(sources);
   for (const std::string& model : arguments.models) {
-    if (is_bundled(model) || model == kStandardInput || ::access(model.c_str(), R_OK) == 0) {
-      continue;
-    }
+    const bool there =
+        is_bundled(model) ? bundled_file(model).has_value() : ::access(model.c_str(), R_OK) == 0;
+    if (there || model == kStandardInput) continue;
     const auto missing = load_model(model);  // for its message
     if (!missing) return missing.error();
   }

@@ -3,23 +3,29 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/load_model.h"
+#include "app/bundled_models.h"
 #include "app/options.h"
 #include "app/outputs.h"
 #include "app/text.h"
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {
 namespace {
 
-Result<Index> faces_in(const std::string& text) {
-  if (text.empty()) return 0;
-  const auto faces = number_in<Index>(text);
+/// As asked for, else the model's usual number.
+Result<Index> faces_in(const GenerateArguments& arguments) {
+  if (arguments.faces.empty()) {
+    for (const BundledModel& model : bundled_models()) {
+      if (model.name == arguments.name) return model.faces;
+    }
+    return kFewestModelFaces;  // the unknown name is the error to report
+  }
+  const auto faces = number_in<Index>(arguments.faces);
   if (faces && *faces >= kFewestModelFaces && *faces <= kMostModelFaces) return *faces;
   return Error{ErrorCode::kBadInput,
-               "--faces: '" + one_line(text) + "' is no number of faces; give " +
+               "--faces: '" + one_line(arguments.faces) + "' is no number of faces; give " +
                    std::to_string(kFewestModelFaces) + " to " + std::to_string(kMostModelFaces)};
 }
 
@@ -41,7 +47,7 @@ void add_generate_options(CLI::App& command, GenerateArguments& arguments) {
 }
 
 Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Progress& progress) {
-  const auto faces = faces_in(arguments.faces);
+  const auto faces = faces_in(arguments);
   if (!faces) return faces.error();
   if (auto known = check_mesh_path(arguments.output); !known) return known.error();
   Outputs outputs;

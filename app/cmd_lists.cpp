@@ -3,12 +3,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/bundled_models.h"
 #include "app/outputs.h"
 #include "app/report_json.h"
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/linear/backend.h"
-#include "solver/mesh/generate.h"
 
 namespace geotherm::app {
 namespace {

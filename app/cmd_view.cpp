@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/bundled_models.h"
 #include "app/compare_report.h"
 #include "app/explore/apply.h"
 #include "app/explore/session.h"
@@ -207,8 +208,10 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   if (auto taken = take(scale_in(arguments.scale), "--scale", scale); !taken) return taken.error();
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
-  if (!arguments.model.empty() && !is_bundled(arguments.model)) {
-    // A window that opens to say that there is no such file helps nobody.
+  // A window that opens to say that there is no such file helps nobody.
+  if (is_bundled(arguments.model)) {
+    if (const auto file = bundled_file(arguments.model); !file) return file.error();
+  } else if (!arguments.model.empty()) {
     if (const auto file = io::InputFile::open(arguments.model); !file) return file.error();
   }
   ViewerStart start;

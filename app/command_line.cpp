@@ -12,6 +12,7 @@
 #include <functional>
 #include <system_error>
 
+#include "app/bundled_models.h"
 #include "app/cmd_compare.h"
 #include "app/cmd_devices.h"
 #include "app/cmd_generate.h"

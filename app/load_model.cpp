@@ -3,33 +3,19 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
+#include "app/bundled_models.h"
 #include "app/cure.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/generate.h"
 #include "solver/mesh/read_mesh.h"
 #include "solver/mesh/weld.h"
 
 namespace geotherm::app {
 namespace {
-
-Result<Model> generated(const std::string& name, const ModelReading& reading,
-                        const Progress& progress) {
-  if (!reading.format.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "--format: " + name + " is a bundled model and no file; leave --format out"};
-  }
-  const Stopwatch watch;
-  auto mesh = generate_model(name, 0, with_prefix(progress, "making " + name + ": "));
-  if (!mesh) return mesh.error();
-  return Model{
-      name, "", std::make_shared<const TriangleMesh>(*std::move(mesh)), watch.milliseconds(), {}};
-}
 
 void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& notes) {
   if (file.polygons > 0) {
@@ -76,6 +62,19 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   return model_of(*std::move(file), path.stem().string(), text, watch.milliseconds());
 }
 
+Result<Model> bundled(const std::string& name, const ModelReading& reading,
+                      const Progress& progress) {
+  if (!reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--format: " + name + " is a bundled model and no file; leave --format out"};
+  }
+  const auto file = bundled_file(name);
+  if (!file) return file.error();
+  auto model = from_file(*file, reading, progress);
+  if (model) model->path.clear();
+  return model;
+}
+
 Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
   const std::string name = "standard input";
   if (reading.format.empty()) {
@@ -103,16 +102,10 @@ std::string weld_note(Index merged, double distance) {
 
 }  // namespace
 
-bool is_bundled(std::string_view name) {
-  const auto models = bundled_models();
-  return std::any_of(models.begin(), models.end(),
-                     [name](const BundledModel& model) { return model.name == name; });
-}
-
 Result<Model> load_model(const std::string& text, const ModelReading& reading,
                          const Progress& progress) {
   auto model = text == kStandardInput ? from_standard_input(reading, progress)
-               : is_bundled(text)     ? generated(text, reading, progress)
+               : is_bundled(text)     ? bundled(text, reading, progress)
                                       : from_file(text, reading, progress);
   if (!model || !reading.weld) return model;
   if (!report(progress, "welding", -1)) return cancelled_error();

@@ -16,7 +16,7 @@ struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
   std::string path;  ///< empty for a bundled model, - for standard input
   std::shared_ptr<const TriangleMesh> mesh;
-  double load_ms = 0;              ///< reading or generating
+  double load_ms = 0;              ///< reading
   std::vector<std::string> notes;  ///< what reading had to do, one sentence each
 };
 
@@ -24,7 +24,5 @@ struct Model {
 /// distance that does not go with the model), kBadFile, kOutOfMemory, kCancelled.
 Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
                          const Progress& progress = {});
-
-bool is_bundled(std::string_view name);
 
 }  // namespace geotherm::app

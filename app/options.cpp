@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/bundled_models.h"
 #include "app/load_model.h"
 #include "app/text.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/view_picture.h"
 
+#include "app/bundled_models.h"
 #include "app/explore/explored_picture.h"
 #include "app/machine.h"
 #include "app/outputs.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 
 namespace geotherm::bench {
 namespace {

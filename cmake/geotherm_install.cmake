@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# What `cmake --install` puts where: library, headers, package files, program, licence.
+# What `cmake --install` puts where: library, headers, package files, program, models, licence.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/geotherm")
@@ -27,4 +27,5 @@ install(FILES LICENSE README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 if(TARGET geotherm)
   install(TARGETS geotherm RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(DIRECTORY assets/models DESTINATION "${CMAKE_INSTALL_DATADIR}/geotherm")
 endif()

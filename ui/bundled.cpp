@@ -13,7 +13,7 @@ namespace {
 constexpr Bundled kBundled[] = {
     {"terrain", "a landscape with one boundary"},
     {"sleeve", "a tube with two boundaries"},
-    {"cube", "with rounded edges"},
+    {"cube", "with exact edges"},
     {"gargoyle", "200,000 faces"},
     {"bunny", "4,000 faces"},
 };

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "app/bundled_models.h"
 #include "app/explore/saved_file.h"
 #include "app/explore/script.h"
 #include "app/explore/session_state.h"

@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "app/compare_run.h"
+#include "bench/models/generate.h"
 #include "solver/heat/heat_method.h"
-#include "solver/mesh/generate.h"
 
 namespace geotherm::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "solver/mesh/write_distances.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/shapes.h"

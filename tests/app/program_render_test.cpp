@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Pictures from the built program, on whatever device there is; the software one is enough.
-#include <cstdlib>
 #include <set>
 
 #include "tests/app/png_reader.h"
 #include "tests/app/program_fixture.h"
+#include "tests/app/variable.h"
 
 namespace geotherm::test {
 namespace {
-
-/// A variable of the environment that the program inherits, for as long as this lives.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* old = std::getenv(name)) old_ = old;
-    ::setenv(name, value, 1);
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-  ~Variable() {
-    if (old_.empty()) {
-      ::unsetenv(name_);
-    } else {
-      ::setenv(name_, old_.c_str(), 1);
-    }
-  }
-
- private:
-  const char* name_;
-  std::string old_;
-};
 
 class ProgramRender : public DrawingProgram {
  protected:

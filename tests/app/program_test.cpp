@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "app/bundled_models.h"
 #include "solver/linear/backend.h"
-#include "solver/mesh/generate.h"
 #include "solver/mesh/read_mesh.h"
 #include "tests/app/program_fixture.h"
 
@@ -227,8 +227,8 @@ TEST_F(Program, ListsNameOneThingALine) {
             backend_names().size());
   const std::string models = run({"models"}).out;
   EXPECT_EQ(static_cast<std::size_t>(std::count(models.begin(), models.end(), '\n')),
-            bundled_models().size());
-  for (const BundledModel& model : bundled_models()) {
+            app::bundled_models().size());
+  for (const app::BundledModel& model : app::bundled_models()) {
     EXPECT_NE(models.find(std::string(model.name) + " "), std::string::npos);
   }
 }
@@ -243,10 +243,10 @@ TEST_F(Program, ListsAreTheSameAsJson) {
   }
   run({"models", "--json", "m.json"});
   const Json models = Json::parse(bytes_of(folder.path("m.json")))["models"];
-  ASSERT_EQ(models.size(), bundled_models().size());
+  ASSERT_EQ(models.size(), app::bundled_models().size());
   for (std::size_t i = 0; i < models.size(); ++i) {
-    EXPECT_EQ(models[i]["name"], bundled_models()[i].name);
-    EXPECT_EQ(models[i]["faces"], bundled_models()[i].faces);
+    EXPECT_EQ(models[i]["name"], app::bundled_models()[i].name);
+    EXPECT_EQ(models[i]["faces"], app::bundled_models()[i].faces);
   }
 }
 

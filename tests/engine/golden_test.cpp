@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/models/generate.h"
 #include "engine/scene/region_colours.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/heat/heat_method.h"
-#include "solver/mesh/generate.h"
 #include "tests/engine/stage.h"
 
 namespace geotherm::test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/explore/session.h"
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/shapes.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 
 namespace geotherm {
 namespace {

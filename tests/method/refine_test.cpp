@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/mesh/generate.h"
 #include "solver/mesh/weld.h"
 #include "solver/method/build_method.h"
 #include "solver/method/distance_error.h"

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "solver/mesh/ray_tree.h"
 #include "solver/method/build_method.h"
 #include "solver/method/farthest_points.h"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "bench/models/generate.h"
 #include "solver/heat/heat_method.h"
-#include "solver/mesh/generate.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -54,8 +54,10 @@ const std::vector<Permission>& permissions() {
        {"std", "vulkan", "glm"},
        {"posix", "stb", "embedded", "glfw", "imgui", "imgui end"}},
       {"shaders", {"shaders"}, {"std", "glm"}, {}},
+      {"app/cmd_generate.cpp", {"app", "solver", "bench/models"}, {"std", "cli11"}, {}},
       {"app", {"app", "solver"}, {"std", "cli11", "json", "eigen"}, {"posix", "png"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
+      {"bench/models", {"solver/core", "solver/mesh", "bench/models"}, {"std", "eigen"}, {}},
       {"bench", {"solver", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
       {"tests", {"solver", "engine", "shaders", "app", "ui", "tests", "bench"}, {"any"}, {}},
   };

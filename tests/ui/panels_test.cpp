@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <sstream>
 
+#include "app/bundled_models.h"
 #include "app/explore/settings.h"
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
+#include "solver/mesh/write_distances.h"
 #include "tests/ui/driver.h"
 #include "ui/bundled.h"
 #include "ui/key_codes.h"
@@ -246,7 +248,7 @@ TEST_F(Panels, OfferModelsWhereNoneIsOpen) {
 TEST_F(Panels, OfferTheModelsThatThereAre) {
   Texts names, expected;
   for (const Bundled& model : bundled()) names.emplace_back(model.name);
-  for (const BundledModel& model : bundled_models()) expected.emplace_back(model.name);
+  for (const app::BundledModel& model : app::bundled_models()) expected.emplace_back(model.name);
   EXPECT_EQ(names, expected);
 }
 
@@ -288,7 +290,10 @@ class BusyPanels : public UiTest {
  protected:
   BusyPanels() : UiTest(in_the_background()) {}
   void SetUp() override {
-    run("open gargoyle");  // large enough to be at work for longer than this test needs
+    // So large that reading takes longer than this test needs.
+    const auto path = folder() / "large.ply";
+    ASSERT_TRUE(write_mesh(path.string(), *generate_model("cube", 2'000'000)));
+    run("open \"" + path.string() + "\"");
     ASSERT_TRUE(session_.work().busy);
     frames(2);
     ASSERT_TRUE(session_.work().busy);

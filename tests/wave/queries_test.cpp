@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "tests/support/compare.h"
 #include "tests/wave/wave_fixture.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <tuple>
 
-#include "solver/mesh/generate.h"
+#include "bench/models/generate.h"
 #include "tests/wave/wave_fixture.h"
 
 namespace geotherm::test {

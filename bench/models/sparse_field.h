@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "bench/models/sculpture.h"
 #include "solver/core/progress.h"
-#include "solver/mesh/generate/sculpture.h"
 
 namespace geotherm::generate {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/generate/models.h"
-#include "solver/mesh/generate/noise.h"
-#include "solver/mesh/generate/sculpt.h"
+#include "bench/models/models.h"
+#include "bench/models/noise.h"
+#include "bench/models/sculpt.h"
 
 namespace geotherm::generate {
 namespace {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/mesh/generate/models.h"
-#include "solver/mesh/generate/noise.h"
-#include "solver/mesh/generate/relax.h"
+#include "bench/models/models.h"
+#include "bench/models/noise.h"
 
 namespace geotherm::generate {
 namespace {
@@ -174,9 +173,9 @@ Result<DraftMesh> make_sleeve(Index faces, const Progress& progress) {
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     if (!report(progress, "smoothing", static_cast<double>(round) / kRounds)) {
-      return Error{ErrorCode::kCancelled, "making the model was cancelled"};
+      return cancelled_error();
     }
-    relax(mesh, 1, [&](Index v, const Vec3& target, const Vec3&) -> Vec3 {
+    relax(mesh, [&](Index v, const Vec3& target, const Vec3&) -> Vec3 {
       Place& place = places[static_cast<std::size_t>(v)];
       if (v >= around && v < rows * around) follow(cloth, target, place);
       return cloth.point(place.s, place.angle);

@@ -3,10 +3,10 @@
 
 #include <functional>
 
+#include "bench/models/draft_mesh.h"
+#include "bench/models/sculpture.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-#include "solver/mesh/generate/draft_mesh.h"
-#include "solver/mesh/generate/sculpture.h"
 
 namespace geotherm::generate {
 

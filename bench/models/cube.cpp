@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/mesh/generate/models.h"
+#include "bench/models/models.h"
 
 namespace geotherm::generate {
 namespace {
@@ -107,7 +107,7 @@ Result<DraftMesh> make_cube(Index faces, const Progress& progress) {
   BoxSurface box(best_counts(faces));
   for (std::size_t side = 0; side < 6; ++side) {
     if (!report(progress, "building", static_cast<double>(side) / 6)) {
-      return Error{ErrorCode::kCancelled, "making the model was cancelled"};
+      return cancelled_error();
     }
     box.add_side(side / 2, side % 2 == 1);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/generate/sparse_field.h"
+#include "bench/models/sparse_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,6 @@ namespace {
 
 // In spacings: what must lie in a block, as further cells ask for corners of near ones.
 constexpr double kMargin = SparseField::kNear + 0.5;
-// How much faster than distances the bounds that stand for them may grow.
-constexpr double kSteepest = 1.25;
 // From the middle of a unit cube to its corners.
 constexpr double kCorner = 0.8660254037844386;
 
@@ -63,7 +61,7 @@ bool SparseField::descend(const GridPoint& block, int size, Sculpture::Parts par
   const double reach = reach_of(size);
   double d = 0;
   const std::vector<int> near = sculpture_.cull(center_of(block, size), reach, parts, d);
-  if (std::abs(d) > kSteepest * reach + kMargin * spacing_ + sculpture_.detail_height())
+  if (std::abs(d) > Sculpture::kSteepest * reach + kMargin * spacing_ + sculpture_.detail_height())
     return true;
   if (size == 1) {
     make_block(block, near);
@@ -104,7 +102,8 @@ void SparseField::sample_group(Block& block, int group, Sculpture::Parts parts) 
   const std::vector<int> near = sculpture_.cull(at(1, 1, 1), reach, parts, d);
   parts_.insert(parts_.end(), near.begin(), near.end());
   // Of a group that is far from the surface, its middle is enough.
-  const bool far = std::abs(d) > kNear * spacing_ + kSteepest * reach + sculpture_.detail_height();
+  const bool far =
+      std::abs(d) > kNear * spacing_ + Sculpture::kSteepest * reach + sculpture_.detail_height();
   for (int i = 0; i < 8; ++i) {
     const GridPoint step = {i & 1, (i >> 1) & 1, i >> 2};
     const int slot = slot_of({low[0] + step[0], low[1] + step[1], low[2] + step[2]});

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/generate/surface_net.h"
+#include "bench/models/sculpt.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <memory>
 #include <numeric>
+
+#include "bench/models/sparse_field.h"
 
 namespace geotherm::generate {
 namespace {
@@ -110,8 +114,48 @@ Vec3 cell_vertex(SparseField& field, const GridPoint& cell) {
   return sum / crossings;
 }
 
-}  // namespace
+/// Keeps the connected component with the most faces (the first of equals), vertices in order.
+DraftMesh largest_component(const DraftMesh& mesh) {
+  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
+  std::vector<Index> parent(mesh.positions.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index v) {
+    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
+    return v;
+  };
+  for (const Face& face : mesh.faces) {
+    parent[at(root(face[1]))] = root(face[0]);
+    parent[at(root(face[2]))] = root(face[0]);
+  }
+  std::vector<Index> faces_of(mesh.positions.size(), 0);
+  for (const Face& face : mesh.faces) ++faces_of[at(root(face[0]))];
+  Index most = 0;
+  for (Index v = 0; v < std::ssize(faces_of); ++v) {
+    if (faces_of[at(v)] > faces_of[at(most)]) most = v;
+  }
+  DraftMesh kept;
+  std::vector<Index> renumbered(mesh.positions.size(), kNoIndex);
+  for (Index v = 0; v < std::ssize(parent); ++v) {
+    if (root(v) != most) continue;
+    renumbered[at(v)] = static_cast<Index>(kept.positions.size());
+    kept.positions.push_back(mesh.positions[at(v)]);
+  }
+  for (const Face& face : mesh.faces) {
+    if (renumbered[at(face[0])] == kNoIndex) continue;
+    kept.faces.push_back(
+        {renumbered[at(face[0])], renumbered[at(face[1])], renumbered[at(face[2])]});
+  }
+  return kept;
+}
 
+/// The zero surface of a sampled field by surface nets (Gibson 1998): a vertex in every cell that
+/// the surface crosses, two triangles across every grid edge that it crosses.
+///
+/// The net is the boundary of a set of voxels (the points inside), which is a manifold exactly when
+/// that set is well composed (Latecki 1997): no face and no cell of the grid where inside touches
+/// inside only across a diagonal. Where it does, points just outside are first taken in, until it
+/// does nowhere; the result is therefore always an oriented closed manifold. Small pieces are
+/// dropped: what remains is the component with the most faces.
 DraftMesh extract_surface(SparseField& field) {
   compose_well(field);
   DraftMesh mesh;
@@ -148,37 +192,69 @@ DraftMesh extract_surface(SparseField& field) {
   return largest_component(mesh);
 }
 
-DraftMesh largest_component(const DraftMesh& mesh) {
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
-  std::vector<Index> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[at(v)] != v) v = parent[at(v)] = parent[at(parent[at(v)])];
-    return v;
-  };
-  for (const Face& face : mesh.faces) {
-    parent[at(root(face[1]))] = root(face[0]);
-    parent[at(root(face[2]))] = root(face[0]);
+constexpr int kTries = 10;
+constexpr double kCloseEnough = 0.02;
+constexpr int kRounds = 6;
+// Faces per squared spacing of area: two per crossed edge, 1.5 such edges in the mean over normals.
+constexpr double kFacesPerArea = 3.0;
+
+/// A solid's samples and its raw surface.
+struct Attempt {
+  Attempt(const Sculpture& solid, const SculptureModel& model, double spacing)
+      : field(solid, spacing, model.low, model.high) {}
+  SparseField field;
+  DraftMesh mesh;
+};
+
+/// The surface's point on the line through `target` along `normal`: `steps` secant steps.
+Vec3 onto_surface(const SparseField& field, const Vec3& target, const Vec3& normal, int steps) {
+  const double most = 0.5 * field.spacing();
+  const double enough = 1e-3 * field.spacing();
+  double way = 0;
+  double slope = 1;
+  double last = 0;
+  for (int step = 0; step < steps; ++step) {
+    const Vec3 p = target + way * normal;
+    const double d = field.sculpture().distance(p, field.parts_near(p));
+    if (step == 1) slope = std::clamp((d - last) / way, 0.5, 2.0);
+    if (std::abs(d) < enough) break;
+    last = d;
+    way = std::clamp(way - d / slope, -most, most);
   }
-  std::vector<Index> faces_of(mesh.positions.size(), 0);
-  for (const Face& face : mesh.faces) ++faces_of[at(root(face[0]))];
-  Index most = 0;
-  for (Index v = 0; v < std::ssize(faces_of); ++v) {
-    if (faces_of[at(v)] > faces_of[at(most)]) most = v;
+  return target + way * normal;
+}
+
+}  // namespace
+
+Result<DraftMesh> sculpt(const SculptureModel& model, Index faces, const Progress& progress) {
+  std::unique_ptr<Attempt> best;
+  double best_error = std::numeric_limits<double>::infinity();
+  double spacing = std::sqrt(kFacesPerArea * model.area / faces);
+  const Sculpture solid = model.carve(spacing);  // the same for all tries, or they would not settle
+  for (int i = 0; i < kTries && best_error > kCloseEnough; ++i) {
+    auto attempt = std::make_unique<Attempt>(solid, model, spacing);
+    if (!attempt->field.sample(progress)) return cancelled_error();
+    attempt->mesh = extract_surface(attempt->field);
+    const double ratio = static_cast<double>(attempt->mesh.faces.size()) / faces;
+    if (std::abs(ratio - 1) < best_error) {
+      best_error = std::abs(ratio - 1);
+      best = std::move(attempt);
+    }
+    spacing *= std::sqrt(std::clamp(ratio, 0.25, 4.0));
   }
-  DraftMesh kept;
-  std::vector<Index> renumbered(mesh.positions.size(), kNoIndex);
-  for (Index v = 0; v < std::ssize(parent); ++v) {
-    if (root(v) != most) continue;
-    renumbered[at(v)] = static_cast<Index>(kept.positions.size());
-    kept.positions.push_back(mesh.positions[at(v)]);
+  if (!best) return Error{ErrorCode::kBadInput, "the sculpture has no surface"};
+  DraftMesh mesh = std::move(best->mesh);
+  for (int round = 0; round < kRounds; ++round) {
+    if (!report(progress, "smoothing", static_cast<double>(round) / kRounds)) {
+      return cancelled_error();
+    }
+    const int steps = round + 1 < kRounds ? 1 : 3;
+    relax(mesh, [&](Index, const Vec3& target, const Vec3& normal) {
+      return onto_surface(best->field, target, normal, steps);
+    });
   }
-  for (const Face& face : mesh.faces) {
-    if (renumbered[at(face[0])] == kNoIndex) continue;
-    kept.faces.push_back(
-        {renumbered[at(face[0])], renumbered[at(face[1])], renumbered[at(face[2])]});
-  }
-  return kept;
+  smooth_slivers(mesh);
+  return mesh;
 }
 
 }  // namespace geotherm::generate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/generate/noise.h"
+#include "bench/models/noise.h"
 
 #include <algorithm>
 #include <array>

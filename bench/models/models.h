@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "bench/models/draft_mesh.h"
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-#include "solver/mesh/generate/draft_mesh.h"
 
 namespace geotherm::generate {
 

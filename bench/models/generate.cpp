@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "bench/models/generate.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "bench/models/models.h"
+
+namespace geotherm {
+namespace {
+
+struct Maker {
+  std::string_view name;
+  Result<generate::DraftMesh> (*make)(Index faces, const Progress& progress);
+};
+constexpr Maker kMakers[] = {{"terrain", generate::make_terrain},
+                             {"sleeve", generate::make_sleeve},
+                             {"cube", generate::make_cube},
+                             {"gargoyle", generate::make_gargoyle},
+                             {"bunny", generate::make_bunny}};
+
+std::string all_names() {
+  std::string names;
+  for (const Maker& maker : kMakers) {
+    names += (names.empty() ? "" : ", ") + std::string(maker.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Result<TriangleMesh> generate_model(std::string_view name, Index faces, const Progress& progress) {
+  const auto* const maker = std::ranges::find(kMakers, name, &Maker::name);
+  if (maker == std::end(kMakers)) {
+    return Error{ErrorCode::kNotAvailable, "there is no bundled model \"" + std::string(name) +
+                                               "\"; there are " + all_names()};
+  }
+  if (faces < kFewestModelFaces || faces > kMostModelFaces) {
+    return Error{ErrorCode::kBadInput,
+                 std::to_string(faces) + " faces were asked for; the model \"" + std::string(name) +
+                     "\" can have " + std::to_string(kFewestModelFaces) + " to " +
+                     std::to_string(kMostModelFaces)};
+  }
+  Result<generate::DraftMesh> made = maker->make(faces, progress);
+  if (!made) return made.error();
+  return TriangleMesh::build(std::move(made->positions), std::move(made->faces));
+}
+
+}  // namespace geotherm

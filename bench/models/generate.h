@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string_view>
+
+#include "solver/core/progress.h"
+#include "solver/core/result.h"
+#include "solver/mesh/triangle_mesh.h"
+
+namespace geotherm {
+
+/// Fewest and most faces that a model can be asked for.
+inline constexpr Index kFewestModelFaces = 500;
+inline constexpr Index kMostModelFaces = 5'000'000;
+
+/// Makes a bundled model (terrain, sleeve, cube, gargoyle or bunny) of about `faces` faces (within
+/// 3 % from 2,000 on). Each is an oriented manifold with exactly one component and no degenerate
+/// faces, the same on every run. Y is up, creatures face +Z, outside is where the faces run
+/// counter-clockwise; all fit into a box about 2 to 3 units wide. `terrain` has one boundary loop,
+/// `sleeve` two, the others none. Cost: linear in `faces`. Errors: an unknown name (kNotAvailable;
+/// the message lists the names), a size outside the limits (kBadInput), kCancelled.
+Result<TriangleMesh> generate_model(std::string_view name, Index faces,
+                                    const Progress& progress = {});
+
+}  // namespace geotherm
