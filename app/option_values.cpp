@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/cure.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/number_text.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
@@ -76,16 +76,16 @@ Result<std::string> parse_backend(const std::string& text) {
 Result<Constraint> parse_constraint_option(const std::string& text) {
   auto parsed = parse_constraint(text);
   if (parsed) return parsed;
-  return with_cure(parsed.error(), text,
-                   "write penalty:VALUE with a positive number, such as penalty:1e6, or "
-                   "pin-vertex:V with a vertex id");
+  return with_hint(parsed.error(),
+                   {"write penalty:VALUE with a positive number, such as penalty:1e6, or "
+                    "pin-vertex:V with a vertex id"});
 }
 
 Result<TimeStep> parse_time_step_option(const std::string& text, double factor) {
   auto parsed = parse_time_step(text, factor);
   if (parsed) return parsed;
-  return with_cure(parsed.error(), text,
-                   "write absolute:T with a positive number, such as absolute:0.01");
+  return with_hint(parsed.error(),
+                   {"write absolute:T with a positive number, such as absolute:0.01"});
 }
 
 }  // namespace geotherm::app

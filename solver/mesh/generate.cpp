@@ -37,15 +37,16 @@ Result<TriangleMesh> generate_model(std::string_view name, Index faces, const Pr
   std::size_t model = 0;
   while (model < kModels.size() && kModels[model].name != name) ++model;
   if (model == kModels.size()) {
-    return Error{ErrorCode::kNotAvailable, "there is no bundled model \"" + std::string(name) +
-                                               "\"; there are " + all_names()};
+    return Error{ErrorCode::kNotAvailable,
+                 "there is no bundled model \"" + std::string(name) + "\"",
+                 {"there are " + all_names()}};
   }
   const Index count = faces == 0 ? kModels[model].faces : faces;
   if (count < kFewestModelFaces || count > kMostModelFaces) {
     return Error{ErrorCode::kBadInput,
-                 std::to_string(count) + " faces were asked for; the model \"" + std::string(name) +
-                     "\" can have " + std::to_string(kFewestModelFaces) + " to " +
-                     std::to_string(kMostModelFaces)};
+                 std::to_string(count) + " faces were asked for",
+                 {"the model \"" + std::string(name) + "\" can have " +
+                  std::to_string(kFewestModelFaces) + " to " + std::to_string(kMostModelFaces)}};
   }
   Result<generate::DraftMesh> made = kMakers[model](count, progress);
   if (!made) return made.error();
