@@ -78,7 +78,7 @@ TEST_P(ExtremeTimes, GiveADistanceOrAWarningOrAnErrorWithTheCure) {
   const auto expect_cure = [&cure](const Error& error) {
     EXPECT_TRUE(error.code == ErrorCode::kNumericalFailure ||
                 error.code == ErrorCode::kBudgetEnded);
-    EXPECT_NE(error.message.find(cure), std::string::npos) << error.message;
+    EXPECT_NE(sentence(error).find(cure), std::string::npos) << sentence(error);
   };
   const auto method = HeatMethod::build(finish(draft), options);
   if (!method) return expect_cure(method.error());
