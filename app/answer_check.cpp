@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -36,7 +37,7 @@ std::string not_asked(MethodKind kind, CheckMode mode) {
 }
 
 AccuracyReport failed_check(MethodKind kind, const Error& error) {
-  AccuracyReport report = unmeasured(kind, "the distances were not checked: " + error.message);
+  AccuracyReport report = unmeasured(kind, "the distances were not checked: " + told(error));
   report.failed = true;
   return report;
 }
@@ -187,23 +188,24 @@ Result<SampleCheck> check_sample_against(const std::shared_ptr<const TriangleMes
 }
 
 std::string accuracy_line(const AccuracyReport& report) {
-  if (!report.measured) return report.verdict;
+  if (!report.measured) return told(report);
   return figures_in_words(report.figures) + ", against " + to_text(report.reference) + ": " +
-         to_text(report.grade) + report.advice;
+         to_text(report.grade) + told(report.advice);
 }
 
 std::string accuracy_line(const SampleCheck& check) {
   const AccuracyReport& report = check.report;
-  if (!report.measured) return report.verdict;
+  if (!report.measured) return told(report);
   return "on " + grouped(static_cast<std::int64_t>(report.sets)) + " of " +
          counted(static_cast<std::int64_t>(check.of), "source", "sources") + ": " +
          figures_in_words(report.figures) + " from source " + std::to_string(check.worst) +
-         ", against " + to_text(report.reference) + ": " + to_text(report.grade) + report.advice;
+         ", against " + to_text(report.reference) + ": " + to_text(report.grade) +
+         told(report.advice);
 }
 
 std::string accuracy_warning(const AccuracyReport& report, const std::string& line) {
   if (report.is_poor()) return "poor distances: " + line;
-  return report.failed ? report.verdict : std::string();
+  return report.failed ? told(report) : std::string();
 }
 
 Result<void> refuse_poor(const AccuracyReport& report, const std::string& line) {
@@ -211,7 +213,7 @@ Result<void> refuse_poor(const AccuracyReport& report, const std::string& line) 
     return Error{ErrorCode::kNumericalFailure, "poor distances: " + line};
   }
   if (!report.failed) return {};
-  return Error{ErrorCode::kNumericalFailure, report.verdict + "; leave --on-poor fail out"};
+  return Error{ErrorCode::kNumericalFailure, told(report) + "; leave --on-poor fail out"};
 }
 
 std::string replaced_note(const MethodOptions& asked, const MethodOptions& answered,
@@ -222,7 +224,7 @@ std::string replaced_note(const MethodOptions& asked, const MethodOptions& answe
 
 std::string still_poor_warning(const AccuracyReport& report, const MethodOptions& answered,
                                const std::string& line) {
-  if (!report.is_poor()) return report.failed ? report.verdict : std::string();
+  if (!report.is_poor()) return report.failed ? told(report) : std::string();
   return "the method " + to_text(answered.method) +
          ", which answered, gave poor distances: " + line;
 }

@@ -13,6 +13,7 @@
 #include "app/resolve_sources.h"
 #include "app/solver_names.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/linear/backend.h"
 
 namespace geotherm::app {
@@ -42,7 +43,7 @@ Result<void> choose_solvers(const CompareArguments& arguments, const MethodOptio
   if (other) names = to_text(options.method) + (names == "all" ? "" : "," + names);
   auto solvers = solvers_named(names, options);
   if (!solvers) {
-    return Error{ErrorCode::kNotAvailable, "--backends: " + solvers.error().message};
+    return about("--backends", solvers.error(), ErrorCode::kNotAvailable);
   }
   task.solvers = *std::move(solvers);
   task.reference =
@@ -50,7 +51,7 @@ Result<void> choose_solvers(const CompareArguments& arguments, const MethodOptio
   if (is_in(task.solvers, task.reference)) return {};
   const auto reference = solvers_named(task.reference, options);
   if (!reference) {
-    return Error{ErrorCode::kNotAvailable, "--reference: " + reference.error().message};
+    return about("--reference", reference.error(), ErrorCode::kNotAvailable);
   }
   task.solvers.insert(task.solvers.begin(), reference->front());
   return {};

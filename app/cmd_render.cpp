@@ -16,6 +16,7 @@
 #include "app/solve_model.h"
 #include "app/solve_steps.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/io/file_extension.h"
 
@@ -63,7 +64,7 @@ Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
   std::vector<Source> targets;
   for (const std::string& text : texts) {
     auto spec = parse_source(text);
-    if (!spec) return Error{ErrorCode::kBadInput, "--path: " + spec.error().message};
+    if (!spec) return about("--path", spec.error());
     if (!is_single_point(*spec)) {
       return Error{ErrorCode::kBadInput, "--path: '" + one_line(text) +
                                              "' is not one point; write a vertex id, "
@@ -92,8 +93,7 @@ Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& sol
     if (!placed) return placed.error();
     const auto found = finder.find(solved.sources, placed->set.points.front(), progress);
     if (!found) {
-      return about_model(solved.model.name,
-                         {found.error().code, target.where + ": " + found.error().message});
+      return about_model(solved.model.name, about(target.where, found.error()));
     }
     add_paths(data, *mesh, found->paths);
     for (const TargetPath& path : found->paths) {
@@ -135,7 +135,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   }
   if (!solved) {
     warnings.push_back("there are no distances, the surface is drawn in grey: " +
-                       solved.error().message);
+                       told(solved.error()));
     add_distances(data,
                   std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
@@ -147,8 +147,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
     const AccuracyReport& report = *solved->error;
     if (report.values.empty()) {
       return Error{ErrorCode::kBadInput, "--view exact-error: there is nothing to hold --method " +
-                                             to_text(options.method) + " against: " +
-                                             report.verdict + "; choose another view"};
+                                             to_text(options.method) + " against: " + told(report) +
+                                             "; choose another view"};
     }
     add_error(data, report.values, error_title(report));
   }

@@ -29,6 +29,7 @@
 #include "app/shell_command.h"
 #include "app/study/cmd_study.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -42,7 +43,7 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
-int fail(const Error& error) { return fail(exit_code(error.code), error.message); }
+int fail(const Error& error) { return fail(exit_code(error.code), told(error)); }
 
 int print(const CommandOutput& output) {
   for (const std::string& warning : output.warnings) {

@@ -10,9 +10,9 @@
 #include "app/method_words.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 #include "solver/linear/backend.h"
-#include "solver/linear/fallback.h"
 #include "solver/method/distance_error.h"
 
 namespace geotherm::app {
@@ -56,9 +56,10 @@ std::string status_name(ErrorCode code) {
   return "failed";
 }
 
-void fail(CompareRow& row, const Error& error) {
+void fail(CompareRow& row, Error error) {
   row.status = status_name(error.code);
-  row.message = without_backend(error.message, row.backend);  // which stands beside it
+  error.subject.clear();  // the backend stands beside it
+  row.message = told(error);
 }
 
 void add_message(CompareRow& row, const std::string& text) {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/bundled_models.h"
-#include "app/cure.h"
 #include "app/progress_bar.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/read_mesh.h"
 #include "solver/mesh/weld.h"
@@ -53,11 +53,11 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   if (!file) {
     const bool memory = file.error().code == ErrorCode::kOutOfMemory;
     const bool there = std::filesystem::exists(path, unknown);
-    return with_cure({memory ? ErrorCode::kOutOfMemory : ErrorCode::kBadFile, file.error().message},
-                     one_line(text),
-                     memory  ? "take a mesh with fewer faces"
-                     : there ? "choose another file, or export this one again"
-                             : "check the path");
+    Error error = file.error();
+    if (!memory) error.code = ErrorCode::kBadFile;
+    return with_hint(std::move(error), {memory  ? "take a mesh with fewer faces"
+                                        : there ? "choose another file, or export this one again"
+                                                : "check the path"});
   }
   return model_of(*std::move(file), path.stem().string(), text, watch.milliseconds());
 }
@@ -86,7 +86,7 @@ Result<Model> from_standard_input(const ModelReading& reading, const Progress& p
   const Stopwatch watch;
   auto file = read_mesh(STDIN_FILENO, reading.format, name);
   if (!file) {
-    return with_cure(file.error(), name, "check what writes it, and that it is " + reading.format);
+    return with_hint(file.error(), {"check what writes it, and that it is " + reading.format});
   }
   return model_of(*std::move(file), name, std::string(kStandardInput), watch.milliseconds());
 }
@@ -110,7 +110,7 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   if (!model || !reading.weld) return model;
   if (!report(progress, "welding", -1)) return cancelled_error();
   auto welded = weld(*model->mesh, *reading.weld);
-  if (!welded) return Error{welded.error().code, "--weld: " + welded.error().message};
+  if (!welded) return about("--weld", welded.error());
   model->notes.push_back(weld_note(welded->merged, *reading.weld));
   model->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
   return model;

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/told.h"
 #include "solver/core/result.h"
 
 // What turns the words of a command line into values, or into one line that says what is wrong.
@@ -15,7 +16,7 @@ namespace geotherm::app {
 template <class Value, class Into>
 Result<void> take(Result<Value> parsed, std::string_view option, Into& into) {
   if (!parsed) {
-    return Error{parsed.error().code, std::string(option) + ": " + parsed.error().message};
+    return about(std::string(option), parsed.error());
   }
   into = *std::move(parsed);
   return {};

@@ -6,6 +6,7 @@
 #include "app/bundled_models.h"
 #include "app/load_model.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 
@@ -66,7 +67,7 @@ Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
   std::vector<Source> sources;
   for (const std::string& text : arguments.sources) {
     auto spec = parse_source(text);
-    if (!spec) return Error{ErrorCode::kBadInput, "--source: " + spec.error().message};
+    if (!spec) return about("--source", spec.error());
     const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
     sources.push_back({*std::move(spec), "--source " + one_line(shown), ErrorCode::kBadInput});
   }

@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/cure.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
@@ -103,7 +103,7 @@ Result<void> Outputs::write(const std::string& path, const std::function<Result<
   Result<void> done = write();
   if (!done) {
     remove_written();
-    return with_cure(done.error(), path, "make room there, or choose another place");
+    return with_hint(done.error(), {"make room there, or choose another place"});
   }
   for (File& file : files_) {
     if (file.path == path) file.written = true;

@@ -11,6 +11,7 @@
 #include "app/process_clock.h"
 #include "app/resolve_sources.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/parallel.h"
 #include "solver/heat/heat_method.h"
 #include "solver/heat/option_text.h"
@@ -272,7 +273,7 @@ Json error_json(const AccuracyReport& report) {
   Json json = {{"reference", to_text(report.reference)},
                {"mean_relative", figure(e.mean_relative)},
                {"max_of_range", figure(e.max_of_range)},
-               {"verdict", report.verdict},
+               {"verdict", told(report)},
                {"cure", report.cure ? tried_json(*report.cure) : Json(nullptr)},
                {"grade", report.measured ? Json(to_text(report.grade)) : Json(nullptr)},
                {"max", figure(e.max)},

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/mesh/closest_point.h"
 #include "solver/mesh/edge_path.h"
@@ -108,7 +109,7 @@ class Resolver {
   Result<void> operator()(const VertexCurve& curve) {
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (auto added = add_vertex(curve.vertices[i], 0); !added) {
-        return bad(place(curve, i) + ": " + added.error().message);
+        return about(place(curve, i), added.error());
       }
     }
     const EdgeGraph graph(mesh_.positions(), clean().edges);
@@ -123,7 +124,7 @@ class Resolver {
         continue;
       }
       const auto path = graph.shortest_path(a, b);
-      if (!path) return bad(place(curve, i) + ": " + path.error().message);
+      if (!path) return about(place(curve, i), path.error());
       if (gaps++ == 0) first_gap = i;
       for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
     }
@@ -136,7 +137,7 @@ class Resolver {
     where_ = source.where;
     const auto placed = std::visit(*this, source.spec);
     if (placed) return {};
-    return Error{source.blame, where_ + ": " + placed.error().message};
+    return about(where_, placed.error(), source.blame);
   }
 
   /// What was added since the last call.
@@ -245,7 +246,7 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
     if (const auto* named = std::get_if<VertexList>(&source.spec)) list = *named;
     if (const auto* random = std::get_if<RandomVertices>(&source.spec)) {
       auto vertices = random_vertices(mesh, random->count, random->seed);
-      if (!vertices) return Error{source.blame, source.where + ": " + vertices.error().message};
+      if (!vertices) return about(source.where, vertices.error(), source.blame);
       list = {*std::move(vertices), random->offset};
     }
     Source one{source.spec, source.where, source.blame};

@@ -6,6 +6,7 @@
 
 #include "app/explore/apply.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -88,7 +89,7 @@ Result<ViewerState> settings_in(const SettingArguments& arguments) {
     if (typed == arguments.texts.end()) continue;
     const auto set = setting.set(state, typed->second);
     if (!set) {
-      return Error{set.error().code, "--" + std::string(setting.name) + ": " + set.error().message};
+      return about("--" + std::string(setting.name), set.error());
     }
   }
   return state;

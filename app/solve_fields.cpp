@@ -4,12 +4,13 @@
 #include <algorithm>
 
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {
 namespace {
 
-Error about_option(const Error& error) { return {error.code, "--fields: " + error.message}; }
+Error about_option(const Error& error) { return about("--fields", error); }
 
 Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKind method) {
   std::vector<QualityField> fields;
@@ -72,7 +73,7 @@ Result<std::vector<DataField>> make_fields(const WantedFields& wanted, SolveFigu
     if (field == QualityField::kError) {
       const bool known = figures.error && !figures.error->values.empty();
       const std::string why = known           ? std::string()
-                              : figures.error ? figures.error->verdict
+                              : figures.error ? told(*figures.error)
                                               : "the distances were not checked";
       if (!known && !wanted.all) {
         return Error{ErrorCode::kBadInput,

@@ -10,6 +10,7 @@
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
+#include "app/told.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 
@@ -168,9 +169,9 @@ Result<SolveFigures> solve_model(Model model, const MethodOptions& options,
   const auto add = [&warnings](const std::vector<std::string>& more) {
     warnings.insert(warnings.end(), more.begin(), more.end());
   };
-  add(figures->method->warnings());
+  add(told(figures->method->warnings()));
   add(sources->warnings);
-  add(figures->result.warnings);
+  add(told(figures->result.warnings));
   add(unreached_notes(figures->mesh, figures->distance.unreached));
   add(figures->warnings);
   figures->warnings = std::move(warnings);

@@ -3,12 +3,13 @@
 
 #include "app/resolve_sources.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 
 Error about_model(const std::string& name, const Error& error) {
   const ErrorCode code = error.code == ErrorCode::kBadInput ? ErrorCode::kBadFile : error.code;
-  return {code, one_line(name) + ": " + error.message};
+  return about(one_line(name), error, code);
 }
 
 Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {

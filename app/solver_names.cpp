@@ -5,6 +5,7 @@
 
 #include "app/method_words.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/linear/backend.h"
 
 namespace geotherm::app {
@@ -21,8 +22,9 @@ Result<MethodOptions> solver_named(const std::string& name, const MethodOptions&
   if (!backend) {
     std::vector<std::string> methods = method_names();
     std::erase(methods, to_text(MethodKind::kHeat));
-    return Error{backend.error().code,
-                 backend.error().message + "; other methods: " + joined(methods)};
+    Error error = backend.error();
+    error.hint.emplace_back("; other methods: " + joined(methods));
+    return error;
   }
   options.method = MethodKind::kHeat;
   options.backend = name;

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/cure.h"
 #include "app/source_spec.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/mesh/io/file_bytes.h"
 
 namespace geotherm::app {
@@ -30,10 +30,10 @@ Result<SourceSpec> parse_words(const std::vector<std::string_view>& words) {
     const auto vertex = number_in<Index>(word);
     if (vertex && *vertex >= 0) return SourceSpec(VertexList{{*vertex}});
   }
-  return Error{ErrorCode::kBadInput,
-               "'" + one_line(std::string(words[0])) + (words.size() > 1 ? " ...'" : "'") +
-                   " is no source; write a vertex id, face:ID:b0:b1:b2, xyz:x:y:z, or the three "
-                   "numbers x y z"};
+  return Error{
+      ErrorCode::kBadInput,
+      "'" + one_line(std::string(words[0])) + (words.size() > 1 ? " ...'" : "'") + " is no source",
+      {"write a vertex id, face:ID:b0:b1:b2, xyz:x:y:z, or the three numbers x y z"}};
 }
 
 Result<std::vector<Source>> as_curve(const std::string& shown, const std::vector<Source>& sources,
@@ -61,10 +61,9 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
   }
   const auto file = io::FileBytes::read(path);
   if (!file) {
-    return with_cure({ErrorCode::kBadFile, file.error().message}, one_line(path),
-                     std::filesystem::exists(path, unknown)
-                         ? "give a file with one vertex id or point a line"
-                         : "check the path");
+    return with_hint(file.error(), {std::filesystem::exists(path, unknown)
+                                        ? "give a file with one vertex id or point a line"
+                                        : "check the path"});
   }
   const std::string shown = one_line(path);
   std::string_view rest = file->bytes();
@@ -81,8 +80,7 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
     std::string where = shown + ": line " + std::to_string(number);
     auto spec = parse_words(words);
     if (!spec) {
-      return with_cure({ErrorCode::kBadFile, where + ": " + spec.error().message}, where,
-                       "write finite numbers");
+      return with_hint(about(where, spec.error(), ErrorCode::kBadFile), {"write finite numbers"});
     }
     sources.push_back({*std::move(spec), std::move(where), ErrorCode::kBadFile});
     lines.push_back(number);

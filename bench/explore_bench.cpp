@@ -174,7 +174,7 @@ ExploreBench measure_explore(const Say& say) {
     say("exploring " + std::to_string(faces) + " faces");
     auto row = measure_mesh("gargoyle", faces);
     if (!row) {
-      bench.failure = row.error().message;
+      bench.failure = sentence(row.error());
       return bench;
     }
     bench.rows.push_back(*std::move(row));

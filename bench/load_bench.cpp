@@ -61,12 +61,12 @@ LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs
     const auto ours = read_mesh(file.path());
     row.ms = std::fmin(row.ms, watch.milliseconds());  // fmin passes over what is not measured
     if (!ours) {
-      row.failure = ours.error().message;
+      row.failure = sentence(ours.error());
       return row;
     }
     const Result<double> theirs = time_tinyobjloader(file.path());
     if (!theirs) {
-      row.failure = theirs.error().message;
+      row.failure = sentence(theirs.error());
       return row;
     }
     row.tinyobjloader_ms = std::fmin(row.tinyobjloader_ms, *theirs);

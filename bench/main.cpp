@@ -122,7 +122,7 @@ int run(const Arguments& arguments) {
   const auto wrote = [](const std::string& path, const auto& make) {
     if (path.empty()) return true;
     const auto written = write_file(path, make());
-    if (!written) print("geotherm_bench: error: " + written.error().message + "\n", stderr);
+    if (!written) print("geotherm_bench: error: " + sentence(written.error()) + "\n", stderr);
     return bool(written);
   };
   // All are tried: what took an hour to measure is not lost to one path.

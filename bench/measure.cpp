@@ -102,7 +102,7 @@ class Running {
       for (std::size_t c = 0; c < laps_.size(); ++c) {
         if (!figures_[c].failure.empty() || (laps_[c].*times).enough(budget)) continue;
         if (const Result<void> done = turn(c); !done) {
-          figures_[c].failure = done.error().message;
+          figures_[c].failure = sentence(done.error());
           continue;
         }
         active = true;

@@ -129,7 +129,7 @@ Result<void> measure_all(RenderBench& bench, const Say& say) {
 RenderBench measure_render(const Say& say) {
   RenderBench bench;
   const auto done = measure_all(bench, say);
-  if (!done) bench.failure = done.error().message;
+  if (!done) bench.failure = sentence(done.error());
   return bench;
 }
 

@@ -81,7 +81,7 @@ class SolveBench {
     say("making the mesh");
     auto made = make_mesh(c.mesh, c.faces);
     if (!made) {
-      group.failure = made.error().message;
+      group.failure = sentence(made.error());
       return group;
     }
     const auto mesh = std::make_shared<const TriangleMesh>(std::move(*made));
@@ -168,7 +168,7 @@ class SolveBench {
     if (!known || figures.setup_ms > kLongestRatesMs) return {};
     const auto measured = measure_rates(std::move(mesh), figures.name, thread_count(plan_.threads),
                                         plan_.quick ? kRatesQuickMs : kRatesFullMs);
-    return measured ? *measured : Rates{.failure = measured.error().message};
+    return measured ? *measured : Rates{.failure = sentence(measured.error())};
   }
 
   const SolvePlan& plan_;

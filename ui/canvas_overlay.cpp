@@ -137,6 +137,18 @@ void draw_picked(Frame& frame) {
   draw_badge(frame, {at.x, at.y - frame.px(24)}, text);
 }
 
+/// A button for each setting that may help.
+void draw_remedies(Frame& frame, const Notice& notice) {
+  ImGui::PushID(&notice);
+  for (const SettingHint& setting : notice.settings) {
+    for (const std::string& value : setting.values) {
+      const std::string change = setting.name + ' ' + value;
+      if (draw_button(frame, change, change.c_str())) frame.set(setting.name, value);
+    }
+  }
+  ImGui::PopID();
+}
+
 void draw_notices(Frame& frame) {
   auto& notices = frame.ui.notices;
   std::erase_if(notices, [](const Notice& notice) { return notice.until < ImGui::GetTime(); });
@@ -154,6 +166,7 @@ void draw_notices(Frame& frame) {
   for (const Notice& notice : notices) {
     draw_note(notice.text, notice.kind == app::LogLine::Kind::kError ? frame.colours().error
                                                                      : frame.colours().warning);
+    draw_remedies(frame, notice);
   }
   const float button = frame.px(70);
   if (draw_button(frame, "close", "Close", true, button)) notices.clear();
@@ -177,7 +190,7 @@ void take_notices(Frame& frame) {
     if (line.kind != app::LogLine::Kind::kError) continue;
     auto& notices = frame.ui.notices;
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == line.text; });
-    notices.push_back({line.text, line.kind, ImGui::GetTime() + kNoticeTime});
+    notices.push_back({line.text, line.kind, ImGui::GetTime() + kNoticeTime, line.settings});
     if (notices.size() > kMostNotices) notices.erase(notices.begin());
   }
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "app/text.h"
+#include "app/told.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {
@@ -34,7 +35,7 @@ void run_line(Frame& frame) {
   if (line.empty()) return;
   auto command = app::parse_command(line);
   if (!command) {  // stays in the field to be mended
-    form.error = command.error().message;
+    form.error = app::told(command.error());
     return;
   }
   form.error.clear();

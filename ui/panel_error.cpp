@@ -3,6 +3,7 @@
 
 #include "app/answer_check.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "ui/action.h"
 #include "ui/error_plot.h"
 #include "ui/panels.h"
@@ -13,7 +14,7 @@ namespace geotherm::ui {
 namespace {
 
 void draw_figures(Frame& frame, const AccuracyReport& report) {
-  if (!report.measured) return draw_note(report.verdict, frame.colours().dim);
+  if (!report.measured) return draw_note(app::told(report), frame.colours().dim);
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
              "The more accurate method; solved once for these sources.");
@@ -28,7 +29,7 @@ void draw_figures(Frame& frame, const AccuracyReport& report) {
                "Where the error is largest: " + app::significant(e.max, 3) + " model units.");
   }
   draw_error_plot(frame, report.histogram);
-  draw_note(report.verdict, report.is_poor() ? frame.colours().warning : frame.colours().dim);
+  draw_note(app::told(report), report.is_poor() ? frame.colours().warning : frame.colours().dim);
 }
 
 /// Figures of a vertex are shown at a face that has it.

@@ -44,7 +44,8 @@ struct LogForm {
 struct Notice {
   std::string text;
   app::LogLine::Kind kind = app::LogLine::Kind::kError;
-  double until = 0;  ///< ImGui's time
+  double until = 0;                        ///< ImGui's time
+  std::vector<SettingHint> settings = {};  ///< that may help
 };
 
 /// All that the panels remember between frames; nothing of it decides what is computed.

@@ -9,6 +9,7 @@
 #include "app/picture/picture_values.h"
 #include "app/source_spec.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/linear/backend.h"
 
 namespace geotherm::app {
@@ -80,7 +81,7 @@ class Applier {
     const Setting* setting = find_setting(c.name);
     if (setting == nullptr) return bad("there is no setting '" + one_line(c.name) + "'");
     auto set = setting->set(s_, c.value);
-    if (!set) return Error{set.error().code, c.name + ": " + set.error().message};
+    if (!set) return about(c.name, set.error());
     return {};
   }
 

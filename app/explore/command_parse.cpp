@@ -8,6 +8,7 @@
 #include "app/explore/settings.h"
 #include "app/picture/picture_values.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -143,7 +144,7 @@ Result<Command> read_save_picture(WordReader& reader) {
   command::SavePicture save{reader.next()};
   if (!reader.at_end() && reader.peek() != "panels") {
     const auto size = parse_size(reader.next());
-    if (!size) return reader.blame_last(size.error().message + ", or panels");
+    if (!size) return reader.blame_last(told(size.error()) + ", or panels");
     save.width = size->width;
     save.height = size->height;
   }
@@ -216,7 +217,7 @@ Result<Command> read_setting(const Setting& setting, WordReader& reader) {
   const std::string value = reader.next();
   ViewerState scratch = initial_state();
   if (auto set = setting.set(scratch, value); !set) {
-    const Error blamed = reader.blame_last(set.error().message);
+    const Error blamed = reader.blame_last(told(set.error()));
     return Error{set.error().code, blamed.message};
   }
   return Command(command::Set{name, setting.get(scratch)});

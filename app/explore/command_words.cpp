@@ -6,6 +6,7 @@
 
 #include "app/source_spec.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/number_text.h"
 #include "solver/core/printable.h"
 
@@ -179,7 +180,7 @@ Result<std::vector<Index>> WordReader::vertices() {
 
 Result<void> WordReader::source() {
   const auto spec = parse_source(next());
-  if (!spec) return blame_last(spec.error().message);
+  if (!spec) return blame_last(told(spec.error()));
   last_ = to_text(*spec);
   return {};
 }

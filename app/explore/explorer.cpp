@@ -10,6 +10,7 @@
 #include "app/mesh_words.h"
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
@@ -203,9 +204,9 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(
   const auto add = [&out](const std::vector<std::string>& more) {
     out.warnings.insert(out.warnings.end(), more.begin(), more.end());
   };
-  add(out.method->warnings());
+  add(told(out.method->warnings()));
   add(source_warnings);
-  add(out.result.warnings);
+  add(told(out.result.warnings));
   add(unreached_notes(model_->mesh, out.distance.unreached));
   if (request.check != Check::kOff && request.check != Check::kOn) {
     if (auto done = check(request, explored.set, out, progress); !done) return done.error();
@@ -242,7 +243,7 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
   if (!b) {  // A is good all the same
     b_.reset();
-    explored.b_failure = "B: " + b.error().message;
+    explored.b_failure = "B: " + told(b.error());
   } else {
     explored.b = *std::move(b);
     explored.difference = difference_of(*explored.a, *explored.b);

@@ -3,6 +3,7 @@
 #include "app/explore/explorer.h"
 #include "app/progress_bar.h"
 #include "app/solve_steps.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_method.h"
 
@@ -62,7 +63,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
   const Source target{*spec, "target " + *request.target, ErrorCode::kBadInput};
   const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
   if (!placed) {
-    explored.path_failure = placed.error().message;
+    explored.path_failure = told(placed.error());
     return {};
   }
   const SurfacePoint& point = placed->set.points.front();
@@ -79,7 +80,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
   auto found = paths_->finder->find(explored.set, point, part_of(progress, 0.2, 1.0));
   if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
   if (!found) {
-    explored.path_failure = found.error().message;
+    explored.path_failure = told(found.error());
     return {};
   }
   explored.paths = std::move(found->paths);
@@ -123,7 +124,7 @@ Result<void> Explorer::check(const ExploreRequest& request, const SourceSet& sou
                       : Result<DistanceResult>(method.error());
     if (!result && result.error().code == ErrorCode::kCancelled) return result.error();
     if (!result) {
-      answer.warnings.push_back("the distances were not checked: " + result.error().message);
+      answer.warnings.push_back("the distances were not checked: " + told(result.error()));
       return {};
     }
     ReferenceAnswers better;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "app/cure.h"
 #include "app/explore/settings.h"
 #include "app/model_reading.h"
 #include "app/picture/picture_values.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/number_text.h"
 #include "solver/heat/option_text.h"
 #include "solver/linear/backend.h"
@@ -78,16 +78,16 @@ Result<Text> parse_backend(const Text& text) {
 Result<Constraint> parse_constraint_option(const Text& text) {
   auto parsed = parse_constraint(text);
   if (parsed) return parsed;
-  return with_cure(parsed.error(), text,
-                   "write penalty:VALUE with a positive number, such as penalty:1e6, or "
-                   "pin-vertex:V with a vertex id");
+  return with_hint(parsed.error(),
+                   {"write penalty:VALUE with a positive number, such as penalty:1e6, or "
+                    "pin-vertex:V with a vertex id"});
 }
 
 Result<TimeStep> parse_time_step_option(const Text& text, double factor) {
   auto parsed = parse_time_step(text, factor);
   if (parsed) return parsed;
-  return with_cure(parsed.error(), text,
-                   "write absolute:T with a positive number, such as absolute:0.01");
+  return with_hint(parsed.error(),
+                   {"write absolute:T with a positive number, such as absolute:0.01"});
 }
 
 constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOn, "on"},

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/write_distances.h"
 
@@ -72,7 +73,7 @@ Result<void> check_saved_name(const Command& command) {
   const std::string target = fs::proximate(path, unknown).string();
   if (unknown) return {};  // Opening the file says what is wrong with its path.
   if (const auto checked = check_name(target, command); !checked) {
-    return bad(path, "leads by a link to " + checked.error().message);
+    return bad(path, "leads by a link to " + told(checked.error()));
   }
   return {};
 }

@@ -12,6 +12,7 @@
 
 #include "app/explore/saved_file.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -48,7 +49,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     auto command = parse_command(line);
     if (!command) {
       return Error{ErrorCode::kBadFile, one_line(name) + ": line " + std::to_string(number) + ", " +
-                                            command.error().message};
+                                            told(command.error())};
     }
     lines.push_back({number, *std::move(command)});
   }

@@ -9,6 +9,7 @@
 #include "app/explore/script.h"
 #include "app/explore/session_state.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -46,9 +47,9 @@ Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(
 
 Session::~Session() = default;
 
-void Session::State::note(LogLine::Kind kind, std::string text) {
+void Session::State::note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings) {
   if (log.size() >= kMostLogLines) log.erase(log.begin(), log.begin() + kMostLogLines / 4);
-  log.push_back({kind, std::move(text)});
+  log.push_back({kind, std::move(text), std::move(settings)});
   last_logged_merges = kind == LogLine::Kind::kCommand;
 }
 
@@ -132,7 +133,7 @@ Result<void> Session::State::submit(const Command& command, const Session& sessi
   auto done = perform(command, session, giver);
   if (!done) {
     if (!said) note(LogLine::Kind::kCommand, to_text(command));
-    note(LogLine::Kind::kError, done.error().message);
+    note(LogLine::Kind::kError, told(done.error()));
     return done;
   }
   if (const auto* run = std::get_if<command::Run>(&command)) {
@@ -186,8 +187,7 @@ void Session::State::pump(const Session& session) {
     const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
     if (first_error) {
-      first_error->message =
-          name + ": line " + std::to_string(line.number) + ": " + first_error->message;
+      first_error = about(name + ": line " + std::to_string(line.number), *first_error);
     }
   }
   if (script.empty()) scripts_run = 0;

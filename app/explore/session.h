@@ -18,6 +18,7 @@ struct LogLine {
   enum class Kind { kCommand, kNote, kWarning, kError };
   Kind kind = Kind::kNote;
   std::string text;
+  std::vector<SettingHint> settings = {};  ///< of an error: what may help
 };
 
 /// Times of one query, for the plot.

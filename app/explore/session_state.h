@@ -29,7 +29,7 @@ struct Session::State {
   Result<void> run_script(const std::string& path);
   void pump(const Session& session);
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
-  void note(LogLine::Kind kind, std::string text);
+  void note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings = {});
 
   // session_work.cpp: what runs elsewhere.
   ExploreRequest wanted() const;

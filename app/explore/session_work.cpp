@@ -11,6 +11,7 @@
 #include "app/resolve_sources.h"
 #include "app/solver_names.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
@@ -140,7 +141,7 @@ bool Session::State::take() {
         note(LogLine::Kind::kNote,
              "compared " + counted(static_cast<Index>(compare.rows.size()), "backend", "backends"));
       } else {
-        note(LogLine::Kind::kError, compared->rows.error().message);
+        note(LogLine::Kind::kError, told(compared->rows.error()));
       }
     }
   }
@@ -148,9 +149,9 @@ bool Session::State::take() {
 }
 
 void Session::State::say_failure(const Error& error) {
-  failure = error.message;
+  failure = told(error);
   if (!first_error) first_error = error;
-  note(LogLine::Kind::kError, failure);
+  note(LogLine::Kind::kError, failure, settings_of(error.hint));
 }
 
 /// The model does not open: the one before it is still there. False: none was being opened.

@@ -10,6 +10,7 @@
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
@@ -26,7 +27,7 @@ struct PathTask {
 
 Result<Source> point_of(const std::string& text, const std::string& option) {
   auto spec = parse_source(text);
-  if (!spec) return Error{ErrorCode::kBadInput, option + ": " + spec.error().message};
+  if (!spec) return about(option, spec.error());
   if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
   return Error{ErrorCode::kBadInput, option + ": '" + one_line(text) +
                                          "' is not one point; write a vertex id, face:ID:b0:b1:b2 "
@@ -119,7 +120,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
   Stopwatch watch;
   auto method = build_method(figures.model.mesh, task.method, part_of(progress, 0, 0.5));
   if (!method) return about_model(figures.model.name, method.error());
-  const auto& about_method = (*method)->warnings();
+  const auto about_method = told((*method)->warnings());
   figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
   const PathFinder finder(figures.model.mesh, *method);
   figures.setup_ms = watch.milliseconds();
@@ -135,9 +136,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
         finder.find(stops, task.options, part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
     if (!found) {
       // The points are on the mesh: that no way leads there is a failure of the work.
-      return about_model(
-          figures.model.name,
-          {found.error().code, task.points[shared + i].where + ": " + found.error().message});
+      return about_model(figures.model.name, about(task.points[shared + i].where, found.error()));
     }
     figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
     figures.paths.push_back({std::move(stops), std::move(found->path)});

@@ -9,6 +9,7 @@
 #include "app/picture_report.h"
 #include "app/process_clock.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "engine/overlay/overlay.h"
 #include "engine/scene/colour_map.h"
 #include "solver/core/stopwatch.h"
@@ -196,14 +197,14 @@ Result<void> WindowLoop::draw_frame(bool fast) {
 }
 
 Result<void> WindowLoop::after_failure(const Error& error) {
-  session_->say(LogLine::Kind::kError, error.message);
+  session_->say(LogLine::Kind::kError, told(error));
   const Clock::time_point now = Clock::now();
   const bool again = last_loss_ && now - *last_loss_ < kLossPause;
   last_loss_ = now;
   if (again || error.code != ErrorCode::kNoDevice) return error;
   if (auto opened = open_screen(); !opened) {
     return Error{opened.error().code,
-                 error.message + "; it did not come back: " + opened.error().message};
+                 told(error) + "; it did not come back: " + told(opened.error())};
   }
   session_->say(LogLine::Kind::kNote, "the device came back");
   clock_.something_happened();

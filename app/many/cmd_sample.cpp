@@ -11,6 +11,7 @@
 #include "app/outputs.h"
 #include "app/solve_steps.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
@@ -103,7 +104,7 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   if (auto pin = check_pin(task.options.constraint, *model.mesh); !pin) return pin.error();
   // What cannot be asked for is said before the set-up.
   if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
-    return Error{fits.error().code, one_line(model.name) + ": " + fits.error().message};
+    return about(one_line(model.name), fits.error());
   }
   auto method = build_method(model.mesh, task.options, part_of(progress, 0.0, kSetupShare));
   if (!method) return about_model(model.name, method.error());
@@ -131,8 +132,8 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
   };
   add_warnings(figures.model.notes);
-  add_warnings(figures.method->warnings());
-  add_warnings(figures.points.first.warnings);
+  add_warnings(told(figures.method->warnings()));
+  add_warnings(told(figures.points.first.warnings));
   const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
   add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
   note_unused_settings(arguments, task.options, figures.warnings);

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cure.h"
 #include "app/many/many_work.h"
 #include "app/outputs.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "solver/mesh/io/file_extension.h"
 
 namespace geotherm::app {
@@ -34,8 +34,8 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   return outputs.expect(arguments.json, "--json");
 }
 
-Error about_file(const Error& error, const std::string& path) {
-  return with_cure(error, path, "make room there, or choose another place");
+Error about_file(const Error& error) {
+  return with_hint(error, {"make room there, or choose another place"});
 }
 
 /// Of all rows.
@@ -95,14 +95,14 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
                            bytes_in_words(bytes);
   auto array = NpyRows::open(path, static_cast<std::uint64_t>(rows),
                              static_cast<std::uint64_t>(vertices), *type);
-  if (!array) return about_file(array.error(), path);
+  if (!array) return about_file(array.error());
   Sums sums;
   auto figures = solve_many(
       *work, arguments,
       [&](std::size_t, std::span<const double> distances) -> Result<void> {
         sums.add(distances);
         const auto written = array->append(distances);
-        return written ? written : about_file(written.error(), path);
+        return written ? written : about_file(written.error());
       },
       "a file of " + bytes_in_words(bytes), progress, announce);
   if (!figures) return figures.error();

@@ -10,6 +10,7 @@
 #include "app/solve_steps.h"
 #include "app/text.h"
 #include "app/text_table.h"
+#include "app/told.h"
 #include "solver/core/free_memory.h"
 #include "solver/core/keep_freed_memory.h"
 #include "solver/core/parallel.h"
@@ -36,7 +37,7 @@ Result<NpyType> number_type(const SolveArguments& arguments) {
     return arguments.float32 ? NpyType::kFloat32 : NpyType::kFloat64;
   }
   const auto type = parse_npy_type(arguments.dtype);
-  if (!type) return Error{type.error().code, "--dtype: " + type.error().message};
+  if (!type) return about("--dtype", type.error());
   if (arguments.float32 && *type != NpyType::kFloat32) {
     return Error{ErrorCode::kBadInput,
                  "--dtype " + arguments.dtype + " and --float32 disagree; leave one of them out"};
@@ -106,7 +107,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
     figures.replaced = std::move(checked->replaced);
     add_warnings(figures.warnings, checked->warnings);
   }
-  add_warnings(figures.warnings, figures.method->warnings());
+  add_warnings(figures.warnings, told(figures.method->warnings()));
   add_warnings(figures.warnings, work.sources.warnings);
 
   const std::size_t rows = work.sources.sets.size();
@@ -120,7 +121,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
       not_taken = taken.error();
       return taken;
     }
-    add_warnings(of_answers, answer.warnings);
+    add_warnings(of_answers, told(answer.warnings));
     answer.distances = {};
     if (row == 0) figures.first = std::move(answer);
     return {};

@@ -7,15 +7,12 @@
 #include "app/picture/picture_text.h"
 #include "app/picture/picture_values.h"
 #include "app/text.h"
+#include "app/told.h"
 
 namespace geotherm::app {
 namespace {
 
 constexpr int kMostFrames = 3600;
-
-Error wrong(std::string_view option, const Error& error) {
-  return {error.code, std::string(option) + ": " + error.message};
-}
 
 Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_maps,
                                std::string& chosen) {
@@ -77,7 +74,7 @@ Result<PictureSettings> picture_settings(const SettingArguments& settings,
     const auto frames =
         whole_between(a.turntable, 1, kMostFrames,
                       "is no number of pictures; give 1 to " + std::to_string(kMostFrames));
-    if (!frames) return wrong("--turntable", frames.error());
+    if (!frames) return about("--turntable", frames.error());
     picture.turntable = *frames;
   }
   if (auto fit = choose_fit(settings.has("fit"), picture, picture.camera); !fit) return fit.error();

@@ -6,6 +6,7 @@
 
 #include "app/progress_bar.h"
 #include "app/solve_steps.h"
+#include "app/told.h"
 #include "solver/heat/heat_method.h"
 #include "solver/method/distance_error.h"
 
@@ -35,7 +36,7 @@ class Sweeper {
     row.constraint = options.constraint.mode;
     auto made = build_method_near(model_.mesh, options, method_.get());
     if (!made) {
-      row.message = made.error().message;
+      row.message = told(made.error());
     } else {
       method_ = *std::move(made);
       row.t = method_->heat()->t();
@@ -49,7 +50,7 @@ class Sweeper {
   void measure(StudyRow& row) {
     const auto result = method_->solve(task_.sources, {.quality = false});
     if (!result) {
-      row.message = result.error().message;
+      row.message = told(result.error());
       return;
     }
     const DistanceError error = distance_error(result->distances, better_);

@@ -4,8 +4,11 @@
 #include <cassert>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
+
+#include "solver/core/hint.h"
 
 namespace geotherm {
 
@@ -21,11 +24,16 @@ enum class ErrorCode {
   kNoDevice,          ///< no device that can draw, or it was lost
 };
 
-/// An expected failure: a code for programs, one sentence with the numbers and the cure for people.
+/// An expected failure: a code for programs, what is wrong and what to do about it for people.
 struct Error {
   ErrorCode code = ErrorCode::kBadInput;
-  std::string message;
+  std::string message;  ///< one sentence: what is wrong, with the numbers
+  Hint hint = {};
+  std::string subject = {};  ///< of whom the message speaks, where others may: a backend
 };
+
+/// "SUBJECT: MESSAGE; HINT", as far as there are such; the hint as in hint_text().
+std::string sentence(const Error& error, std::string_view before_name = {});
 
 /// A value or an Error: the subset of std::expected (C++23) that this library uses.
 template <class T>

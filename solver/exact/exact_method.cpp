@@ -39,9 +39,10 @@ namespace {
 constexpr double kMiB = 1024.0 * 1024.0;
 
 Error out_of_memory(const char* stage, Index faces) {
-  return {ErrorCode::kOutOfMemory, "the memory ended in the " + std::string(stage) +
-                                       " of exact distances on " + std::to_string(faces) +
-                                       " faces; use the method wavefront-fine"};
+  return {ErrorCode::kOutOfMemory,
+          "the memory ended in the " + std::string(stage) + " of exact distances on " +
+              std::to_string(faces) + " faces",
+          {"use ", SettingHint{"method", {"wavefront-fine"}}}};
 }
 
 }  // namespace
@@ -96,8 +97,6 @@ Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const Sour
 
 const SetupTiming& ExactMethod::timing() const { return state_->timing; }
 double ExactMethod::memory_mb() const { return state_->mesh.bytes() / kMiB; }
-const std::vector<std::string>& ExactMethod::warnings() const {
-  return state_->surface->base.warnings;
-}
+const std::vector<Warning>& ExactMethod::warnings() const { return state_->surface->base.warnings; }
 
 }  // namespace geotherm

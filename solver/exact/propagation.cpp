@@ -92,12 +92,12 @@ Result<void> Propagation::check(const Progress& progress) {
   const double all = std::max(mesh_.vertices_in_use(), Index{1});
   if (!report(progress, "solve", static_cast<double>(reached_) / all)) return cancelled_error();
   if (bytes > most_bytes_) {
-    const char* cure = most_bytes_ < kMostBytes ? "take fewer threads, or the method wavefront-fine"
-                                                : "use the method wavefront-fine";
-    return Error{ErrorCode::kOutOfMemory, "exact distances on " + std::to_string(faces) +
-                                              " faces: " + std::to_string(bytes / sizeof(Window)) +
-                                              " windows are kept and fill " +
-                                              std::to_string(most_bytes_ >> 20) + " MB; " + cure};
+    return Error{ErrorCode::kOutOfMemory,
+                 "exact distances on " + std::to_string(faces) +
+                     " faces: " + std::to_string(bytes / sizeof(Window)) +
+                     " windows are kept and fill " + std::to_string(most_bytes_ >> 20) + " MB",
+                 {most_bytes_ < kMostBytes ? "take fewer threads, or " : "use ",
+                  SettingHint{"method", {"wavefront-fine"}}}};
   }
   const double done = static_cast<double>(work_) / static_cast<double>(kWindowWork);
   const double foreseen = done * all / std::max(reached_, Index{1}), most = most_windows(faces);
@@ -106,8 +106,8 @@ Result<void> Propagation::check(const Progress& progress) {
                  "exact distances on " + std::to_string(faces) + " faces: " + rounded_text(done) +
                      " windows have reached " + std::to_string(reached_) + " of " +
                      rounded_text(all) + " vertices, so that some " + rounded_text(foreseen) +
-                     " are foreseen where " + rounded_text(most) +
-                     " are worth the wait; use the method wavefront-fine"};
+                     " are foreseen where " + rounded_text(most) + " are worth the wait",
+                 {"use ", SettingHint{"method", {"wavefront-fine"}}}};
   }
   return {};
 }

@@ -50,13 +50,14 @@ CleanWeights clean_weights(std::array<double, 3> weights) {
 
 Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
   if (v < 0 || v >= surface.mesh->vertex_count()) {
-    return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
-                                           " does not exist; vertices are 0 to " +
-                                           std::to_string(surface.mesh->vertex_count() - 1)};
+    return Error{ErrorCode::kBadInput,
+                 "source vertex " + std::to_string(v) + " does not exist",
+                 {"vertices are 0 to " + std::to_string(surface.mesh->vertex_count() - 1)}};
   }
   if (!surface.on_surface[v]) {
-    return Error{ErrorCode::kBadInput, "source vertex " + std::to_string(v) +
-                                           " belongs to no face; choose one on the surface"};
+    return Error{ErrorCode::kBadInput,
+                 "source vertex " + std::to_string(v) + " belongs to no face",
+                 {"choose one on the surface"}};
   }
   return {};
 }
@@ -78,9 +79,9 @@ Index clean_face_of(const IntrinsicSurface& surface, Index f) {
 Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& point) {
   const Index count = surface.mesh->face_count();
   if (point.face < 0 || point.face >= count) {
-    return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
-                                           " does not exist; faces are 0 to " +
-                                           std::to_string(count - 1)};
+    return Error{ErrorCode::kBadInput,
+                 "source face " + std::to_string(point.face) + " does not exist",
+                 {"faces are 0 to " + std::to_string(count - 1)}};
   }
   double sum = 0;
   bool valid = true;
@@ -91,13 +92,16 @@ Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& 
   if (!valid || std::abs(sum - 1) > kWeightSum) {
     return Error{ErrorCode::kBadInput,
                  "the weights of the source in face " + std::to_string(point.face) + " sum to " +
-                     number_text(sum) + "; barycentric weights are not negative and sum to 1"};
+                     number_text(sum),
+                 {"barycentric weights are not negative and sum to 1"}};
   }
   if (clean_face_of(surface, point.face) == kNoIndex) {
     const int corner = clean_weights(point.weights).corner;
     if (corner >= 0) return check_vertex(surface, surface.mesh->faces()[point.face][corner]);
-    return Error{ErrorCode::kBadInput, "source face " + std::to_string(point.face) +
-                                           " repeats a corner and has no inside; choose another"};
+    return Error{
+        ErrorCode::kBadInput,
+        "source face " + std::to_string(point.face) + " repeats a corner and has no inside",
+        {"choose another"}};
   }
   return {};
 }
@@ -109,7 +113,8 @@ Result<void> check_edge(const IntrinsicSurface& surface, const std::array<Index,
   if (edge[0] == edge[1] || find_clean_edge(surface, edge[0], edge[1]) != kNoIndex) return {};
   return Error{ErrorCode::kBadInput,
                "the source curve goes from vertex " + std::to_string(edge[0]) + " to " +
-                   std::to_string(edge[1]) + ", which share no edge; name vertices along edges"};
+                   std::to_string(edge[1]) + ", which share no edge",
+               {"name vertices along edges"}};
 }
 
 Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sources) {
@@ -117,17 +122,17 @@ Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sou
   if (sources.offsets.size() != sources.points.size()) {
     return Error{ErrorCode::kBadInput,
                  counted_text(sources.offsets.size(), "offset is", "offsets are") + " given for " +
-                     counted_text(sources.points.size(), "source point", "source points") +
-                     "; give one a point, or none"};
+                     counted_text(sources.points.size(), "source point", "source points"),
+                 {"give one a point, or none"}};
   }
   for (std::size_t i = 0; i < sources.offsets.size(); ++i) {
     const double offset = sources.offsets[i];
     if (offset >= 0 && std::isfinite(offset / surface.mean_edge)) continue;
-    return Error{ErrorCode::kBadInput,
-                 "the offset of source point " + std::to_string(i) + " is " + number_text(offset) +
-                     "; offsets are lengths, not negative and not beyond all measure beside the "
-                     "mean edge of " +
-                     rounded_text(surface.mean_edge)};
+    return Error{
+        ErrorCode::kBadInput,
+        "the offset of source point " + std::to_string(i) + " is " + number_text(offset),
+        {"offsets are lengths, not negative and not beyond all measure beside the mean edge of " +
+         rounded_text(surface.mean_edge)}};
   }
   return {};
 }
@@ -156,7 +161,7 @@ SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& po
 
 Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sources) {
   if (sources.empty()) {
-    return Error{ErrorCode::kBadInput, "there is no source; name at least one"};
+    return Error{ErrorCode::kBadInput, "there is no source", {"name at least one"}};
   }
   for (const SurfacePoint& point : sources.points) {
     auto valid =

@@ -19,26 +19,28 @@ constexpr std::int64_t kGrain = 1 << 15;
 /// Vertices are inserted up to as many as there are, and so many more on small meshes.
 constexpr Index kFewInserted = 1000;
 
-void note_mollification(const IntrinsicMesh& intrinsic, std::vector<std::string>& warnings) {
+void note_mollification(const IntrinsicMesh& intrinsic, std::vector<Warning>& warnings) {
   const Mollification& mollified = intrinsic.mollified;
   if (mollified.most > 0) {
     warnings.push_back(
-        counted_text(static_cast<std::size_t>(mollified.faces), "face is", "faces are") +
-        " degenerate or nearly so: " +
-        counted_text(static_cast<std::size_t>(mollified.edges), "edge was", "edges were") +
-        " lengthened in " +
-        counted_text(static_cast<std::size_t>(mollified.components), "component", "components") +
-        ", by up to " + rounded_text(mollified.most) +
-        " mean edge lengths; distances across them may be too long by as much");
+        {counted_text(static_cast<std::size_t>(mollified.faces), "face is", "faces are") +
+         " degenerate or nearly so: " +
+         counted_text(static_cast<std::size_t>(mollified.edges), "edge was", "edges were") +
+         " lengthened in " +
+         counted_text(static_cast<std::size_t>(mollified.components), "component", "components") +
+         ", by up to " + rounded_text(mollified.most) +
+         " mean edge lengths; distances across them may be too long by as much"});
   }
 }
 
-void note_refinement(const RefinementCounts& refinement, std::vector<std::string>& warnings) {
+void note_refinement(const RefinementCounts& refinement, std::vector<Warning>& warnings) {
   if (refinement.complete) return;
   warnings.push_back(
-      counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
-      " inserted into the triangulation, which is the most for this mesh; where faces are still "
-      "large or the border obtuse, distances may be wrong: use --method wavefront");
+      {counted_text(static_cast<std::size_t>(refinement.points), "vertex was", "vertices were") +
+           " inserted into the triangulation, which is the most for this mesh; where faces are "
+           "still "
+           "large or the border obtuse, distances may be wrong",
+       {"use ", SettingHint{"method", {"wavefront"}}}});
 }
 
 /// A flag per clean face, empty where none is to be doubled.
@@ -61,16 +63,18 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
     for (const Vec3& p : mesh.positions()) most = std::max(most, p.cwiseAbs().maxCoeff());
     return Error{ErrorCode::kBadInput,
                  "the edges of the mesh are too long to be added up (coordinates go up to " +
-                     rounded_text(most) + "); scale the model down"};
+                     rounded_text(most) + ")",
+                 {"scale the model down"}};
   }
   if (clean.faces.empty() || !(mean_edge > 0)) {
-    return Error{
-        ErrorCode::kBadInput,
-        "the mesh has no face with area (" +
-            counted_text(static_cast<std::size_t>(mesh.face_count()), "face", "faces") + ", " +
-            counted_text(static_cast<std::size_t>(clean.repeated_corner), "repeats a corner",
-                         "repeat a corner") +
-            ", mean edge length " + rounded_text(mean_edge) + "); check how it was exported"};
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has no face with area (" +
+                     counted_text(static_cast<std::size_t>(mesh.face_count()), "face", "faces") +
+                     ", " +
+                     counted_text(static_cast<std::size_t>(clean.repeated_corner),
+                                  "repeats a corner", "repeat a corner") +
+                     ", mean edge length " + rounded_text(mean_edge) + ")",
+                 {"check how it was exported"}};
   }
   return {};
 }
@@ -121,16 +125,16 @@ void name_parts(const CleanFaces& clean, IntrinsicSurface& surface) {
 
 }  // namespace
 
-std::vector<std::string> cleaning_notes(const CleanFaces& clean) {
-  std::vector<std::string> notes;
+std::vector<Warning> cleaning_notes(const CleanFaces& clean) {
+  std::vector<Warning> notes;
   if (clean.repeated_corner > 0) {
-    notes.push_back(counted_text(static_cast<std::size_t>(clean.repeated_corner),
-                                 "face repeats a corner and was left out",
-                                 "faces repeat a corner and were left out"));
+    notes.push_back({counted_text(static_cast<std::size_t>(clean.repeated_corner),
+                                  "face repeats a corner and was left out",
+                                  "faces repeat a corner and were left out")});
   }
   if (clean.duplicate > 0) {
-    notes.push_back(counted_text(static_cast<std::size_t>(clean.duplicate),
-                                 "duplicate face was left out", "duplicate faces were left out"));
+    notes.push_back({counted_text(static_cast<std::size_t>(clean.duplicate),
+                                  "duplicate face was left out", "duplicate faces were left out")});
   }
   return notes;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "solver/core/progress.h"
@@ -55,7 +54,7 @@ struct IntrinsicSurface {
   double mean_edge = 0;           ///< of the mesh, model units; also the unit of `intrinsic`
   /// V and inserted vertices.
   Index vertex_count() const { return mesh->vertex_count() + refinement.points; }
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 
   struct Times {           ///< milliseconds
     double clean = 0;      ///< faces, edges, orientation
@@ -71,7 +70,7 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
                                                  const Progress& progress = {}, int threads = 1);
 
 /// What was left out, one sentence each.
-std::vector<std::string> cleaning_notes(const CleanFaces& clean);
+std::vector<Warning> cleaning_notes(const CleanFaces& clean);
 
 /// Sets clean_faces, clean_edges, clean_of_face, on_surface and corners (of clean_faces); sources
 /// are checked and placed with these, `mesh` and `mean_edge` alone. Precondition: `clean` is of

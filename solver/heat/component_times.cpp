@@ -33,10 +33,11 @@ Result<DiffusionTimes> diffusion_times(const Surface& surface, const TimeStep& s
     relative.push_back(t.back() / size.mean_edge / size.mean_edge);
     const auto usable = [](double each) { return each > 0 && std::isfinite(each); };
     if (usable(t.back()) && usable(relative.back())) continue;
-    return Error{ErrorCode::kBadInput, "the diffusion time is " + rounded_text(relative.back()) +
-                                           " squared mean edges, where an edge is " +
-                                           rounded_text(size.mean_edge * surface.mean_edge) +
-                                           " long; choose one near 1"};
+    return Error{ErrorCode::kBadInput,
+                 "the diffusion time is " + rounded_text(relative.back()) +
+                     " squared mean edges, where an edge is " +
+                     rounded_text(size.mean_edge * surface.mean_edge) + " long",
+                 {"choose one near 1"}};
   }
   const double edge = surface.mean_edge;
   DiffusionTimes out;

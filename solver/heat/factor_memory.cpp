@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "solver/core/free_memory.h"
 #include "solver/core/number_text.h"
@@ -23,11 +24,12 @@ std::string size_text(double bytes) {
 }
 
 Error too_large(std::string_view backend, double factors, double work, int count,
-                const std::string& there_is, const std::string& cure) {
+                const std::string& there_is, Hint hint) {
   return {ErrorCode::kOutOfMemory,
-          std::string(backend) + " needs about " + size_text(factors) + " for " +
+          "needs about " + size_text(factors) + " for " +
               counted_text(static_cast<std::size_t>(count), "factor", "factors") + " and " +
-              size_text(work) + " to make them, and " + there_is + "; " + cure};
+              size_text(work) + " to make them, and " + there_is,
+          std::move(hint), std::string(backend)};
 }
 
 bool uses_free_border(BoundaryRule rule) { return rule != BoundaryRule::kDirichlet; }
@@ -55,15 +57,20 @@ Result<void> check_factor_memory(const Analysis& analysis, std::string_view back
       static_cast<double>(analysis.work_bytes()) * std::min(plan.at_once, plan.missing);
   if (one == 0) return {};
   const bool halves = static_cast<double>(analysis.factor_bytes(FactorStorage::kSingle)) < one;
-  const std::string compact = halves ? "use --precision compact, " : "";
+  const auto hint = [halves](Hint first) {
+    if (halves) {
+      first.insert(first.end(), {"use ", SettingHint{"precision", {"compact"}}, ", "});
+    }
+    first.insert(first.end(), {"try ", SettingHint{"backend", {"cg"}},
+                               ", which holds no factor, or take a mesh with fewer faces"});
+    return first;
+  };
   if (limit_mb > 0) {
     const double all = one * plan.factors;
     if (all + work <= limit_mb * kMegabyte) return {};
     return too_large(backend, all, work, plan.factors,
                      "the limit is " + size_text(limit_mb * kMegabyte),
-                     "raise --memory-limit, " + compact +
-                         "try --backend cg, which holds no factor, "
-                         "or take a mesh with fewer faces");
+                     hint({"raise ", SettingHint{"memory-limit"}, ", "}));
   }
   const double missing = one * plan.missing;
   if (missing + work <= kUnasked) return {};
@@ -71,9 +78,7 @@ Result<void> check_factor_memory(const Analysis& analysis, std::string_view back
   if (!free || missing + work <= static_cast<double>(*free)) return {};
   return too_large(backend, missing, work, plan.missing,
                    size_text(static_cast<double>(*free)) + " are free",
-                   "close other programs, " + compact +
-                       "try --backend cg, which holds no factor, "
-                       "or take a mesh with fewer faces");
+                   hint({"close other programs, "}));
 }
 
 }  // namespace geotherm

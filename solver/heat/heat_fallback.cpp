@@ -114,7 +114,7 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
   for (DistanceResult& result : *results) {
     result.backend = backend;
     result.fallbacks = failed;
-    if (!failed.empty()) result.warnings.push_back(takeover_text(failed, backend));
+    if (!failed.empty()) result.warnings.push_back({takeover_text(failed, backend)});
   }
   return results;
 } catch (const std::bad_alloc&) {

@@ -39,32 +39,34 @@ Result<void> check_options(const HeatOptions& options) {
   const bool absolute = step.rule == TimeRule::kAbsolute;
   const double value = absolute ? step.absolute : step.factor;
   if (!(value > 0) || !std::isfinite(value)) {
-    return Error{ErrorCode::kBadInput, std::string(absolute ? "the time step" : "the time factor") +
-                                           " is " + rounded_text(value) +
-                                           "; it must be a positive number"};
+    return Error{
+        ErrorCode::kBadInput,
+        std::string(absolute ? "the time step" : "the time factor") + " is " + rounded_text(value),
+        {"it must be a positive number"}};
   }
   if (options.constraint.mode == ConstraintMode::kPenalty &&
       !(options.constraint.penalty > 0 && std::isfinite(options.constraint.penalty))) {
-    return Error{ErrorCode::kBadInput, "the penalty is " +
-                                           rounded_text(options.constraint.penalty) +
-                                           "; it must be a positive number"};
+    return Error{ErrorCode::kBadInput,
+                 "the penalty is " + rounded_text(options.constraint.penalty),
+                 {"it must be a positive number"}};
   }
   const double limit = options.memory_limit_mb;
   if (!(limit >= 0) || !std::isfinite(limit)) {
-    return Error{ErrorCode::kBadInput, "the memory limit is " + rounded_text(limit) +
-                                           " MB; it must be a positive number, or 0 for what is "
-                                           "free"};
+    return Error{ErrorCode::kBadInput,
+                 "the memory limit is " + rounded_text(limit) + " MB",
+                 {"it must be a positive number, or 0 for what is free"}};
   }
   return {};
 }
 
 Error out_of_memory_error(const std::string& stage, Index faces, const std::string& backend) {
   return {ErrorCode::kOutOfMemory,
-          backend + " ran out of memory in the " + stage + " for " +
-              counted_text(static_cast<std::size_t>(faces), "face", "faces") +
-              (backend == "cg" ? "; take a mesh with fewer faces"
-                               : "; try --backend cg, which needs less, "
-                                 "or a mesh with fewer faces")};
+          "ran out of memory in the " + stage + " for " +
+              counted_text(static_cast<std::size_t>(faces), "face", "faces"),
+          backend == "cg" ? Hint{"take a mesh with fewer faces"}
+                          : Hint{"try ", SettingHint{"backend", {"cg"}},
+                                 ", which needs less, or a mesh with fewer faces"},
+          backend};
 }
 
 /// Everything with one backend, `options.backend`.
@@ -165,19 +167,21 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
     if (options.memory_limit_mb > 0 && held > options.memory_limit_mb) {
       return {
           Error{ErrorCode::kOutOfMemory,
-                options.backend + " needs " + rounded_text(held) +
+                "needs " + rounded_text(held) +
                     " MB for factors in doubles, "
                     "since numbers of the matrix differ by too many orders for narrow ones, and "
                     "the limit is " +
-                    rounded_text(options.memory_limit_mb) +
-                    " MB; raise --memory-limit or try --backend cg, which holds no factor"},
+                    rounded_text(options.memory_limit_mb) + " MB",
+                {"raise ", SettingHint{"memory-limit"}, " or try ", SettingHint{"backend", {"cg"}},
+                 ", which holds no factor"},
+                options.backend},
           Successor::kAny};
     }
-    next->warnings.push_back("the factors are kept in doubles (" + rounded_text(held) +
-                             " MB, foreseen " + rounded_text(foreseen) +
-                             " MB): numbers of the matrix differ by too many orders");
+    next->warnings.push_back({"the factors are kept in doubles (" + rounded_text(held) +
+                              " MB, foreseen " + rounded_text(foreseen) +
+                              " MB): numbers of the matrix differ by too many orders"});
   }
-  if (!failed.empty()) next->warnings.push_back(takeover_text(failed, options.backend));
+  if (!failed.empty()) next->warnings.push_back({takeover_text(failed, options.backend)});
   next->timing.factorize = next->timing.setup = watch.milliseconds();
   if (!report(progress, "factorize", 1.0)) return {cancelled_error()};
   return {HeatMethod(std::move(next))};
@@ -229,6 +233,6 @@ double HeatMethod::forecast_mb() const {
                              analysis.factor_bytes(poisson_storage(precision));
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
 }
-const std::vector<std::string>& HeatMethod::warnings() const { return state_->warnings; }
+const std::vector<Warning>& HeatMethod::warnings() const { return state_->warnings; }
 
 }  // namespace geotherm

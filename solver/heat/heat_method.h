@@ -77,7 +77,7 @@ class HeatMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
   double memory_mb() const override;           ///< of all factors
   double forecast_mb() const;                  ///< the same, as it was foreseen
-  const std::vector<std::string>& warnings() const override;
+  const std::vector<Warning>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
 
   /// The triangulation of the operators, where it is Delaunay and no cover, inserted vertices

@@ -34,7 +34,7 @@ struct HeatMethod::State {
   std::shared_ptr<Substitutes> substitutes = std::make_shared<Substitutes>();
   DiffusionTimes times;
   SetupTiming timing;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::vector<Fallback> failed;  ///< before the backend at work
 
   /// The backend that was asked for.

@@ -200,9 +200,9 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     scale_rows(mesh.components, factors, answer.field.u);
   }
   if (dirichlet && on_border(anchors.front())) {
-    answer.warnings.emplace_back(
+    answer.warnings.emplace_back().message =
         "sources on the border are left free under the Dirichlet rule; the rest of the border is "
-        "held at 0");
+        "held at 0";
   }
   return answer;
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "solver/core/hint.h"
 #include "solver/heat/block_pool.h"
 #include "solver/heat/diffuse.h"
 #include "solver/heat/source_anchors.h"
@@ -22,7 +22,7 @@ class HeatStep {
     HeatField field;
     std::vector<double> residual;  ///< |M u - b| / |b| of each column; empty unless asked for
     double residual_ms = 0;        ///< what that took: no part of the query
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
   };
 
   /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it

@@ -27,10 +27,13 @@ constexpr double kWrongSlope = 0.4;
 /// Above this share of all faces they are.
 constexpr double kBorderShare = 0.1;
 
-/// The option that t follows from.
-std::string time_option(TimeRule rule) {
-  return rule == TimeRule::kAbsolute ? "--time-step absolute:T" : "--time-factor";
+/// `words`, and the setting that t follows from.
+Hint time_hint(const std::string& words, TimeRule rule) {
+  if (rule == TimeRule::kAbsolute) return {words, SettingHint{"time-step"}, " absolute:T"};
+  return {words, SettingHint{"time-factor"}};
 }
+
+Hint other_border() { return {"use ", SettingHint{"boundary", {"neumann", "average"}}}; }
 
 std::string share(Index count, std::size_t of) {
   return "(" + rounded_text(100.0 * count / static_cast<double>(std::max<std::size_t>(of, 1))) +
@@ -43,13 +46,12 @@ void add_lost_faces(const HeatOptions& options, const FaceCounts& faces, Distanc
   const Index lost = mostly_border ? faces.without_direction : result.quality.zero_gradient_faces;
   if (lost == 0) return;
   result.warnings.push_back(
-      "the heat has no direction on " + std::to_string(lost) + " of " +
-      std::to_string(faces.in_reach) + " faces " +
-      share(lost, static_cast<std::size_t>(faces.in_reach)) +
-      (dirichlet ? std::string(
-                       ": the border, held at 0, cuts them off; use --boundary neumann or average")
-                 : ", distances there follow their surroundings; raise " +
-                       time_option(options.time_step.rule)));
+      {"the heat has no direction on " + std::to_string(lost) + " of " +
+           std::to_string(faces.in_reach) + " faces " +
+           share(lost, static_cast<std::size_t>(faces.in_reach)) +
+           (dirichlet ? ": the border, held at 0, cuts them off"
+                      : ", distances there follow their surroundings"),
+       dirichlet ? other_border() : time_hint("raise ", options.time_step.rule)});
 }
 
 void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
@@ -57,20 +59,20 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
   if (clamped == 0) return;
   const auto reached =
       std::ranges::count_if(result.distances, [](double d) { return d < kUnreached; });
-  std::string text = counted_text(static_cast<std::size_t>(clamped), "vertex ", "vertices ") +
-                     share(clamped, static_cast<std::size_t>(reached)) +
-                     " had a distance below 0, which was set to 0";
+  Warning warning{counted_text(static_cast<std::size_t>(clamped), "vertex ", "vertices ") +
+                  share(clamped, static_cast<std::size_t>(reached)) +
+                  " had a distance below 0, which was set to 0"};
   if (options.boundary == BoundaryRule::kDirichlet) {
-    text += "; use --boundary neumann or average";
+    warning.hint = other_border();
   } else if (options.constraint.mode != ConstraintMode::kPinSources) {
-    text += "; --constraint pin-sources holds every source at 0";
+    warning.hint = {SettingHint{"constraint", {"pin-sources"}}, " holds every source at 0"};
   } else {
-    text +=
+    warning.message +=
         ": the heat carries no information there, and distances around them are too short, up to " +
-        rounded_text(result.quality.clamped_reach) +
-        " from the sources in a straight line; use --method wavefront";
+        rounded_text(result.quality.clamped_reach) + " from the sources in a straight line";
+    warning.hint = {"use ", SettingHint{"method", {"wavefront"}}};
   }
-  result.warnings.push_back(std::move(text));
+  result.warnings.push_back(std::move(warning));
 }
 
 }  // namespace
@@ -81,8 +83,11 @@ Error with_time_cure(Error error, double unit_t, TimeRule rule) {
   const bool numerical =
       error.code == ErrorCode::kNumericalFailure || error.code == ErrorCode::kBudgetEnded;
   if (!numerical || !is_extreme_time(unit_t)) return error;
-  error.message += "; t is " + rounded_text(unit_t) + " squared mean edges, so try a " +
-                   (unit_t > 1 ? "smaller " : "larger ") + time_option(rule) + " first";
+  const std::string words = "t is " + rounded_text(unit_t) + " squared mean edges, so try a " +
+                            (unit_t > 1 ? "smaller " : "larger ");
+  const Hint time = time_hint((error.hint.empty() ? "" : "; ") + words, rule);
+  error.hint.insert(error.hint.end(), time.begin(), time.end());
+  error.hint.emplace_back(" first");
   return error;
 }
 
@@ -102,20 +107,20 @@ Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& 
                              " only";
     const bool by_design = !heat && options.constraint.mode == ConstraintMode::kPenalty;
     if (!std::isfinite(residual) || (residual > kUselessResidual && !by_design)) {
-      const char* others = "; try another --backend or --laplacian intrinsic-delaunay";
-      return with_time_cure(
-          {ErrorCode::kNumericalFailure,
-           text + ", which is no solution" + (is_extreme_time(unit_t) ? "" : others)},
-          unit_t, options.time_step.rule);
+      const Hint others = {"try another backend or ",
+                           SettingHint{"laplacian", {"intrinsic-delaunay"}}};
+      return with_time_cure({ErrorCode::kNumericalFailure, text + ", which is no solution",
+                             is_extreme_time(unit_t) ? Hint() : others},
+                            unit_t, options.time_step.rule);
     }
-    result.warnings.push_back(text);
+    result.warnings.push_back({text});
   }
   if (q.eikonal_error_mean > kWrongSlope) {
     result.warnings.push_back(
-        "the slope of the distance is off by " + rounded_text(q.eikonal_error_mean) +
-        " on average, where 1 is right" + " (t is " + rounded_text(unit_t) +
-        " squared mean edges); " +
-        (unit_t > 1 ? "use a smaller " + time_option(options.time_step.rule) : "refine the mesh"));
+        {"the slope of the distance is off by " + rounded_text(q.eikonal_error_mean) +
+             " on average, where 1 is right (t is " + rounded_text(unit_t) + " squared mean edges)",
+         unit_t > 1 ? time_hint("use a smaller ", options.time_step.rule)
+                    : Hint{"refine the mesh"}});
   }
   return {};
 }

@@ -220,8 +220,8 @@ Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
   scatter.run(threads);
   if (const Index v = scatter.first_not_finite(); v != kNoIndex) {
     return Error{ErrorCode::kNumericalFailure,
-                 "the distance of vertex " + std::to_string(v) +
-                     " is not finite; try another backend or --laplacian intrinsic-delaunay"};
+                 "the distance of vertex " + std::to_string(v) + " is not finite",
+                 {"try another backend or ", SettingHint{"laplacian", {"intrinsic-delaunay"}}}};
   }
   const double unit = surface.intrinsic.unit;
   for (std::size_t c = 0; c < results.size(); ++c) {

@@ -57,7 +57,8 @@ Result<Enum> value_of(const Names<Enum, N>& names, std::string_view what, std::s
     known += (known.empty() ? "" : ", ") + std::string(name);
   }
   return Error{ErrorCode::kBadInput,
-               "'" + std::string(text) + "' is no " + std::string(what) + "; there are " + known};
+               "'" + std::string(text) + "' is no " + std::string(what),
+               {"there are " + known}};
 }
 
 template <class Number>
@@ -109,16 +110,17 @@ Result<TimeStep> parse_time_step(std::string_view text, double factor) {
   if (!rule) return rule.error();
   TimeStep step{*rule, factor, 0.0};
   if ((*rule == TimeRule::kAbsolute) != has_value) {
-    return Error{ErrorCode::kBadInput, "'" + std::string(text) +
-                                           "' is no time step; write mean-edge, mean-face-area or "
-                                           "absolute:T, with T in model units squared"};
+    return Error{ErrorCode::kBadInput,
+                 "'" + std::string(text) + "' is no time step",
+                 {"write mean-edge, mean-face-area or absolute:T, with T in model units squared"}};
   }
   if (!has_value) return step;
   const auto value = number<double>("the time step", tail);
   if (!value) return value.error();
   if (!(*value > 0) || !std::isfinite(*value)) {
     return Error{ErrorCode::kBadInput,
-                 "the time step is " + std::string(tail) + "; it must be a positive number"};
+                 "the time step is " + std::string(tail),
+                 {"it must be a positive number"}};
   }
   step.absolute = *value;
   return step;
@@ -137,7 +139,8 @@ Result<Constraint> parse_constraint(std::string_view text) {
     if (!value) return value.error();
     if (!(*value > 0) || !std::isfinite(*value)) {
       return Error{ErrorCode::kBadInput,
-                   "the penalty is " + std::string(tail) + "; it must be a positive number"};
+                   "the penalty is " + std::string(tail),
+                   {"it must be a positive number"}};
     }
     constraint.penalty = *value;
     return constraint;
@@ -147,14 +150,15 @@ Result<Constraint> parse_constraint(std::string_view text) {
     if (!vertex) return vertex.error();
     if (*vertex < 0) {
       return Error{ErrorCode::kBadInput,
-                   "the pinned vertex is " + std::string(tail) + "; vertices are numbered from 0"};
+                   "the pinned vertex is " + std::string(tail),
+                   {"vertices are numbered from 0"}};
     }
     constraint.pin_vertex = *vertex;
     return constraint;
   }
   return Error{ErrorCode::kBadInput,
-               "the constraint mode " + std::string(name) +
-                   " takes no value; write it without ':" + std::string(tail) + "'"};
+               "the constraint mode " + std::string(name) + " takes no value",
+               {"write it without ':" + std::string(tail) + "'"}};
 }
 
 Result<HeatMode> parse_heat_mode(std::string_view text) {

@@ -253,8 +253,9 @@ Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sou
   if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
   for (const double offset : sources.offsets) {
     if (!(offset > 0)) continue;
-    return Error{ErrorCode::kBadInput, "the heat method takes no offsets, and one is " +
-                                           rounded_text(offset) + "; use --method wavefront"};
+    return Error{ErrorCode::kBadInput,
+                 "the heat method takes no offsets, and one is " + rounded_text(offset),
+                 {"use ", SettingHint{"method", {"wavefront"}}}};
   }
   Placer placer(surface);
   for (const SurfacePoint& point : sources.points) placer.add(point);

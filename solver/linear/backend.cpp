@@ -25,9 +25,11 @@ Result<Eigen::MatrixXd> Factorization::inverse_entries(std::span<const Index> ro
 
 Result<void> check_pattern(const SymmetricOperator& matrix, std::uint64_t analysed, Index size) {
   if (matrix.pattern() == analysed) return {};
-  return Error{ErrorCode::kBadInput, "the matrix of size " + std::to_string(matrix.size()) +
-                                         " does not have the pattern that was analysed (size " +
-                                         std::to_string(size) + "); analyse its own pattern first"};
+  return Error{ErrorCode::kBadInput,
+               "the matrix of size " + std::to_string(matrix.size()) +
+                   " does not have the pattern that was analysed (size " + std::to_string(size) +
+                   ")",
+               {"analyse its own pattern first"}};
 }
 
 }  // namespace geotherm

@@ -61,7 +61,8 @@ Result<const Backend*> find_backend(std::string_view name) {
     known += (known.empty() ? "" : ", ") + std::string(backend->name());
   }
   return Error{ErrorCode::kNotAvailable,
-               "there is no backend '" + std::string(name) + "' in this build; there are " + known};
+               "there is no backend '" + std::string(name) + "' in this build",
+               {"there are " + known}};
 }
 
 AddedBackend::AddedBackend(std::unique_ptr<const Backend> backend) : backend_(std::move(backend)) {

@@ -10,6 +10,8 @@
 namespace geotherm {
 namespace {
 
+constexpr const char* kName = "cg";
+
 /// Relative residual, in the norm of the diagonal preconditioner, at which a column is solved.
 constexpr double kTolerance = 1e-13;
 /// Iterations allowed: conjugate gradients need about the square root of the condition number,
@@ -91,20 +93,22 @@ class ConjugateGradient final : public Factorization {
         return cancelled_error();
       }
       if (report.iterations == budget) {
-        return Error{ErrorCode::kBudgetEnded, "cg: the budget of " + std::to_string(budget) +
-                                                  " iterations ended at a relative residual of " +
-                                                  rounded_text(std::sqrt(rho / start)) +
-                                                  "; try --backend cholmod or eigen-ldlt"};
+        return Error{ErrorCode::kBudgetEnded,
+                     "the budget of " + std::to_string(budget) +
+                         " iterations ended at a relative residual of " +
+                         rounded_text(std::sqrt(rho / start)),
+                     {"try ", SettingHint{"backend", {"cholmod", "eigen-ldlt"}}},
+                     kName};
       }
       ++report.iterations;
       matrix_->apply(p, q);
       const double curvature = std::inner_product(p.begin(), p.end(), q.begin(), 0.0);
       if (!(curvature > 0)) {
         return Error{ErrorCode::kNumericalFailure,
-                     "cg: the matrix is not positive definite (curvature " +
-                         rounded_text(curvature) + " in iteration " +
-                         std::to_string(report.iterations) +
-                         "); try --laplacian intrinsic-delaunay"};
+                     "the matrix is not positive definite (curvature " + rounded_text(curvature) +
+                         " in iteration " + std::to_string(report.iterations) + ")",
+                     {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
+                     kName};
       }
       const double step = rho / curvature;
       for (std::size_t i = 0; i < n; ++i) {
@@ -146,9 +150,11 @@ class CgAnalysis final : public Analysis {
         std::find_if(diagonal.begin(), diagonal.end(), [](double d) { return !(d > 0); });
     if (bad != diagonal.end()) {
       return Error{ErrorCode::kNumericalFailure,
-                   "cg: the matrix is not positive definite (diagonal " + rounded_text(*bad) +
+                   "the matrix is not positive definite (diagonal " + rounded_text(*bad) +
                        " in column " + std::to_string(bad - diagonal.begin()) + " of " +
-                       std::to_string(diagonal.size()) + "); try --laplacian intrinsic-delaunay"};
+                       std::to_string(diagonal.size()) + ")",
+                   {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
+                   kName};
     }
     return std::unique_ptr<Factorization>(std::make_unique<ConjugateGradient>(std::move(matrix)));
   }
@@ -160,7 +166,7 @@ class CgAnalysis final : public Analysis {
 
 class CgBackend final : public Backend {
  public:
-  std::string_view name() const override { return "cg"; }
+  std::string_view name() const override { return kName; }
   std::string_view description() const override {
     return "conjugate gradients, matrix-free: least memory, slow queries, for comparison";
   }

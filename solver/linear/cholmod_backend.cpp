@@ -17,6 +17,8 @@
 namespace geotherm {
 namespace {
 
+constexpr const char* kName = "cholmod";
+
 /// CHOLMOD goes supernodal from this many floating-point operations per entry of the factor.
 /// Measured (docs/performance.md): below, the panels are too small to pay for the dense kernels.
 constexpr double kSupernodalSwitch = 40;
@@ -104,16 +106,19 @@ ColumnFactorData column_data(const cholmod_factor& factor) {
 }
 
 Error out_of_memory(const char* stage, Index size) {
-  return {ErrorCode::kOutOfMemory, std::string("cholmod ran out of memory in the ") + stage +
-                                       " of a matrix of size " + std::to_string(size) +
-                                       "; try --backend cg, which needs no factor"};
+  return {ErrorCode::kOutOfMemory,
+          std::string("ran out of memory in the ") + stage + " of a matrix of size " +
+              std::to_string(size),
+          {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
+          kName};
 }
 
 Error not_definite(std::size_t column, std::size_t size, int status) {
   return {ErrorCode::kNumericalFailure,
-          "cholmod: the matrix is not positive definite (pivot of column " +
-              std::to_string(column) + " of " + std::to_string(size) + ", status " +
-              std::to_string(status) + "); try --laplacian intrinsic-delaunay or another backend"};
+          "the matrix is not positive definite (pivot of column " + std::to_string(column) +
+              " of " + std::to_string(size) + ", status " + std::to_string(status) + ")",
+          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
+          kName};
 }
 
 template <class Int>
@@ -247,7 +252,7 @@ Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
 
 class CholmodBackend final : public Backend {
  public:
-  std::string_view name() const override { return "cholmod"; }
+  std::string_view name() const override { return kName; }
   std::string_view description() const override {
     return "sparse Cholesky of SuiteSparse, supernodal on large meshes";
   }

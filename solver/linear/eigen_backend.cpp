@@ -16,6 +16,8 @@
 namespace geotherm {
 namespace {
 
+constexpr const char* kName = "eigen-ldlt";
+
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
@@ -46,10 +48,11 @@ class EigenAnalysis final : public Analysis {
       return same.error();
     }
     if (constexpr std::int64_t kMost = std::numeric_limits<int>::max(); entries_ > kMost) {
-      return Error{ErrorCode::kOutOfMemory, "eigen-ldlt needs a factor of " +
-                                                std::to_string(entries_) + " entries, at most " +
-                                                std::to_string(kMost) +
-                                                " can be counted; try --backend cg"};
+      return Error{ErrorCode::kOutOfMemory,
+                   "needs a factor of " + std::to_string(entries_) + " entries, at most " +
+                       std::to_string(kMost) + " can be counted",
+                   {"try ", SettingHint{"backend", {"cg"}}},
+                   kName};
     }
     const LowerMatrix& lower = matrix->assembled();
     const std::vector<int> start(lower.start.begin(), lower.start.end());
@@ -60,18 +63,20 @@ class EigenAnalysis final : public Analysis {
     try {
       ldlt.compute(view);
     } catch (const std::bad_alloc&) {
-      return Error{ErrorCode::kOutOfMemory, "eigen-ldlt ran out of memory on a matrix of size " +
-                                                std::to_string(matrix->size()) +
-                                                "; try --backend cg"};
+      return Error{ErrorCode::kOutOfMemory,
+                   "ran out of memory on a matrix of size " + std::to_string(matrix->size()),
+                   {"try ", SettingHint{"backend", {"cg"}}},
+                   kName};
     }
     const auto pivots = ldlt.vectorD();
     for (Index j = 0; j < lower.size(); ++j) {
       if (ldlt.info() == Eigen::Success && pivots[j] > 0) continue;
-      return Error{ErrorCode::kNumericalFailure,
-                   "eigen-ldlt: the matrix is not positive definite (pivot " +
-                       rounded_text(pivots[j]) + " in column " + std::to_string(j) + " of " +
-                       std::to_string(lower.size()) +
-                       "); try --laplacian intrinsic-delaunay or another backend"};
+      return Error{
+          ErrorCode::kNumericalFailure,
+          "the matrix is not positive definite (pivot " + rounded_text(pivots[j]) + " in column " +
+              std::to_string(j) + " of " + std::to_string(lower.size()) + ")",
+          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
+          kName};
     }
     const Matrix& factor = ldlt.matrixL().nestedExpression();
     ColumnFactorData data;
@@ -94,7 +99,7 @@ class EigenAnalysis final : public Analysis {
 
 class EigenBackend final : public Backend {
  public:
-  std::string_view name() const override { return "eigen-ldlt"; }
+  std::string_view name() const override { return kName; }
   std::string_view description() const override { return "sparse LDL^T of Eigen, simplicial"; }
 
   Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,

@@ -8,8 +8,6 @@
 namespace geotherm {
 namespace {
 
-constexpr std::string_view kCureAfter = "; ";  // between what is wrong and what to do
-
 bool may_follow(const Backend& backend, Successor successor) {
   switch (successor) {
     case Successor::kNone:
@@ -39,19 +37,8 @@ Successor successor_of(const Error& error) {
   }
 }
 
-std::string without_backend(std::string_view message, std::string_view backend) {
-  if (!backend.empty() && message.starts_with(backend)) {
-    const std::string_view rest = message.substr(backend.size());
-    if (rest.starts_with(": ")) return std::string(rest.substr(2));
-    if (rest.starts_with(' ')) return std::string(rest.substr(1));
-  }
-  return std::string(message);
-}
-
 Fallback failure_of(std::string backend, Error error) {
-  const std::string_view message = error.message;
-  std::string reason = without_backend(message.substr(0, message.find(kCureAfter)), backend);
-  return {std::move(backend), std::move(reason), std::move(error)};
+  return {std::move(backend), error.message, std::move(error)};
 }
 
 std::string next_backend(std::span<const Fallback> failed, Successor successor) {
@@ -72,12 +59,10 @@ std::string takeover_text(std::span<const Fallback> failed, std::string_view by)
 Error joint_error(std::span<const Fallback> failed) {
   const Error& last = failed.back().error;
   if (failed.size() == 1) return last;
-  Error error{last.code, {}};
+  Error error{last.code, {}, last.hint};
   for (const Fallback& each : failed) {
     error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.reason;
   }
-  const std::size_t cure = last.message.find(kCureAfter);
-  if (cure != std::string::npos) error.message += last.message.substr(cure);
   return error;
 }
 

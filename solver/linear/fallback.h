@@ -14,7 +14,7 @@ namespace geotherm {
 /// A backend that could not do the work that was asked of it.
 struct Fallback {
   std::string backend;
-  std::string reason;  ///< the error without the backend's name and without the cure
+  std::string reason;  ///< the error's message
   Error error;         ///< as it came
 };
 
@@ -36,9 +36,6 @@ struct Trial {
   Successor successor = Successor::kNone;
 };
 
-/// The sentence without the backend's name in front of it, for where that is told already.
-std::string without_backend(std::string_view message, std::string_view backend);
-
 /// A failure as it is told.
 Fallback failure_of(std::string backend, Error error);
 
@@ -48,7 +45,7 @@ std::string next_backend(std::span<const Fallback> failed, Successor successor);
 /// "A failed: REASON; B took over". Precondition: `failed` is not empty.
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by);
 
-/// What all of them say, with the code and the cure of the last. Precondition: not empty.
+/// What all of them say, with the code and the hint of the last. Precondition: not empty.
 Error joint_error(std::span<const Fallback> failed);
 
 /// Tries `backend`, and where it fails the others in the order of backend_names(), as far as they

@@ -12,6 +12,8 @@
 namespace geotherm {
 namespace {
 
+constexpr const char* kName = "native";
+
 class NativeFactor final : public TriangularFactor {
  public:
   NativeFactor(std::shared_ptr<const FrontTree> tree, FrontFactor factor)
@@ -60,9 +62,10 @@ class NativeFactor final : public TriangularFactor {
 };
 
 Error out_of_memory(const std::string& what, Index size) {
-  return {ErrorCode::kOutOfMemory, "native " + what + " for a matrix of size " +
-                                       std::to_string(size) +
-                                       "; try --backend cg, which needs no factor"};
+  return {ErrorCode::kOutOfMemory,
+          what + " for a matrix of size " + std::to_string(size),
+          {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
+          kName};
 }
 
 class NativeAnalysis final : public Analysis {
@@ -103,14 +106,17 @@ class NativeAnalysis final : public Analysis {
     }
     if (failure.narrow) {
       return Error{ErrorCode::kNumericalFailure,
-                   "native: numbers of the factor are beyond what a double holds; scale the model, "
-                   "or try another backend"};
+                   "numbers of the factor are beyond what a double holds",
+                   {"scale the model, or try another backend"},
+                   kName};
     }
     if (failure.failed()) {
-      return Error{ErrorCode::kNumericalFailure,
-                   "native: the matrix is not positive definite (pivot of column " +
-                       std::to_string(failure.column) + " of " + std::to_string(matrix->size()) +
-                       "); try --laplacian intrinsic-delaunay or another backend"};
+      return Error{
+          ErrorCode::kNumericalFailure,
+          "the matrix is not positive definite (pivot of column " + std::to_string(failure.column) +
+              " of " + std::to_string(matrix->size()) + ")",
+          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
+          kName};
     }
     return make_direct_factorization(std::make_unique<NativeFactor>(tree_, std::move(factor)));
   } catch (const std::bad_alloc&) {
@@ -137,7 +143,7 @@ class NativeAnalysis final : public Analysis {
 
 class NativeBackend final : public Backend {
  public:
-  std::string_view name() const override { return "native"; }
+  std::string_view name() const override { return kName; }
   std::string_view description() const override {
     return "multifrontal Cholesky made for meshes: nested dissection, narrow factors, all threads";
   }

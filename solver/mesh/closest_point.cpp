@@ -84,9 +84,9 @@ Result<ClosestPoint> closest_point(const TriangleMesh& mesh, const Vec3& query) 
     best_face = f;
   }
   if (best_face == kNoIndex) {
-    return Error{ErrorCode::kBadInput, "none of the " + std::to_string(mesh.face_count()) +
-                                           " faces can hold a point; each repeats a corner or is "
-                                           "infinitely far"};
+    return Error{ErrorCode::kBadInput,
+                 "none of the " + std::to_string(mesh.face_count()) +
+                     " faces can hold a point; each repeats a corner or is infinitely far"};
   }
   for (int k = 0; k < 3; ++k) {
     if (best.weights[k] != 1.0) continue;

@@ -43,9 +43,9 @@ Result<NpyType> parse_npy_type(std::string_view text) {
   for (const NpyType type : {NpyType::kFloat64, NpyType::kFloat32}) {
     if (to_text(type) == text) return type;
   }
-  return Error{ErrorCode::kNotAvailable, "there is no type of numbers '" +
-                                             io::printable(std::string(text)) +
-                                             "'; there are float64, float32"};
+  return Error{ErrorCode::kNotAvailable,
+               "there is no type of numbers '" + io::printable(std::string(text)) + "'",
+               {"there are float64, float32"}};
 }
 
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
@@ -71,10 +71,10 @@ Result<void> NpyRows::append(std::span<const double> row) {
     for (const double value : row) io::append_little(bytes_, value);
   } else {
     if (!fits_float(row)) {
-      return Error{ErrorCode::kBadInput,
-                   io::printable(path_) +
-                       ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38); write "
-                       "float64"};
+      return Error{
+          ErrorCode::kBadInput,
+          io::printable(path_) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
+          {"write float64"}};
     }
     for (const double value : row) io::append_little(bytes_, static_cast<float>(value));
   }

@@ -228,9 +228,9 @@ Result<RayTree> RayTree::build(std::shared_ptr<const TriangleMesh> mesh, const P
     if (!report(progress, "ray tree", 1.0)) return cancelled_error();
     return RayTree(std::move(state));
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory, "the memory ended in the ray tree of " +
-                                              std::to_string(face_count) +
-                                              " faces; take a mesh with fewer faces"};
+    return Error{ErrorCode::kOutOfMemory,
+                 "the memory ended in the ray tree of " + std::to_string(face_count) + " faces",
+                 {"take a mesh with fewer faces"}};
   }
 }
 

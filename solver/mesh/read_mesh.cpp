@@ -43,12 +43,13 @@ Result<MeshFile> finish(const std::string& name, io::RawMesh raw) {
       return Error{ErrorCode::kBadFile,
                    name + ": a polygon with " + std::to_string(polygon.face_count + 2) +
                        " corners needs more than the " + std::to_string(cutter.most_tests()) +
-                       " tests of points that all polygons of this file may take; triangulate it "
-                       "in the program that wrote it"};
+                       " tests of points that all polygons of this file may take",
+                   {"triangulate it in the program that wrote it"}};
     }
   }
   Result<TriangleMesh> mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
-  if (!mesh) return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message};
+  if (!mesh)
+    return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message, mesh.error().hint};
   return MeshFile{*std::move(mesh), static_cast<Index>(raw.polygons.size()),
                   static_cast<Index>(raw.welded), std::move(raw.notes)};
 }
@@ -59,7 +60,7 @@ Result<MeshFile> guarded(const std::string& name, std::size_t size, const Read& 
   try {
     return finish(name, read());
   } catch (const io::ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, name + ": " + failure.message};
+    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
@@ -87,7 +88,8 @@ Result<const Format*> format_named(std::string_view name) {
   std::string known;
   for (const std::string& each : mesh_formats()) known += (known.empty() ? "" : ", ") + each;
   return Error{ErrorCode::kNotAvailable,
-               "'" + io::printable(name) + "' is no format of models; there are " + known};
+               "'" + io::printable(name) + "' is no format of models",
+               {"there are " + known}};
 }
 
 }  // namespace
@@ -108,9 +110,9 @@ Result<MeshFile> read_mesh(const std::string& path) {
   const std::string extension = io::file_extension(path);
   if (const Format* const format = format_of(extension)) return read_file(path, *format);
   if (auto there = io::InputFile::open(path); !there) return there.error();
-  return Error{ErrorCode::kNotAvailable, io::printable(path) + ": unknown extension \"" +
-                                             io::printable(extension) +
-                                             "\"; there are .obj .ply .off .stl"};
+  return Error{ErrorCode::kNotAvailable,
+               io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\"",
+               {"there are .obj .ply .off .stl"}};
 }
 
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format) {

@@ -73,8 +73,9 @@ Result<void> check(std::int64_t faces, int times) {
   return Error{ErrorCode::kBadInput,
                "a mesh of " + std::to_string(faces) + " faces cannot be refined " +
                    std::to_string(times) + " times (at most " + std::to_string(kMost) +
-                   " faces can be numbered); refine it at most " + std::to_string(most) +
-                   " times, to " + std::to_string(result) + " faces"};
+                   " faces can be numbered)",
+               {"refine it at most " + std::to_string(most) + " times, to " +
+                std::to_string(result) + " faces"}};
 }
 
 }  // namespace
@@ -89,7 +90,8 @@ Result<TriangleMesh> subdivide(const TriangleMesh& mesh, int times) try {
   return Error{ErrorCode::kOutOfMemory,
                "the memory ended while " + std::to_string(mesh.face_count()) +
                    " faces were refined " + std::to_string(times) +
-                   " times, each time to four times as many; refine less often"};
+                   " times, each time to four times as many",
+               {"refine less often"}};
 }
 
 SurfacePoint subdivided_point(SurfacePoint point, int times) {

@@ -8,15 +8,15 @@ namespace geotherm {
 Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
   constexpr std::size_t kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
   if (faces.empty()) {
-    return Error{ErrorCode::kBadInput, "the mesh has no faces (" +
-                                           std::to_string(positions.size()) +
-                                           " vertices); distances need a surface of triangles"};
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has no faces (" + std::to_string(positions.size()) + " vertices)",
+                 {"distances need a surface of triangles"}};
   }
   if (positions.size() > kMost || faces.size() > kMost) {
-    return Error{ErrorCode::kBadInput, "the mesh has " + std::to_string(positions.size()) +
-                                           " vertices and " + std::to_string(faces.size()) +
-                                           " faces; at most " + std::to_string(kMost) +
-                                           " of each are supported"};
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has " + std::to_string(positions.size()) + " vertices and " +
+                     std::to_string(faces.size()) + " faces",
+                 {"at most " + std::to_string(kMost) + " of each are supported"}};
   }
   const auto vertex_count = static_cast<Index>(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -49,7 +49,8 @@ Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vecto
     return Error{ErrorCode::kBadInput,
                  "vertex " + std::to_string(v) + " of " + std::to_string(mesh->vertex_count()) +
                      " cannot be the same as " + std::to_string(low) + " in a table of " +
-                     std::to_string(count) + "; name the lowest vertex that each is one with"};
+                     std::to_string(count),
+                 {"name the lowest vertex that each is one with"}};
   }
   if (same_as.empty()) return mesh;
   for (Face& face : mesh->faces_) {

@@ -32,10 +32,9 @@ std::vector<Index> vertices_in_use(const TriangleMesh& mesh) {
 
 Result<WeldedMesh> weld(const TriangleMesh& mesh, double distance) try {
   if (!(distance >= 0) || !std::isfinite(distance)) {
-    return Error{ErrorCode::kBadInput, "vertices cannot be merged over a distance of " +
-                                           number_text(distance) +
-                                           "; give a length in model units, or 0 for those that "
-                                           "are equal"};
+    return Error{ErrorCode::kBadInput,
+                 "vertices cannot be merged over a distance of " + number_text(distance),
+                 {"give a length in model units, or 0 for those that are equal"}};
   }
   const std::vector<Index> used = vertices_in_use(mesh);
   std::vector<Vec3> points;
@@ -60,14 +59,15 @@ Result<WeldedMesh> weld(const TriangleMesh& mesh, double distance) try {
                  "every face collapses when vertices within " + number_text(distance) +
                      " of each other are merged (" + std::to_string(used.size()) +
                      " vertices become " +
-                     std::to_string(used.size() - static_cast<std::size_t>(merged)) +
-                     "); give less than the length of an edge"};
+                     std::to_string(used.size() - static_cast<std::size_t>(merged)) + ")",
+                 {"give less than the length of an edge"}};
   }
   return WeldedMesh{*std::move(welded), merged};
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended while the " +
-                                            std::to_string(mesh.vertex_count()) +
-                                            " vertices were merged; take a mesh with fewer faces"};
+  return Error{
+      ErrorCode::kOutOfMemory,
+      "the memory ended while the " + std::to_string(mesh.vertex_count()) + " vertices were merged",
+      {"take a mesh with fewer faces"}};
 }
 
 }  // namespace geotherm

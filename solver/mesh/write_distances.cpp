@@ -13,9 +13,10 @@ namespace geotherm {
 namespace {
 
 Error unknown_extension(const std::string& path, const std::string& known) {
-  return {ErrorCode::kNotAvailable, io::printable(path) + ": unknown extension \"" +
-                                        io::printable(io::file_extension(path)) + "\"; there are " +
-                                        known};
+  return {ErrorCode::kNotAvailable,
+          io::printable(path) + ": unknown extension \"" + io::printable(io::file_extension(path)) +
+              "\"",
+          {"there are " + known}};
 }
 
 /// "-" is CSV.
@@ -29,7 +30,9 @@ Result<void> write_made(const std::string& path, const MakeBytes& make_bytes) {
   try {
     const Result<std::string> bytes = make_bytes();
     if (bytes) return write_file(path, *bytes);
-    return Error{bytes.error().code, io::printable(path) + ": " + bytes.error().message};
+    Error error = bytes.error();
+    error.message = io::printable(path) + ": " + error.message;
+    return error;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, io::printable(path) + ": not enough memory to write it"};
   }
@@ -45,9 +48,8 @@ Result<void> check_distance_path(const std::string& path) {
   }
   if (extension == ".obj" || extension == ".off" || extension == ".stl") {
     return Error{ErrorCode::kNotAvailable,
-                 io::printable(path) + ": " + extension +
-                     " holds no value per vertex; write .ply or .vtp (mesh and distance) or .csv "
-                     "or .npy (distance alone)"};
+                 io::printable(path) + ": " + extension + " holds no value per vertex",
+                 {"write .ply or .vtp (mesh and distance) or .csv or .npy (distance alone)"}};
   }
   return unknown_extension(path, ".csv .npy .ply .vtp");
 }
@@ -57,9 +59,9 @@ Result<void> check_field(const std::string& path, const DataField& field) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
   };
   if (field.name.empty() || !std::ranges::all_of(field.name, fits)) {
-    return Error{ErrorCode::kBadInput, io::printable(path) + ": a field is called \"" +
-                                           io::printable(field.name) +
-                                           "\"; its name may hold letters, digits and _"};
+    return Error{ErrorCode::kBadInput,
+                 io::printable(path) + ": a field is called \"" + io::printable(field.name) + "\"",
+                 {"its name may hold letters, digits and _"}};
   }
   const std::string extension = extension_of(path);
   if (extension == ".ply" || extension == ".vtp") return {};
@@ -67,8 +69,8 @@ Result<void> check_field(const std::string& path, const DataField& field) {
   if (extension == ".csv" && !on_faces) return {};
   return Error{ErrorCode::kNotAvailable,
                io::printable(path) + ": " + extension + " holds no field \"" + field.name +
-                   (on_faces ? "\", which has a value per face; write .ply or .vtp"
-                             : "\" beside the distances; write .csv, .ply or .vtp")};
+                   (on_faces ? "\", which has a value per face" : "\" beside the distances"),
+               {on_faces ? "write .ply or .vtp" : "write .csv, .ply or .vtp"}};
 }
 
 Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,

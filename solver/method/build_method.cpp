@@ -113,8 +113,8 @@ Built build_mapped(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions
 
 Error memory_ended(const MethodOptions& options) {
   return {ErrorCode::kOutOfMemory,
-          "the memory ended while the method " + to_text(options.method) + " was set up; " +
-              (options.refine > 0 ? "refine the mesh less often" : "take a mesh with fewer faces")};
+          "the memory ended while the method " + to_text(options.method) + " was set up",
+          {options.refine > 0 ? "refine the mesh less often" : "take a mesh with fewer faces"}};
 }
 
 /// A heat method with other options beside one that there is.

@@ -27,18 +27,18 @@ struct LineFigures {
 std::string percent(double share) { return rounded_text(100 * share) + " %"; }
 
 /// What to use instead of a method whose answer is wrong.
-std::string cure(MethodKind method) {
+Hint remedy(MethodKind method) {
   switch (method) {
     case MethodKind::kHeat:
     case MethodKind::kFastMarching:
-      return "use --method wavefront";
+      return {"use ", SettingHint{"method", {"wavefront"}}};
     case MethodKind::kWavefront:
     case MethodKind::kWavefrontFine:
-      return "use --method exact";
+      return {"use ", SettingHint{"method", {"exact"}}};
     case MethodKind::kExact:
       break;
   }
-  return "see what geotherm info says about the mesh";
+  return {"look at what is wrong with the mesh"};
 }
 
 }  // namespace
@@ -99,18 +99,19 @@ void add_bound_warnings(MethodKind method, DistanceResult& result) {
   const Quality& q = result.quality;
   if (q.below_straight_line > 0) {
     result.warnings.push_back(
-        "the distance of " +
-        counted_text(static_cast<std::size_t>(q.below_straight_line), "vertex", "vertices") + " (" +
-        percent(static_cast<double>(q.below_straight_line) / q.reached_vertices) +
-        ") is below the straight line to the nearest source, by up to " +
-        percent(q.most_below_straight_line) + " of it; it is wrong there by at least that; " +
-        cure(method));
+        {"the distance of " +
+             counted_text(static_cast<std::size_t>(q.below_straight_line), "vertex", "vertices") +
+             " (" + percent(static_cast<double>(q.below_straight_line) / q.reached_vertices) +
+             ") is below the straight line to the nearest source, by up to " +
+             percent(q.most_below_straight_line) + " of it; it is wrong there by at least that",
+         remedy(method)});
   }
   if (q.steep_edges > 0) {
     result.warnings.push_back(
-        "along " + counted_text(static_cast<std::size_t>(q.steep_edges), "edge", "edges") +
-        " the distance differs by more than their length, by up to " +
-        rounded_text(q.steepest_edge) + " times that; it is wrong around them; " + cure(method));
+        {"along " + counted_text(static_cast<std::size_t>(q.steep_edges), "edge", "edges") +
+             " the distance differs by more than their length, by up to " +
+             rounded_text(q.steepest_edge) + " times that; it is wrong around them",
+         remedy(method)});
   }
 }
 

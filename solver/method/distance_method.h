@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <vector>
 
 #include "solver/core/progress.h"
@@ -43,7 +42,7 @@ class DistanceMethod {
 
   virtual const SetupTiming& timing() const = 0;
   virtual double memory_mb() const = 0;  ///< of factors or tables, in 2^20 bytes
-  virtual const std::vector<std::string>& warnings() const = 0;  ///< about mesh and options
+  virtual const std::vector<Warning>& warnings() const = 0;  ///< about mesh and options
 
   /// The heat method, where it is that.
   virtual const HeatMethod* heat() const { return nullptr; }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/core/hint.h"
 #include "solver/core/types.h"
 #include "solver/linear/fallback.h"
 
@@ -62,7 +63,7 @@ struct DistanceResult {
   std::vector<double> distances;  ///< V, file order, model units; kUnreached where no source can be
   Quality quality;
   QueryTiming timing;
-  std::vector<std::string> warnings;  ///< one sentence each
+  std::vector<Warning> warnings;  ///< one sentence each
 
   /// Of the heat method: the backend that gave the answer, and those that failed at it before.
   std::string backend;

@@ -125,7 +125,8 @@ Result<void> check_sampling(const TriangleMesh& mesh, Index count, const Farthes
     return Error{ErrorCode::kBadFile,
                  "the mesh has no face with area (" +
                      counted_text(static_cast<std::size_t>(mesh.face_count()), "face", "faces") +
-                     ", each with a corner twice or all in one place); check how it was exported"};
+                     ", each with a corner twice or all in one place)",
+                 {"check how it was exported"}};
   }
   const std::vector<char> used = vertices_in_faces(mesh);
   const auto vertices = static_cast<Index>(std::ranges::count(used, 1));
@@ -136,19 +137,21 @@ Result<void> check_sampling(const TriangleMesh& mesh, Index count, const Farthes
                      "samples were") +
             " asked for, and " +
             counted_text(static_cast<std::size_t>(vertices), "vertex belongs", "vertices belong") +
-            " to a face; ask for 1 to " + std::to_string(vertices)};
+            " to a face",
+        {"ask for 1 to " + std::to_string(vertices)}};
   }
   const Index first = options.first;
   if (first == kNoIndex) return {};
   if (first < 0 || first >= mesh.vertex_count()) {
-    return Error{ErrorCode::kBadInput, "there is no vertex " + std::to_string(first) +
-                                           " to begin with; vertices are 0 to " +
-                                           std::to_string(mesh.vertex_count() - 1)};
+    return Error{ErrorCode::kBadInput,
+                 "there is no vertex " + std::to_string(first) + " to begin with",
+                 {"vertices are 0 to " + std::to_string(mesh.vertex_count() - 1)}};
   }
   if (!used[mesh.standing_for(first)]) {
-    return Error{ErrorCode::kBadInput,
-                 "vertex " + std::to_string(first) +
-                     " belongs to no face and cannot be the first sample; choose another"};
+    return Error{
+        ErrorCode::kBadInput,
+        "vertex " + std::to_string(first) + " belongs to no face and cannot be the first sample",
+        {"choose another"}};
   }
   return {};
 }
@@ -162,7 +165,8 @@ Result<FarthestPoints> farthest_points(const DistanceMethod& method, const Trian
       .run(count, first == kNoIndex ? first : mesh.standing_for(first));
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,
-               "the memory ended between queries; take a mesh with fewer faces"};
+               "the memory ended between queries",
+               {"take a mesh with fewer faces"}};
 }
 
 }  // namespace geotherm

@@ -34,7 +34,8 @@ Result<std::vector<DistanceResult>> MappedMethod::solve_each(std::span<const Sou
   for (std::size_t i = 0; i < sets.size(); ++i) mapping_->take_back(sets[i], (*results)[i]);
   return results;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended in a query; refine the mesh less often"};
+  return Error{
+      ErrorCode::kOutOfMemory, "the memory ended in a query", {"refine the mesh less often"}};
 }
 
 }  // namespace geotherm

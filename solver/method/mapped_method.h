@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "solver/method/build_method.h"
@@ -25,7 +24,7 @@ class MappedMethod final : public DistanceMethod {
                                                  const Progress& progress) const override;
   const SetupTiming& timing() const override { return timing_; }
   double memory_mb() const override { return inner_->memory_mb(); }
-  const std::vector<std::string>& warnings() const override { return warnings_; }
+  const std::vector<Warning>& warnings() const override { return warnings_; }
   const HeatMethod* heat() const override { return inner_->heat(); }
 
   const std::shared_ptr<const MeshMapping>& mapping() const { return mapping_; }
@@ -34,7 +33,7 @@ class MappedMethod final : public DistanceMethod {
   std::shared_ptr<const MeshMapping> mapping_;
   std::shared_ptr<const DistanceMethod> inner_;
   SetupTiming timing_;
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace geotherm

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "solver/geometry/intrinsic_surface.h"
@@ -22,7 +21,7 @@ class MeshMapping {
   const std::shared_ptr<const TriangleMesh>& inner() const { return inner_; }  ///< solved on
   int refine() const { return refine_; }
   double milliseconds() const { return milliseconds_; }
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<Warning>& warnings() const { return warnings_; }
 
   /// The same sources on the inner mesh. Errors: those of check_sources(), with the numbers of the
   /// outer mesh.
@@ -41,7 +40,7 @@ class MeshMapping {
   int refine_ = 0;
   IntrinsicSurface surface_;  ///< of the outer mesh, without lengths; only where it is refined
   double milliseconds_ = 0;
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace geotherm

@@ -31,7 +31,8 @@ Result<MethodKind> parse_method(std::string_view text) {
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
   return Error{ErrorCode::kNotAvailable,
-               "there is no method '" + std::string(text) + "'; there are " + names};
+               "there is no method '" + std::string(text) + "'",
+               {"there are " + names}};
 }
 
 std::vector<std::string> method_names() {

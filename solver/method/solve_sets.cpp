@@ -70,8 +70,6 @@ class SetRunner {
   std::size_t failed_set_ = 0;
 };
 
-constexpr const char* kMemoryEnded = "the memory ended in a query; take a mesh with fewer faces";
-
 }  // namespace
 
 int SetThreads::at_once(std::size_t sets) const {
@@ -95,7 +93,8 @@ Result<std::vector<DistanceResult>> solve_sets(std::span<const SourceSet> sets,
   }
   return results;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, kMemoryEnded};
+  return Error{
+      ErrorCode::kOutOfMemory, "the memory ended in a query", {"take a mesh with fewer faces"}};
 }
 
 }  // namespace geotherm

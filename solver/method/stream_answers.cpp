@@ -32,8 +32,8 @@ Result<void> hand_over(Answers answers, std::size_t first, const AnswerSink& sin
   return {};
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,
-               "the memory ended where answers are taken; solve fewer "
-               "sources at once"};
+               "the memory ended where answers are taken",
+               {"solve fewer sources at once"}};
 }
 
 }  // namespace
@@ -82,8 +82,8 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
   }
   return hand_over(std::move(waiting), first_waiting, sink);
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory,
-               "the memory ended between queries; solve fewer sources at once"};
+  return Error{
+      ErrorCode::kOutOfMemory, "the memory ended between queries", {"solve fewer sources at once"}};
 }
 
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes) {

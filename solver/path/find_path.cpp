@@ -32,8 +32,9 @@ Result<PathField> parse_path_field(std::string_view text) {
   for (const PathField field : {PathField::kGeodesic, PathField::kDistance, PathField::kHeat}) {
     if (to_text(field) == text) return field;
   }
-  return Error{ErrorCode::kNotAvailable, "there is no field '" + std::string(text) +
-                                             "' to follow; there are geodesic, distance, heat"};
+  return Error{ErrorCode::kNotAvailable,
+               "there is no field '" + std::string(text) + "' to follow",
+               {"there are geodesic, distance, heat"}};
 }
 
 PathFinder::PathFinder(std::shared_ptr<const TriangleMesh> mesh,
@@ -108,9 +109,9 @@ Result<FoundPath> PathFinder::streamline(const SurfacePoint& from, const Surface
                                          PathField field, const Progress& progress) const {
   const bool heat = field == PathField::kHeat;
   if (heat && !method_->heat()) {
-    return Error{ErrorCode::kBadInput, "the field heat is one of the method heat, not of " +
-                                           to_text(method_->kind()) +
-                                           "; choose the method heat or the field distance"};
+    return Error{ErrorCode::kBadInput,
+                 "the field heat is one of the method heat, not of " + to_text(method_->kind()),
+                 {"choose the method heat or the field distance"}};
   }
   if (auto way = edge_path(*surface_, from, to); !way) return way.error();
   const auto solved = distances(from, heat, progress);

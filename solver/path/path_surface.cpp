@@ -130,15 +130,17 @@ Result<SurfacePoint> PathSurface::at_weighted_vertices(const Face& vertices,
     }
     if (holds) return out;
   }
-  return Error{ErrorCode::kBadInput, "the point at vertex " + std::to_string(held.front().first) +
-                                         " is in no face with three corners; choose another"};
+  return Error{ErrorCode::kBadInput,
+               "the point at vertex " + std::to_string(held.front().first) +
+                   " is in no face with three corners",
+               {"choose another"}};
 }
 
 Result<SurfacePoint> PathSurface::into(const SurfacePoint& point) const {
   const auto out_of_range = [](const char* what, Index id, Index count) {
-    return Error{ErrorCode::kBadInput, std::string("there is no ") + what + " " +
-                                           std::to_string(id) + "; the mesh has 0 to " +
-                                           std::to_string(count - 1)};
+    return Error{ErrorCode::kBadInput,
+                 std::string("there is no ") + what + " " + std::to_string(id),
+                 {"the mesh has 0 to " + std::to_string(count - 1)}};
   };
   if (point.is_vertex()) {
     if (point.vertex < 0 || point.vertex >= mesh_->vertex_count()) {
@@ -151,10 +153,10 @@ Result<SurfacePoint> PathSurface::into(const SurfacePoint& point) const {
   }
   const auto& [a, b, c] = point.weights;
   if (!(std::min({a, b, c}) >= -kWeightSum && std::abs(a + b + c - 1) <= kWeightSum)) {
-    return Error{ErrorCode::kBadInput, "the weights " + number_text(a) + ", " + number_text(b) +
-                                           ", " + number_text(c) +
-                                           " are no point of a face; they must be at least 0 and "
-                                           "sum to 1"};
+    return Error{ErrorCode::kBadInput,
+                 "the weights " + number_text(a) + ", " + number_text(b) + ", " + number_text(c) +
+                     " are no point of a face",
+                 {"they must be at least 0 and sum to 1"}};
   }
   std::array<double, 3> weights = {std::max(a, 0.0), std::max(b, 0.0), std::max(c, 0.0)};
   const double sum = weights[0] + weights[1] + weights[2];

@@ -17,9 +17,9 @@ constexpr double kStraight = 1e-8;
 constexpr double kLeastGain = 1e-14;
 
 Error outside_face(std::size_t piece) {
-  return {ErrorCode::kBadInput, "piece " + std::to_string(piece) +
-                                    " of the path does not lie in its face; give two points of "
-                                    "one face each"};
+  return {ErrorCode::kBadInput,
+          "piece " + std::to_string(piece) + " of the path does not lie in its face",
+          {"give two points of one face each"}};
 }
 
 /// The piece's face among the clean ones: the same, or another that holds both points where the
@@ -46,8 +46,9 @@ Result<void> ShortenBudget::spend() {
     return cancelled_error();
   }
   if (++spent_ <= most_) return {};
-  return Error{ErrorCode::kBudgetEnded, "the path was not straight after " + std::to_string(most_) +
-                                            " steps; choose nearer points or way-points"};
+  return Error{ErrorCode::kBudgetEnded,
+               "the path was not straight after " + std::to_string(most_) + " steps",
+               {"choose nearer points or way-points"}};
 }
 
 Result<std::vector<Leg>> tight_legs(const PathSurface& surface, const SurfacePath& path) {

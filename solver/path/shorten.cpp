@@ -12,7 +12,7 @@ namespace {
 Result<SurfacePath> shortened(const PathSurface& surface, const SurfacePath& start, bool search,
                               const Progress& progress) {
   if (start.points.empty()) {
-    return Error{ErrorCode::kBadInput, "the path has no points; give one at least"};
+    return Error{ErrorCode::kBadInput, "the path has no points", {"give one at least"}};
   }
   const auto first = surface.into(start.points.front());
   if (!first) return first.error();

@@ -16,7 +16,8 @@ namespace geotherm {
 inline Error ended_error(const char* end, std::string_view what, const TriangleMesh& mesh) {
   return {ErrorCode::kOutOfMemory,
           std::string(end) + " while " + std::string(what) + " was sought on a mesh of " +
-              std::to_string(mesh.face_count()) + " faces; take a mesh with fewer faces"};
+              std::to_string(mesh.face_count()) + " faces",
+          {"take a mesh with fewer faces"}};
 }
 
 /// The result of `work`, or kOutOfMemory where the memory, or what else the system lends, ends

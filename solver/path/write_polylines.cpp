@@ -114,9 +114,9 @@ std::string vtp_bytes(const TriangleMesh& mesh, std::span<const Polyline> lines)
 Result<void> check_polyline_path(const std::string& path) {
   const std::string extension = io::file_extension(path);
   if (extension == ".obj" || extension == ".csv" || extension == ".vtp") return {};
-  return Error{ErrorCode::kNotAvailable, io::printable(path) + ": unknown extension \"" +
-                                             io::printable(extension) +
-                                             "\"; lines can be written as .obj .csv .vtp"};
+  return Error{ErrorCode::kNotAvailable,
+               io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\"",
+               {"lines can be written as .obj .csv .vtp"}};
 }
 
 std::string polyline_csv(const TriangleMesh& mesh, std::span<const Polyline> lines) {

@@ -33,16 +33,21 @@ double badness_of(const TriedSetting& tried) {
   return badness(error);
 }
 
-std::string gain_text(const AccuracyReport& report, const TriedSetting& tried) {
-  std::string text = "with " + setting_text(tried) + " it is ";
-  if (tried.option == "method" && tried.value == to_text(tried.against)) return text + tried.value;
-  text += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
-  if (tried.against != report.reference) text += " (against " + to_text(tried.against) + ')';
-  return text;
+/// "BEFOREwith SETTING it is FIGURE".
+void add_gain(const AccuracyReport& report, const TriedSetting& tried, const std::string& before,
+              Hint& advice) {
+  std::string gain = " it is ";
+  if (tried.option == "method" && tried.value == to_text(tried.against)) {
+    gain += tried.value;
+  } else {
+    gain += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
+    if (tried.against != report.reference) gain += " (against " + to_text(tried.against) + ')';
+  }
+  advice.insert(advice.end(), {before + "with ", setting_of(tried), gain});
 }
 
 /// Why the answer is wrong and what was found to help, to follow the grade and its figures.
-std::string advice_of(const AccuracyReport& report) {
+Hint advice_of(const AccuracyReport& report) {
   const TriedSetting *best = nullptr, *cause = nullptr;
   for (const TriedSetting& tried : report.tried) {
     if (best == nullptr || badness_of(tried) < badness_of(*best)) best = &tried;
@@ -50,18 +55,21 @@ std::string advice_of(const AccuracyReport& report) {
         report.cause && tried.option == report.cause->option && tried.value == report.cause->value;
     if (is_cause) cause = &tried;
   }
-  std::string text;
-  if (report.cause && !report.cause->because.empty()) text = " because " + report.cause->because;
-  text += "; ";
+  std::string before;
+  if (report.cause && !report.cause->because.empty()) before = " because " + report.cause->because;
+  before += "; ";
   if (best == nullptr || badness_of(*best) >= badness(report.figures)) {
-    return text + "the " + to_text(report.reference) +
-           " method, which it was held against, is nearer";
+    return {before + "the " + to_text(report.reference) +
+            " method, which it was held against, is nearer"};
   }
+  Hint advice;
   if (cause != nullptr && badness_of(*cause) > badness_of(*best)) {
-    text += gain_text(report, *cause) + ", ";
+    add_gain(report, *cause, before, advice);
+    before = ", ";
   }
-  text += gain_text(report, *best);
-  return report.cure ? text : text + ", the best of what was tried";
+  add_gain(report, *best, before, advice);
+  if (!report.cure) advice.emplace_back(", the best of what was tried");
+  return advice;
 }
 
 /// Where a share of the vertices is reached by one method alone, figures say nothing.
@@ -110,8 +118,9 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
   answers.milliseconds = watch.milliseconds();
   return answers;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended in the check by the method " +
-                                            to_text(kind) + "; take a mesh with fewer faces"};
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended in the check by the method " + to_text(kind),
+               {"take a mesh with fewer faces"}};
 }
 
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
@@ -131,13 +140,18 @@ AccuracyReport hold_against(std::span<const std::vector<double>> distances, Meth
   report.measured = true;
   report.grade = grade_of(report.figures);
   report.verdict = to_text(report.grade);
-  if (report.figures.differently_reached > 0) report.advice = ": " + reach_text(report.figures);
-  report.verdict += report.advice;
+  if (report.figures.differently_reached > 0) {
+    report.advice = {": " + reach_text(report.figures)};
+  }
   if (distances.size() == 1) {
     report.values = signed_error(distances.front(), better.distances.front());
     report.histogram = error_histogram(report.values, kBins);
   }
   return report;
+}
+
+std::string sentence(const AccuracyReport& report, std::string_view before_name) {
+  return report.verdict + hint_text(report.advice, before_name);
 }
 
 AccuracyReport unmeasured(MethodKind method, std::string verdict) {
@@ -164,8 +178,7 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
   report.advice = advice_of(report);
   report.verdict =
       to_text(report.grade) + ": " +
-      figure_text(report.figures, report.figures.mean_relative, report.figures.max_of_range) +
-      report.advice;
+      figure_text(report.figures, report.figures.mean_relative, report.figures.max_of_range);
   return {};
 }
 

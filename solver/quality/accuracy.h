@@ -49,9 +49,9 @@ struct AccuracyReport {
   std::size_t sets = 1;        ///< source sets that were solved for
   std::vector<double> values;  ///< of one set, V: d - d_reference; infinite where either is
   ErrorHistogram histogram;    ///< of the values
-  std::string verdict;  ///< one sentence: the grade, the figure that decides it, and the advice
-  std::string advice;   ///< what of the verdict follows the grade and the figure: why, what helps
-  double milliseconds = 0;          ///< that the reference took, set-up and queries
+  std::string verdict;         ///< the grade and the figure that decides it, or why there is none
+  Hint advice;                 ///< what follows it in a sentence: why, what helps
+  double milliseconds = 0;     ///< that the reference took, set-up and queries
   std::optional<ErrorCause> cause;  ///< the one option to which most of the error is due
   std::optional<Cure> cure;         ///< a setting that was tried and is right
   std::vector<TriedSetting> tried;  ///< all that was tried, in order
@@ -71,11 +71,14 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
                             const ReferenceAnswers& better);
 
+/// The verdict and the advice, settings as in hint_text().
+std::string sentence(const AccuracyReport& report, std::string_view before_name = {});
+
 /// What is to be said where nothing better fits the mesh, or nothing was asked.
 AccuracyReport unmeasured(MethodKind method, std::string verdict);
 
 /// Looks for a setting that is right (diagnose()) as far as `search` allows, and puts it into the
-/// report and its verdict. Preconditions: hold_against() made the report from answer.distances and
+/// report and its advice. Preconditions: hold_against() made the report from answer.distances and
 /// `better`. Errors: kCancelled. Cost: that of diagnose().
 Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
                        const CheckedAnswers& answers, const ReferenceAnswers& better,
@@ -91,7 +94,7 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
 ///     auto answer = (*method)->solve(sources);
 ///     auto report = check_accuracy(mesh, {**method, options, {&sources, 1},
 ///                                         {&answer->distances, 1}});
-///     if (report && report->is_poor()) warn(report->verdict);
+///     if (report && report->is_poor()) warn(sentence(*report));
 Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
                                       const CheckedAnswers& answers,
                                       const AccuracyOptions& options = {},

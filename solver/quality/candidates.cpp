@@ -102,7 +102,7 @@ class Candidates {
     }
     if (step.rule != TimeRule::kMeanEdge) {
       add("time-step", "mean-edge", kFactor,
-          because + "--time-step " + to_text(step) + ", " + measured)
+          because + "time step " + to_text(step) + ", " + measured)
           .options.time_step.rule = TimeRule::kMeanEdge;
     }
   }

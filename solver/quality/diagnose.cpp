@@ -178,9 +178,7 @@ Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
 
 }  // namespace
 
-std::string setting_text(const TriedSetting& tried) {
-  return "--" + tried.option + ' ' + tried.value;
-}
+SettingHint setting_of(const TriedSetting& tried) { return {tried.option, {tried.value}}; }
 
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const CheckedAnswers& answers, MethodKind reference,

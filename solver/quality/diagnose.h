@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/core/hint.h"
 #include "solver/method/build_method.h"
 #include "solver/method/distance_error.h"
 
@@ -14,7 +15,7 @@ namespace geotherm {
 
 /// The one option of the heat method to which most of an error is due.
 struct ErrorCause {
-  std::string option;   ///< as on the command line, without dashes: "time-factor"
+  std::string option;   ///< the name of a setting: "time-factor"
   std::string value;    ///< what lowers the error: "1"
   std::string because;  ///< "t is too large (m = 100, sqrt(t) = 10 mean edges)"; empty: the value
                         ///< is none that is recommended everywhere
@@ -23,15 +24,15 @@ struct ErrorCause {
 
 /// A setting that was solved with, and what it gave.
 struct TriedSetting {
-  std::string option, value;  ///< as on the command line, without dashes: "method", "wavefront"
+  std::string option, value;                    ///< of a setting: "method", "wavefront"
   double mean_relative = 0, max_of_range = 0;   ///< of DistanceError
   MethodKind against = MethodKind::kWavefront;  ///< what it was held against
 };
 /// One whose answer is good.
 using Cure = TriedSetting;
 
-/// "--method wavefront".
-std::string setting_text(const TriedSetting& tried);
+/// What to set.
+SettingHint setting_of(const TriedSetting& tried);
 
 struct Diagnosis {
   std::optional<ErrorCause> cause;  ///< absent: no option of the heat method lowers the error much

@@ -90,7 +90,8 @@ Result<QualityField> parse_quality_field(std::string_view text) {
     names += (names.empty() ? "" : ", ") + std::string(each.name);
   }
   return Error{ErrorCode::kBadInput,
-               "there is no field '" + std::string(text) + "'; there are " + names};
+               "there is no field '" + std::string(text) + "'",
+               {"there are " + names}};
 }
 
 std::vector<QualityField> all_quality_fields() {

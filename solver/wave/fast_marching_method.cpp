@@ -170,7 +170,7 @@ double FastMarchingMethod::memory_mb() const {
   return static_cast<double>(state_->supports.bytes()) / (1024.0 * 1024.0);
 }
 
-const std::vector<std::string>& FastMarchingMethod::warnings() const {
+const std::vector<Warning>& FastMarchingMethod::warnings() const {
   return state_->surface->base.warnings;
 }
 

@@ -80,9 +80,10 @@ void list_sides(WaveSurface& surface) {
 }  // namespace
 
 Error wave_out_of_memory(const char* stage, Index faces) {
-  return {ErrorCode::kOutOfMemory, "the memory ended in the " + std::string(stage) + " of " +
-                                       std::to_string(faces) +
-                                       " faces; take a mesh with fewer faces"};
+  return {
+      ErrorCode::kOutOfMemory,
+      "the memory ended in the " + std::string(stage) + " of " + std::to_string(faces) + " faces",
+      {"take a mesh with fewer faces"}};
 }
 
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(

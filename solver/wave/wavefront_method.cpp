@@ -82,9 +82,10 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
   pool->give(std::move(front));
   if (outcome == WaveFront::Outcome::kCancelled) return cancelled_error();
   if (outcome == WaveFront::Outcome::kEndless) {
-    return Error{ErrorCode::kBudgetEnded, "waves on " + std::to_string(surface->face_count()) +
-                                              " faces: no end after " + std::to_string(visits) +
-                                              " visits of edges; use the method exact or heat"};
+    return Error{ErrorCode::kBudgetEnded,
+                 "waves on " + std::to_string(surface->face_count()) + " faces: no end after " +
+                     std::to_string(visits) + " visits of edges",
+                 {"use ", SettingHint{"method", {"exact", "heat"}}}};
   }
   result.timing.query = watch.lap();
   if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
@@ -156,7 +157,7 @@ double WavefrontMethod::memory_mb() const {
   return static_cast<double>(state_->tables.bytes()) / (1024.0 * 1024.0);
 }
 
-const std::vector<std::string>& WavefrontMethod::warnings() const {
+const std::vector<Warning>& WavefrontMethod::warnings() const {
   return state_->surface->base.warnings;
 }
 

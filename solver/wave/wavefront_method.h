@@ -30,7 +30,7 @@ class WavefrontMethod final : public DistanceMethod {
                                                  const Progress& progress = {}) const override;
   const SetupTiming& timing() const override;
   double memory_mb() const override;
-  const std::vector<std::string>& warnings() const override;
+  const std::vector<Warning>& warnings() const override;
 
  private:
   struct State;

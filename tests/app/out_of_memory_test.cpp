@@ -107,13 +107,13 @@ TEST_P(LittleMemory, IsAnErrorOfTheLibraryWithACure) {
   options.threads = 1;
   expect_refusals_then_done([&] {
     const auto method = HeatMethod::build(model.mesh, options);
-    if (!method) return ending_of(method.error().code, method.error().message);
+    if (!method) return ending_of(method.error().code, sentence(method.error()));
     const auto result = method->solve(SourceSet::of_vertices({1}));
-    if (!result) return ending_of(result.error().code, result.error().message);
+    if (!result) return ending_of(result.error().code, sentence(result.error()));
     HeatOptions other = options;
     other.time_step.factor = 2;
     const auto changed = method->with(other);
-    return changed ? kDone : ending_of(changed.error().code, changed.error().message);
+    return changed ? kDone : ending_of(changed.error().code, sentence(changed.error()));
   });
 }
 

@@ -51,7 +51,7 @@ TEST(OutputFiles, InAFolderWithoutPermissionAreRefusedBeforeTheWork) {
     Outputs outputs;
     const auto expected = outputs.expect(folder.path("closed/d.csv"), "-o");
     return !expected && expected.error().code == ErrorCode::kBadFile &&
-           expected.error().message.find("Permission denied") != std::string::npos;
+           sentence(expected.error()).find("Permission denied") != std::string::npos;
   }));
 }
 
@@ -71,7 +71,7 @@ TEST(OutputFiles, ThatFailSayWhatToDo) {
   std::string unused;
   const auto failed = outputs.write_text("/dev/full", "x", unused);
   ASSERT_FALSE(failed);
-  EXPECT_TRUE(failed.error().message.ends_with("; make room there, or choose another place"))
+  EXPECT_TRUE(sentence(failed.error()).ends_with("; make room there, or choose another place"))
       << failed.error().message;
 }
 
@@ -107,7 +107,7 @@ TEST(OutputFiles, AreFoundToBeTheModelUnderAnotherName) {
   const auto refused = outputs.expect(folder.path("link.ply"), "-o");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(refused.error().message.find("is the model itself; give"), std::string::npos);
+  EXPECT_NE(sentence(refused.error()).find("is the model itself; give"), std::string::npos);
   EXPECT_TRUE(outputs.expect(folder.path("other.ply"), "-o"));
 }
 

@@ -127,7 +127,7 @@ TEST_P(PictureOptionsWrong, SayOptionValueAndCure) {
   const auto settings = picture_settings(typed, arguments, kMaps);
   ASSERT_FALSE(settings);
   EXPECT_EQ(settings.error().code, ErrorCode::kBadInput);
-  const std::string& message = settings.error().message;
+  const std::string message = sentence(settings.error());
   EXPECT_NE(message.find("'" + GetParam().value + "'"), std::string::npos) << message;
   for (const std::string& part : GetParam().says) {
     EXPECT_NE(message.find(part), std::string::npos) << "no \"" << part << "\" in " << message;

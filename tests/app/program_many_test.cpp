@@ -143,7 +143,7 @@ TEST(RoomForMany, IsAskedBeforeTheWork) {
   EXPECT_EQ(refused.error().code, ErrorCode::kBadFile);
   for (const char* part :
        {"a.npy: the file would take 9.09e+11 TB", "are free there; take fewer"}) {
-    EXPECT_NE(refused.error().message.find(part), std::string::npos) << refused.error().message;
+    EXPECT_NE(sentence(refused.error()).find(part), std::string::npos) << refused.error().message;
   }
 }
 

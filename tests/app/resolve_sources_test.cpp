@@ -68,7 +68,7 @@ TEST(Sources, OnTheBoundaryAreItsEdges) {
   EXPECT_EQ(vertices_of(resolved->set).size(), 16U);
   const auto closed = resolve(*finish(sphere(1)), {"boundary"});
   ASSERT_FALSE(closed);
-  EXPECT_NE(closed.error().message.find("no boundary (each of its 120 edges"), std::string::npos);
+  EXPECT_NE(sentence(closed.error()).find("no boundary (each of its 120 edges"), std::string::npos);
 }
 
 TEST(Sources, InSpaceAreTheClosestPointsAndFarOnesAreMentioned) {
@@ -116,13 +116,13 @@ TEST(Sources, AlongACurveOfTextAreJoinedWithoutAWord) {
 TEST(Sources, AlongACurveOfTextThatDoNotFitAreRefusedWithTheirNumber) {
   const auto range = resolve(grid(), {"curve:0,1,26"});
   ASSERT_FALSE(range);
-  EXPECT_EQ(range.error().message,
+  EXPECT_EQ(sentence(range.error()),
             "-s curve:0,1,26: number 3 of the curve: there is no vertex 26; vertices are 0 to 25");
   Draft two = plane_grid(1, 1, 1, 1);
   append(two, plane_grid(1, 1, 1, 1));
   const auto apart = resolve(*finish(std::move(two)), {"curve:0,3,4"});
   ASSERT_FALSE(apart);
-  EXPECT_TRUE(apart.error().message.starts_with("-s curve:0,3,4: number 3 of the curve: "))
+  EXPECT_TRUE(sentence(apart.error()).starts_with("-s curve:0,3,4: number 3 of the curve: "))
       << apart.error().message;
 }
 
@@ -136,8 +136,9 @@ TEST(Sources, ThatDoNotFitAreRefusedWithTheirName) {
                         {"random:26", "25 belong"}}) {
     const auto resolved = resolve(grid(), {c.text});
     ASSERT_FALSE(resolved) << c.text;
-    EXPECT_TRUE(resolved.error().message.starts_with(std::string("-s ") + c.text + ": "));
-    EXPECT_NE(resolved.error().message.find(c.says), std::string::npos) << resolved.error().message;
+    EXPECT_TRUE(sentence(resolved.error()).starts_with(std::string("-s ") + c.text + ": "));
+    EXPECT_NE(sentence(resolved.error()).find(c.says), std::string::npos)
+        << resolved.error().message;
   }
 }
 

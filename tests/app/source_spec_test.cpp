@@ -107,7 +107,7 @@ TEST_P(WrongSourceText, IsRefusedWithAHint) {
   const auto spec = parse_source(GetParam());
   ASSERT_FALSE(spec) << GetParam();
   EXPECT_EQ(spec.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(spec.error().message.find_first_of(":;"), std::string::npos);
+  EXPECT_NE(sentence(spec.error()).find_first_of(":;"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -153,7 +153,7 @@ TEST_F(SourceFile, ThatIsWrongIsRefusedWithTheLine) {
     const auto sources = read(text);
     ASSERT_FALSE(sources) << text;
     EXPECT_EQ(sources.error().code, ErrorCode::kBadFile);
-    EXPECT_NE(sources.error().message.find("line 3: "), std::string::npos);
+    EXPECT_NE(sentence(sources.error()).find("line 3: "), std::string::npos);
   }
   EXPECT_FALSE(read("# nothing\n\n"));
   EXPECT_FALSE(read("1\n1 2 3\n", true));

@@ -249,9 +249,9 @@ TEST(GenerateModel, UnknownNameIsAnErrorThatListsTheNames) {
   const Result<TriangleMesh> made = generate_model("teapot", 2000);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, ErrorCode::kNotAvailable);
-  EXPECT_NE(made.error().message.find("teapot"), std::string::npos);
+  EXPECT_NE(sentence(made.error()).find("teapot"), std::string::npos);
   for (const char* name : {"terrain", "sleeve", "cube", "gargoyle", "bunny"}) {
-    EXPECT_NE(made.error().message.find(name), std::string::npos) << name;
+    EXPECT_NE(sentence(made.error()).find(name), std::string::npos) << name;
   }
 }
 
@@ -260,8 +260,8 @@ TEST(GenerateModel, SizesOutsideTheLimitsAreErrorsThatSayTheLimits) {
     const Result<TriangleMesh> made = generate_model("cube", faces);
     ASSERT_FALSE(made) << faces;
     EXPECT_EQ(made.error().code, ErrorCode::kBadInput);
-    EXPECT_NE(made.error().message.find(std::to_string(faces)), std::string::npos);
-    EXPECT_NE(made.error().message.find("500 to 5000000"), std::string::npos);
+    EXPECT_NE(sentence(made.error()).find(std::to_string(faces)), std::string::npos);
+    EXPECT_NE(sentence(made.error()).find("500 to 5000000"), std::string::npos);
   }
 }
 

@@ -107,8 +107,8 @@ std::map<Index, double> longest_edges(const BrokenCase& test) {
 }
 
 void expect_one_sentence(const Error& error) {
-  EXPECT_GT(error.message.size(), 20U);
-  EXPECT_EQ(error.message.find('\n'), std::string::npos) << error.message;
+  EXPECT_GT(sentence(error).size(), 20U);
+  EXPECT_EQ(sentence(error).find('\n'), std::string::npos) << error.message;
 }
 
 class BrokenMeshes : public testing::TestWithParam<int> {

@@ -24,7 +24,7 @@ ViewerState after(const std::vector<std::string>& lines, ViewerState state = ini
 
 std::string refusal(const ViewerState& state, const std::string& line) {
   const auto next = app::apply(state, *parse_command(line));
-  return next ? "" : next.error().message;
+  return next ? "" : sentence(next.error());
 }
 
 TEST(Apply, OpenKeepsSourcesThatFitAnyModelAndFramesIt) {

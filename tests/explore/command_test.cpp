@@ -117,7 +117,7 @@ TEST_P(SettingText, AWordThatIsNoValueIsRefusedWithItsColumn) {
   const auto parsed = parse_command(GetParam() + " ?!");
   ASSERT_FALSE(parsed);
   const std::string column = "column " + std::to_string(GetParam().size() + 2) + ": ";
-  EXPECT_EQ(parsed.error().message.find(column), 0U) << parsed.error().message;
+  EXPECT_EQ(sentence(parsed.error()).find(column), 0U) << parsed.error().message;
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSettings, SettingText, testing::ValuesIn([] {
@@ -170,7 +170,7 @@ class BadCommand : public testing::TestWithParam<BadCase> {};
 TEST_P(BadCommand, SaysColumnAndWhatWasExpected) {
   const auto parsed = parse_command(GetParam().line);
   ASSERT_FALSE(parsed);
-  const std::string& message = parsed.error().message;
+  const std::string message = sentence(parsed.error());
   EXPECT_EQ(message.find(GetParam().begins), 0U) << message;
   EXPECT_NE(message.find(GetParam().expects), std::string::npos) << message;
 }
@@ -222,7 +222,7 @@ TEST(Script, SkipsBlankLinesAndComments) {
 TEST(Script, ABadLineNamesFileLineAndColumn) {
   const auto lines = parse_script("open bunny\ncamera orbit 1 b\n", "dir/s.txt");
   ASSERT_FALSE(lines);
-  EXPECT_EQ(lines.error().message.find("dir/s.txt: line 2, column 16: "), 0U)
+  EXPECT_EQ(sentence(lines.error()).find("dir/s.txt: line 2, column 16: "), 0U)
       << lines.error().message;
   EXPECT_EQ(lines.error().code, ErrorCode::kBadFile);
 }
@@ -236,7 +236,7 @@ TEST(Script, AnyBytesGiveCommandsOrOneLineOfError) {
     for (int k = 0; k < 40; ++k) text += alphabet[letter(random)];
     const auto lines = parse_script(text, "fuzz");
     if (!lines) {
-      EXPECT_EQ(lines.error().message.find('\n'), std::string::npos);
+      EXPECT_EQ(sentence(lines.error()).find('\n'), std::string::npos);
     }
   }
 }

@@ -36,8 +36,8 @@ class SavedFile : public SessionFixture {
     const std::string before = text_of(path);
     const auto ran = run_foreign("open " + small_model() + "\nsource set 5\n" + line + "\n");
     ASSERT_FALSE(ran) << line;
-    EXPECT_NE(ran.error().message.find(part), std::string::npos) << ran.error().message;
-    EXPECT_EQ(ran.error().message.find('\n'), std::string::npos);
+    EXPECT_NE(sentence(ran.error()).find(part), std::string::npos) << ran.error().message;
+    EXPECT_EQ(sentence(ran.error()).find('\n'), std::string::npos);
     EXPECT_EQ(text_of(path), before);
   }
 };

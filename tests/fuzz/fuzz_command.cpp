@@ -48,7 +48,7 @@ std::string setting_fault(const std::string& text) {
 std::string command_fault(const Command& command, ViewerState& state) {
   const std::string text = to_text(command);
   const auto again = parse_command(text);
-  if (!again) return "not read back: " + text + ": " + again.error().message;
+  if (!again) return "not read back: " + text + ": " + sentence(again.error());
   if (*again != command) return "read back as another command: " + text;
   auto next = app::apply(state, command);
   if (!next) return printed_fault(next.error(), text.size());
@@ -61,9 +61,9 @@ std::string state_fault(const ViewerState& state) {
   for (const Command& command : commands_to(state)) {
     const std::string text = to_text(command);
     const auto parsed = parse_command(text);
-    if (!parsed) return "a saved session cannot be read: " + text + ": " + parsed.error().message;
+    if (!parsed) return "a saved session cannot be read: " + text + ": " + sentence(parsed.error());
     auto next = app::apply(again, *parsed);
-    if (!next) return "a saved session cannot be run: " + text + ": " + next.error().message;
+    if (!next) return "a saved session cannot be run: " + text + ": " + sentence(next.error());
     again = *std::move(next);
   }
   return again == state ? "" : "a saved session leads elsewhere";

@@ -28,7 +28,7 @@ std::string mesh_fault(io::RawMesh raw) {
   const auto mesh = TriangleMesh::build(std::move(raw.positions), std::move(raw.faces));
   if (mesh) return empty ? "a mesh without faces" : "";
   // Readers check corners and coordinates themselves: they know the line.
-  return empty ? message_fault(mesh.error().message) : "unchecked: " + mesh.error().message;
+  return empty ? message_fault(sentence(mesh.error())) : "unchecked: " + sentence(mesh.error());
 }
 
 std::string read_fault(Reader read, Bytes bytes) {

@@ -103,15 +103,15 @@ std::string method_fault(const FuzzCase& given, MethodKind kind, std::vector<dou
   MethodOptions options = given.options;
   options.method = kind;
   const auto method = build_method(given.mesh, options);
-  if (!method) return message_fault(method.error().message);
-  for (const std::string& warning : (*method)->warnings()) {
-    if (const std::string fault = message_fault(warning); !fault.empty()) return fault;
+  if (!method) return message_fault(sentence(method.error()));
+  for (const Warning& warning : (*method)->warnings()) {
+    if (const std::string fault = message_fault(sentence(warning)); !fault.empty()) return fault;
   }
   const auto result =
       (*method)->solve(given.sources, {.quality = true, .fields = true, .nearest = true});
-  if (!result) return message_fault(result.error().message);
-  for (const std::string& warning : result->warnings) {
-    if (const std::string fault = message_fault(warning); !fault.empty()) return fault;
+  if (!result) return message_fault(sentence(result.error()));
+  for (const Warning& warning : result->warnings) {
+    if (const std::string fault = message_fault(sentence(warning)); !fault.empty()) return fault;
   }
   if (const std::string fault = distance_fault(given, *result); !fault.empty()) return fault;
   distances = result->distances;
@@ -120,12 +120,12 @@ std::string method_fault(const FuzzCase& given, MethodKind kind, std::vector<dou
 
 std::string accuracy_fault(const FuzzCase& given, const std::vector<double>& heat) {
   const auto method = build_method(given.mesh, given.options);
-  if (!method) return message_fault(method.error().message);
+  if (!method) return message_fault(sentence(method.error()));
   const CheckedAnswers answers{**method, given.options, {&given.sources, 1}, {&heat, 1}};
   const auto report =
       check_accuracy(given.mesh, answers, {.search = CureSearch::kWhereNotGood, .threads = 1});
-  if (!report) return message_fault(report.error().message);
-  if (const std::string fault = message_fault(report->verdict); !fault.empty()) return fault;
+  if (!report) return message_fault(sentence(report.error()));
+  if (const std::string fault = message_fault(sentence(*report)); !fault.empty()) return fault;
   if (report->cure && !(report->cure->mean_relative <= kGoodError))
     return "a cure that is not good";
   if (!report->cause) return "";
@@ -159,7 +159,7 @@ double distance_of(Welding welding, const TriangleMesh& mesh) {
 std::string welding_fault(FuzzCase& given) {
   if (given.welding == Welding::kNone) return "";
   auto welded = weld(*given.mesh, distance_of(given.welding, *given.mesh));
-  if (!welded) return message_fault(welded.error().message);
+  if (!welded) return message_fault(sentence(welded.error()));
   given.mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
   return report_fault(*given.mesh);
 }

@@ -213,8 +213,8 @@ TEST(RefinementsOfRibbons, EndAtTheLimitWithAWarning) {
   EXPECT_FALSE(surface.refinement.complete);
   EXPECT_EQ(surface.refinement.points, mesh->vertex_count() + 1000);
   const std::string number = std::to_string(surface.refinement.points) + " vertices were inserted";
-  EXPECT_TRUE(std::ranges::any_of(surface.warnings, [&](const std::string& warning) {
-    return warning.find(number) != std::string::npos;
+  EXPECT_TRUE(std::ranges::any_of(surface.warnings, [&](const Warning& warning) {
+    return warning.message.find(number) != std::string::npos;
   }));
 }
 

@@ -60,7 +60,7 @@ TEST_P(BadSources, AreRefusedByTheirNumber) {
   const auto result = method.solve(GetParam().sources);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(result.error().message.find(GetParam().says), std::string::npos)
+  EXPECT_NE(sentence(result.error()).find(GetParam().says), std::string::npos)
       << result.error().message;
 }
 
@@ -113,7 +113,7 @@ class BadOptions : public testing::TestWithParam<BadOption> {
   static void expect_refused(const Result<HeatMethod>& method) {
     ASSERT_FALSE(method);
     EXPECT_EQ(method.error().code, GetParam().code);
-    EXPECT_NE(method.error().message.find(GetParam().says), std::string::npos)
+    EXPECT_NE(sentence(method.error()).find(GetParam().says), std::string::npos)
         << method.error().message;
   }
 };

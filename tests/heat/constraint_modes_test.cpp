@@ -114,7 +114,7 @@ TEST(PinVertex, ThatIsNotOnTheSurfaceIsAnError) {
     const auto method = HeatMethod::build(mesh, in_mode(ConstraintMode::kPinVertex, pin));
     ASSERT_FALSE(method) << pin;
     EXPECT_EQ(method.error().code, ErrorCode::kBadInput);
-    EXPECT_NE(method.error().message.find(std::to_string(pin)), std::string::npos);
+    EXPECT_NE(sentence(method.error()).find(std::to_string(pin)), std::string::npos);
   }
 }
 

@@ -139,7 +139,7 @@ TEST(CurveSource, BetweenVerticesThatShareNoEdgeIsAnError) {
   const auto result = method_of(finish(plane_grid(20, 20, 1, 1))).solve(curve);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(result.error().message.find("99"), std::string::npos);
+  EXPECT_NE(sentence(result.error()).find("99"), std::string::npos);
 }
 
 }  // namespace

@@ -12,9 +12,10 @@ namespace geotherm::test {
 namespace {
 
 const SourceSet kSources = SourceSet::of_vertices({7, 40});
-const Error kPivot = {ErrorCode::kNumericalFailure, "faulty: pivot 3 of 8; try another"};
-const Error kMemory = {ErrorCode::kOutOfMemory, "faulty ran out of memory at 9 MB; try less"};
-const Error kBudget = {ErrorCode::kBudgetEnded, "faulty: 50 iterations ended; try more"};
+const Error kPivot = {ErrorCode::kNumericalFailure, "pivot 3 of 8", {"try another"}, "faulty"};
+const Error kMemory = {
+    ErrorCode::kOutOfMemory, "ran out of memory at 9 MB", {"try less"}, "faulty"};
+const Error kBudget = {ErrorCode::kBudgetEnded, "50 iterations ended", {"try more"}, "faulty"};
 
 HeatOptions asking(const std::string& backend, bool strict = false) {
   HeatOptions options = with_backend(backend);
@@ -22,8 +23,8 @@ HeatOptions asking(const std::string& backend, bool strict = false) {
   return options;
 }
 
-bool says(const std::vector<std::string>& warnings, const std::string& text) {
-  return std::ranges::count(warnings, text) == 1;
+bool says(const std::vector<Warning>& warnings, const std::string& text) {
+  return std::ranges::count(warnings, text, &Warning::message) == 1;
 }
 
 struct Failing {
@@ -141,7 +142,7 @@ TEST(Fallbacks, DoNotHideBadInputOrExtremeTimes) {
   extreme.time_step.factor = 1e20;
   const auto method = HeatMethod::build(mesh, extreme);
   ASSERT_FALSE(method);
-  EXPECT_NE(method.error().message.find("smaller --time-factor"), std::string::npos);
+  EXPECT_NE(sentence(method.error()).find("smaller time-factor"), std::string::npos);
 }
 
 TEST(Fallbacks, CanBeCancelled) {
@@ -179,16 +180,16 @@ TEST_P(MemoryLimit, SendsWhatDoesNotFitToABackendThatDoes) {
   EXPECT_EQ(method.memory_mb(), 0);
   ASSERT_EQ(method.fallbacks().size(), direct_backends().size());
   EXPECT_EQ(method.fallbacks()[0].backend, GetParam());
-  EXPECT_NE(method.warnings()[0].find("MB for 2 factors"), std::string::npos)
-      << method.warnings()[0];
+  EXPECT_NE(sentence(method.warnings()[0]).find("MB for 2 factors"), std::string::npos)
+      << sentence(method.warnings()[0]);
 }
 
 TEST_P(MemoryLimit, IsAnErrorWithTheNumbersWhereStrict) {
   const auto method = HeatMethod::build(mesh, limited(0.01, true));
   ASSERT_FALSE(method);
   EXPECT_EQ(method.error().code, ErrorCode::kOutOfMemory);
-  for (const char* part : {"MB for 2 factors", "the limit is 0.01 MB", "--memory-limit"}) {
-    EXPECT_NE(method.error().message.find(part), std::string::npos) << method.error().message;
+  for (const char* part : {"MB for 2 factors", "the limit is 0.01 MB", "raise memory-limit"}) {
+    EXPECT_NE(sentence(method.error()).find(part), std::string::npos) << method.error().message;
   }
 }
 
@@ -211,7 +212,7 @@ TEST_P(MemoryLimit, CountsTheFactorThatAnotherBoundaryRuleAdds) {
   average.boundary = BoundaryRule::kAverage;
   const auto refused = method.with(average);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("3 factors"), std::string::npos)
+  EXPECT_NE(sentence(refused.error()).find("3 factors"), std::string::npos)
       << refused.error().message;
   average.memory_limit_mb = 0;
   EXPECT_TRUE(method.with(average));
@@ -226,7 +227,7 @@ TEST_P(MemoryLimit, HoldsForTheFactorThatAQueryMakes) {
   const auto refused = method_of(mesh, limited(enough, true)).solve(sources);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kOutOfMemory);
-  EXPECT_NE(refused.error().message.find("3 factors"), std::string::npos)
+  EXPECT_NE(sentence(refused.error()).find("3 factors"), std::string::npos)
       << refused.error().message;
   const DistanceResult answer = solve(method_of(mesh, limited(enough)), sources);
   EXPECT_EQ(answer.backend, iterative_backends().front());

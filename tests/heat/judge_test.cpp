@@ -29,14 +29,14 @@ TEST(Residuals, OfOrderOneAreFailuresWithTheNumberAndTheCure) {
       const auto large = judge({}, 1e15, {}, result);
       ASSERT_FALSE(large) << residual;
       EXPECT_EQ(large.error().code, ErrorCode::kNumericalFailure);
-      EXPECT_TRUE(says(large.error().message, rounded_text(residual).c_str()));
-      EXPECT_TRUE(says(large.error().message, "smaller --time-factor")) << large.error().message;
+      EXPECT_TRUE(says(sentence(large.error()), rounded_text(residual).c_str()));
+      EXPECT_TRUE(says(sentence(large.error()), "smaller time-factor")) << large.error().message;
       const auto small = judge({}, 1e-15, {}, result);
       ASSERT_FALSE(small) << residual;
-      EXPECT_TRUE(says(small.error().message, "larger --time-factor")) << small.error().message;
+      EXPECT_TRUE(says(sentence(small.error()), "larger time-factor")) << small.error().message;
       const auto usual = judge({}, 1, {}, result);
       ASSERT_FALSE(usual) << residual;
-      EXPECT_FALSE(says(usual.error().message, "time")) << usual.error().message;
+      EXPECT_FALSE(says(sentence(usual.error()), "time")) << usual.error().message;
     }
   }
 }
@@ -45,7 +45,7 @@ TEST(Residuals, ThatAreSmallButNotRoundOffAreAWarning) {
   DistanceResult result = with_residuals(2e-3, 1e-12);
   ASSERT_TRUE(judge({}, 1, {}, result));
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_TRUE(says(result.warnings[0], "0.002")) << result.warnings[0];
+  EXPECT_TRUE(says(sentence(result.warnings[0]), "0.002")) << sentence(result.warnings[0]);
 }
 
 TEST(Residuals, OfThePenaltyModeAreAWarningWhileTheyAreNumbers) {
@@ -68,8 +68,8 @@ TEST(Slopes, ThatNoDistanceHasAreAWarningWithTheCure) {
   EXPECT_TRUE(good.warnings.empty());
   ASSERT_TRUE(judge({}, 1000, {}, blurred));
   ASSERT_EQ(blurred.warnings.size(), 1U);
-  for (const char* part : {"0.61", "1e+03", "smaller --time-factor"}) {
-    EXPECT_TRUE(says(blurred.warnings[0], part)) << blurred.warnings[0];
+  for (const char* part : {"0.61", "1e+03", "smaller time-factor"}) {
+    EXPECT_TRUE(says(sentence(blurred.warnings[0]), part)) << sentence(blurred.warnings[0]);
   }
 }
 

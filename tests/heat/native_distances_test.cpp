@@ -118,8 +118,8 @@ TEST(NativeBackend, RoundsWithoutAlarm) {
   const auto answer = method->solve(SourceSet::of_vertices({5}));
   ASSERT_TRUE(answer);
   EXPECT_GT(answer->quality.poisson_residual, 1e-10);  // it did round
-  EXPECT_EQ(method->warnings(), std::vector<std::string>());
-  EXPECT_EQ(answer->warnings, std::vector<std::string>());
+  EXPECT_EQ(method->warnings(), std::vector<Warning>());
+  EXPECT_EQ(answer->warnings, std::vector<Warning>());
 }
 
 TEST(NativeBackend, KeepsDoublesWhereWeightsDifferByManyOrders) {

@@ -55,7 +55,7 @@ template <class T>
 void expect_refused(const Result<T>& parsed, const std::string& says) {
   ASSERT_FALSE(parsed);
   EXPECT_EQ(parsed.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(parsed.error().message.find(says), std::string::npos) << parsed.error().message;
+  EXPECT_NE(sentence(parsed.error()).find(says), std::string::npos) << parsed.error().message;
 }
 
 TEST(OptionText, ThatIsUnknownIsRefusedWithTheNamesThereAre) {

@@ -45,7 +45,7 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
   EXPECT_LE(q.eikonal_error_mean, kSlopeError);
   EXPECT_EQ(q.iterations_heat > 0, iterative);
   EXPECT_EQ(q.iterations_poisson > 0, iterative);
-  EXPECT_TRUE(result.warnings.empty()) << result.warnings.front();
+  EXPECT_TRUE(result.warnings.empty()) << sentence(result.warnings.front());
 }
 
 // 1' (A + t L) u = 1' A u: whatever heat goes in is there afterwards, when none can leave.
@@ -96,8 +96,10 @@ TEST_F(QualityResponds, DistancesBelowZeroAreCountedAndSaid) {
   ASSERT_GT(shifted.quality.clamped_vertices, 0);
   const std::string count = std::to_string(shifted.quality.clamped_vertices) + " vertices (";
   ASSERT_EQ(shifted.warnings.size(), 1U);
-  EXPECT_NE(shifted.warnings[0].find(count), std::string::npos) << shifted.warnings[0];
-  EXPECT_NE(shifted.warnings[0].find("pin-sources"), std::string::npos) << shifted.warnings[0];
+  EXPECT_NE(sentence(shifted.warnings[0]).find(count), std::string::npos)
+      << sentence(shifted.warnings[0]);
+  EXPECT_NE(sentence(shifted.warnings[0]).find("pin-sources"), std::string::npos)
+      << sentence(shifted.warnings[0]);
 }
 
 TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
@@ -108,8 +110,9 @@ TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
   ASSERT_TRUE(judge({}, 1, {}, result));
   ASSERT_EQ(result.warnings.size(), 1U);
   for (const char* part : {"1 vertex (33.3 %)", "no information", "too short", "up to 2.5 from",
-                           "--method wavefront"}) {
-    EXPECT_NE(result.warnings[0].find(part), std::string::npos) << result.warnings[0];
+                           "use method wavefront"}) {
+    EXPECT_NE(sentence(result.warnings[0]).find(part), std::string::npos)
+        << sentence(result.warnings[0]);
   }
 }
 
@@ -119,12 +122,13 @@ TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLine) {
   for (const bool noise : {false, true}) {
     const DistanceResult result = solve(plane, {0}, with_backend(noise ? "faulty" : "native"));
     EXPECT_EQ(result.quality.below_straight_line > 0, noise);
-    EXPECT_EQ(std::ranges::any_of(result.warnings,
-                                  [](const std::string& text) {
-                                    return text.find("straight line to the nearest source") !=
-                                           std::string::npos;
-                                  }),
-              noise);
+    EXPECT_EQ(
+        std::ranges::any_of(result.warnings,
+                            [](const Warning& warning) {
+                              return warning.message.find("straight line to the nearest source") !=
+                                     std::string::npos;
+                            }),
+        noise);
     EXPECT_EQ(result.quality.most_below_straight_line > 0.2, noise);
   }
 }

@@ -8,19 +8,13 @@
 namespace geotherm::test {
 namespace {
 
-const Error kPivot = {ErrorCode::kNumericalFailure, "first: pivot 3 of 8; try another"};
+const Error kPivot = {ErrorCode::kNumericalFailure, "pivot 3 of 8", {"try another"}, "first"};
 
-TEST(Fallback, TellsTheReasonWithoutNameAndCure) {
-  EXPECT_EQ(failure_of("first", kPivot).reason, "pivot 3 of 8");
-  EXPECT_EQ(failure_of("cg", {ErrorCode::kBudgetEnded, "cg ran long"}).reason, "ran long");
-  EXPECT_EQ(failure_of("cg", {ErrorCode::kBudgetEnded, "no cure"}).reason, "no cure");
-}
-
-TEST(Fallback, NamesABackendOnce) {
-  EXPECT_EQ(without_backend("cg: it ended; less", "cg"), "it ended; less");
-  EXPECT_EQ(without_backend("cg needs 2 MB; less", "cg"), "needs 2 MB; less");
-  EXPECT_EQ(without_backend("cgx needs 2 MB", "cg"), "cgx needs 2 MB");
-  EXPECT_EQ(without_backend("needs 2 MB", ""), "needs 2 MB");
+TEST(Fallback, HasTheMessageAsItsReason) {
+  const Fallback failed = failure_of("first", kPivot);
+  EXPECT_EQ(failed.backend, "first");
+  EXPECT_EQ(failed.reason, "pivot 3 of 8");
+  EXPECT_EQ(sentence(failed.error), "first: pivot 3 of 8; try another");
 }
 
 TEST(Fallback, GoesThroughTheOthersInTheirOrder) {
@@ -45,12 +39,13 @@ TEST(Fallback, AsksForAFactorOrForNone) {
 
 TEST(Fallback, SaysWhoFailedWhyAndWhoTookOver) {
   const std::vector<Fallback> failed = {
-      failure_of("first", kPivot), failure_of("second", {ErrorCode::kOutOfMemory, "2 GB; less"})};
+      failure_of("first", kPivot),
+      failure_of("second", {ErrorCode::kOutOfMemory, "2 GB", {"less"}, "second"})};
   EXPECT_EQ(takeover_text(failed, "third"),
             "first failed: pivot 3 of 8; second failed: 2 GB; third took over");
-  EXPECT_EQ(joint_error(failed).message, "first: pivot 3 of 8, second: 2 GB; less");
+  EXPECT_EQ(sentence(joint_error(failed)), "first: pivot 3 of 8, second: 2 GB; less");
   EXPECT_EQ(joint_error(failed).code, ErrorCode::kOutOfMemory);
-  EXPECT_EQ(joint_error({failed.data(), 1}).message, kPivot.message);
+  EXPECT_EQ(sentence(joint_error({failed.data(), 1})), sentence(kPivot));
 }
 
 }  // namespace

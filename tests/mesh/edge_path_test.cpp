@@ -63,7 +63,7 @@ TEST_F(EdgePaths, DoNotLeaveAComponent) {
   const auto path = graph_->shortest_path(0, 5);
   ASSERT_FALSE(path);
   EXPECT_EQ(path.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(path.error().message.find("vertex 0 to vertex 5"), std::string::npos);
+  EXPECT_NE(sentence(path.error()).find("vertex 0 to vertex 5"), std::string::npos);
 }
 
 TEST_F(EdgePaths, KnowWhichVerticesAreAdjacent) {

@@ -60,7 +60,7 @@ TEST_P(FuzzedReader, gives_a_mesh_or_one_line_of_why_not) {
       ASSERT_GT(file->mesh.face_count(), 0);
       continue;
     }
-    const std::string& message = file.error().message;
+    const std::string message = sentence(file.error());
     ASSERT_TRUE(message.starts_with(path + ": ")) << message;
     ASSERT_GT(message.size(), path.size() + 2);
     ASSERT_LT(message.size(), path.size() + 250) << message;

@@ -63,7 +63,7 @@ TEST(NpyRows, OfFloatsRefuseWhatTheyCannotHold) {
     ASSERT_TRUE(rows);
     const auto written = rows->append(std::vector<double>{0, value});
     ASSERT_FALSE(written) << value;
-    EXPECT_NE(written.error().message.find("; write float64"), std::string::npos);
+    EXPECT_NE(sentence(written.error()).find("; write float64"), std::string::npos);
   }
   EXPECT_EQ(folder.names(), std::vector<std::string>{});
 }
@@ -85,7 +85,7 @@ TEST(NpyRows, SayThatADeviceIsFull) {
   auto rows = NpyRows::open("/dev/full", 1, 1, NpyType::kFloat64);
   ASSERT_FALSE(rows);
   EXPECT_EQ(rows.error().code, ErrorCode::kBadFile);
-  EXPECT_NE(rows.error().message.find("No space left"), std::string::npos);
+  EXPECT_NE(sentence(rows.error()).find("No space left"), std::string::npos);
 }
 
 TEST(RoomFor, IsKnownOfFoldersAlone) {
@@ -99,7 +99,7 @@ TEST(NpyType, ReadsBackFromItsText) {
   for (const NpyType type : {NpyType::kFloat64, NpyType::kFloat32}) {
     EXPECT_EQ(*parse_npy_type(to_text(type)), type);
   }
-  EXPECT_NE(parse_npy_type("int").error().message.find("float64, float32"), std::string::npos);
+  EXPECT_NE(sentence(parse_npy_type("int").error()).find("float64, float32"), std::string::npos);
 }
 
 }  // namespace

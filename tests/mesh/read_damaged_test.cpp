@@ -84,7 +84,7 @@ std::vector<Damage> off_damages() {
       {"off_not_off", "a.off", "solid\n",
        "line 1: an OFF file starts with the word OFF in the header"},
       {"off_binary", "a.off", "OFF BINARY\n",
-       "line 1: binary OFF is not supported; save it as text in the header"},
+       "line 1: binary OFF is not supported in the header; save it as text"},
       {"off_four_dimensions", "a.off", "4OFF\n1 1 0\n",
        "line 1: the format 4OFF has points that are not in 3 dimensions in the header"},
       {"off_no_counts", "a.off", "OFF\n", "line 2: the file ends in the header"},
@@ -229,7 +229,7 @@ TEST_P(DamagedFile, is_refused_with_its_place_and_cause) {
   const Result<MeshFile> file = read_mesh(path);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::kBadFile);
-  EXPECT_EQ(file.error().message, path + ": " + GetParam().message);
+  EXPECT_EQ(sentence(file.error()), path + ": " + GetParam().message);
 }
 
 const auto kName = [](const auto& test) { return test.param.name; };
@@ -244,13 +244,13 @@ TEST(DamagedObj, of_many_megabytes_names_the_right_line) {
   for (int i = 0; i < 200000; ++i) lines += "v 0.25 0.5 0.75\n";
   const std::string path =
       directory.write("a.obj", lines + "f 1 2 3\nf 1 2 400001\n" + lines + "f 1 2 x\nf 1 2 y\n");
-  EXPECT_EQ(read_mesh(path).error().message,
+  EXPECT_EQ(sentence(read_mesh(path).error()),
             path + ": line 400003: \"x\" is not a corner of a face (v, v/vt, v//vn, v/vt/vn)");
   directory.write("a.obj", lines + "f 1 2 3\nf 1 2 400001\n" + lines);
-  EXPECT_EQ(read_mesh(path).error().message,
+  EXPECT_EQ(sentence(read_mesh(path).error()),
             path + ": line 200002: a face uses vertex 400001, but the file has 400000 vertices");
   directory.write("a.obj", lines + lines + "f -1 -2 -3\nf -1 -2 -400001\n");
-  EXPECT_EQ(read_mesh(path).error().message,
+  EXPECT_EQ(sentence(read_mesh(path).error()),
             path +
                 ": line 400002: a face uses vertex -400001, but only 400000 vertices stand "
                 "before it");
@@ -259,7 +259,7 @@ TEST(DamagedObj, of_many_megabytes_names_the_right_line) {
 void expect_message(const std::string& path, const std::string& message) {
   const Result<MeshFile> file = read_mesh(path);
   ASSERT_FALSE(file);
-  EXPECT_EQ(file.error().message, path + ": " + message);
+  EXPECT_EQ(sentence(file.error()), path + ": " + message);
 }
 
 TEST(UnreadableFile, that_is_empty_is_called_empty) {
@@ -300,7 +300,7 @@ TEST(UnreadableFile, of_an_unknown_extension_is_told_which_there_are) {
 }
 
 TEST(UnreadableFile, with_control_characters_in_its_name_has_a_message_of_one_line) {
-  EXPECT_EQ(read_mesh("/no\nwhere.obj").error().message, "/no?where.obj: no such file");
+  EXPECT_EQ(sentence(read_mesh("/no\nwhere.obj").error()), "/no?where.obj: no such file");
 }
 
 }  // namespace

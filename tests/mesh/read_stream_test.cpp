@@ -58,8 +58,8 @@ TEST(Stream, IsReadToItsEndHoweverLong) {
 }
 
 TEST(Stream, SaysWhatIsWrongWithIt) {
-  EXPECT_EQ(read_from_pipe("", "obj").error().message, "the pipe: there was nothing to read");
-  EXPECT_EQ(read_from_pipe("v 1 2\n", "obj").error().message.find("the pipe: line 1"), 0U);
+  EXPECT_EQ(sentence(read_from_pipe("", "obj").error()), "the pipe: there was nothing to read");
+  EXPECT_EQ(sentence(read_from_pipe("v 1 2\n", "obj").error()).find("the pipe: line 1"), 0U);
   EXPECT_EQ(read_from_pipe("v 1 2 3\n", "xyz").error().code, ErrorCode::kNotAvailable);
   EXPECT_EQ(read_mesh(-1, "obj", "nothing").error().code, ErrorCode::kBadFile);
 }

@@ -88,7 +88,7 @@ TEST(Subdivide, RefusesMoreFacesThanCanBeNumbered) {
   const auto none = subdivide(*mesh, 12);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().code, ErrorCode::kBadInput);
-  EXPECT_NE(none.error().message.find("at most 11 times, to 335544320 faces"), std::string::npos)
+  EXPECT_NE(sentence(none.error()).find("at most 11 times, to 335544320 faces"), std::string::npos)
       << none.error().message;
   EXPECT_FALSE(subdivide(*mesh, -1));
   EXPECT_FALSE(subdivide(*mesh, std::numeric_limits<int>::max()));

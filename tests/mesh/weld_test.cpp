@@ -104,7 +104,7 @@ TEST(Weld, SaysWhyADistanceDoesNotDo) {
   }
   const auto collapsed = weld(*mesh, 10);
   ASSERT_FALSE(collapsed);
-  EXPECT_NE(collapsed.error().message.find("every face collapses"), std::string::npos);
+  EXPECT_NE(sentence(collapsed.error()).find("every face collapses"), std::string::npos);
 }
 
 TEST(FindCracks, FindsTheDistanceThatClosesThem) {

@@ -146,7 +146,8 @@ TEST_F(DistanceFile, csv_holds_fields_of_vertices_and_npy_none) {
   for (const char* name : {"g.csv", "g.npy"}) {
     const auto refused = write_distances(directory.path(name), pyramid(), kDistances, {}, all);
     ASSERT_FALSE(refused);
-    EXPECT_NE(refused.error().message.find("write "), std::string::npos) << refused.error().message;
+    EXPECT_NE(sentence(refused.error()).find("write "), std::string::npos)
+        << refused.error().message;
     EXPECT_FALSE(std::filesystem::exists(directory.path(name)));
   }
 }
@@ -154,15 +155,15 @@ TEST_F(DistanceFile, csv_holds_fields_of_vertices_and_npy_none) {
 TEST_F(DistanceFile, obj_is_refused_with_the_formats_that_hold_values) {
   const Result<void> done = write_distances(directory.path("a.obj"), pyramid(), kDistances);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("holds no value per vertex; write .ply or .vtp"),
+  EXPECT_NE(sentence(done.error()).find("holds no value per vertex; write .ply or .vtp"),
             std::string::npos);
   EXPECT_EQ(directory.names(), std::vector<std::string>());
 }
 
 TEST_F(DistanceFile, of_an_unknown_extension_is_told_which_there_are) {
-  EXPECT_EQ(check_distance_path("a.xyz").error().message,
+  EXPECT_EQ(sentence(check_distance_path("a.xyz").error()),
             "a.xyz: unknown extension \".xyz\"; there are .csv .npy .ply .vtp");
-  EXPECT_EQ(write_mesh("a.vtp", pyramid()).error().message,
+  EXPECT_EQ(sentence(write_mesh("a.vtp", pyramid()).error()),
             "a.vtp: unknown extension \".vtp\"; there are .obj .ply .off .stl");
   EXPECT_TRUE(check_distance_path("-"));
   EXPECT_TRUE(check_distance_path("dir.x/a.CSV"));
@@ -172,14 +173,14 @@ TEST_F(DistanceFile, needs_one_distance_per_vertex) {
   const Result<void> done =
       write_distances(directory.path("a.csv"), pyramid(), std::vector<double>(4));
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("4 distances for 5 vertices"), std::string::npos);
+  EXPECT_NE(sentence(done.error()).find("4 distances for 5 vertices"), std::string::npos);
 }
 
 TEST_F(DistanceFile, stl_refuses_what_a_float_cannot_hold) {
   const TriangleMesh mesh = *TriangleMesh::build({{0, 0, 0}, {1e40, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const Result<void> done = write_mesh(directory.path("a.stl"), mesh);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("vertex 1 is too far away"), std::string::npos);
+  EXPECT_NE(sentence(done.error()).find("vertex 1 is too far away"), std::string::npos);
   EXPECT_EQ(directory.names(), std::vector<std::string>());
 }
 
@@ -214,14 +215,14 @@ TEST_F(WrittenFile, into_a_full_device_fails_with_the_reason) {
   const Result<void> done = write_file("/dev/full", "anything");
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, ErrorCode::kBadFile);
-  EXPECT_NE(done.error().message.find("/dev/full: cannot be written: "), std::string::npos);
+  EXPECT_NE(sentence(done.error()).find("/dev/full: cannot be written: "), std::string::npos);
 }
 
 TEST_F(WrittenFile, in_a_missing_directory_fails_with_the_path) {
   const std::string path = directory.path("none/a.txt");
   const Result<void> done = write_file(path, "x");
   ASSERT_FALSE(done);
-  EXPECT_TRUE(done.error().message.starts_with(path + ": cannot be written: "));
+  EXPECT_TRUE(sentence(done.error()).starts_with(path + ": cannot be written: "));
 }
 
 TEST_F(WrittenFile, onto_a_directory_fails_and_leaves_nothing) {

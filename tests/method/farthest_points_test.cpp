@@ -169,7 +169,7 @@ TEST(FarthestPoints, RefuseWhatThereIsNot) {
   const auto refusal = [&](Index count, Index first) {
     const auto valid = check_sampling(*mesh, count, {first});
     EXPECT_FALSE(valid);
-    return valid ? std::string() : valid.error().message;
+    return valid ? std::string() : sentence(valid.error());
   };
   EXPECT_NE(refusal(0, kNoIndex).find("1 to 4"), std::string::npos);
   EXPECT_NE(refusal(5, kNoIndex).find("5 samples were asked for"), std::string::npos);
@@ -190,9 +190,9 @@ TEST(FarthestPoints, OfAMeshWithoutAreaAreRefusedForThat) {
     const auto valid = check_sampling(*finish(draft), 9);
     ASSERT_FALSE(valid);
     EXPECT_EQ(valid.error().code, ErrorCode::kBadFile);
-    EXPECT_NE(valid.error().message.find("no face with area (1 face, "), std::string::npos)
+    EXPECT_NE(sentence(valid.error()).find("no face with area (1 face, "), std::string::npos)
         << valid.error().message;
-    EXPECT_NE(valid.error().message.find("; check how"), std::string::npos);
+    EXPECT_NE(sentence(valid.error()).find("; check how"), std::string::npos);
   }
 }
 

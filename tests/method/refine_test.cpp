@@ -128,7 +128,7 @@ TEST(Refined, RefusesWhatIsNotOnTheMeshInItsNumbers) {
     const auto none = (*method)->solve(set);
     ASSERT_FALSE(none);
     EXPECT_EQ(none.error().code, ErrorCode::kBadInput);
-    EXPECT_NE(none.error().message.find(words), std::string::npos) << none.error().message;
+    EXPECT_NE(sentence(none.error()).find(words), std::string::npos) << none.error().message;
   };
   refused({}, "no source");
   refused(SourceSet::of_vertices({42}), "vertices are 0 to 41");

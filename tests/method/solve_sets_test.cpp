@@ -58,7 +58,7 @@ TEST(SolveSetsThreads, TurnTheEndOfMemoryIntoAnError) {
                    });
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kOutOfMemory);
-    EXPECT_NE(result.error().message.find("fewer faces"), std::string::npos);
+    EXPECT_NE(sentence(result.error()).find("fewer faces"), std::string::npos);
   }
 }
 

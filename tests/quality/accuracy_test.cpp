@@ -106,7 +106,7 @@ TEST(AccuracyTest, APoorAnswerNamesACureThatGivesWhatItSays) {
   const auto report = check_accuracy(mesh, asked.answers());
   ASSERT_TRUE(report && report->is_poor());
   ASSERT_TRUE(report->cure) << report->verdict;
-  ASSERT_EQ(setting_text(*report->cure), "--time-factor 1") << report->verdict;
+  ASSERT_EQ(hint_text({setting_of(*report->cure)}), "time-factor 1") << report->verdict;
   const auto cured = check_accuracy(mesh, ask(mesh, {}, {0}).answers());
   ASSERT_TRUE(cured);
   // Factors are shared where they can be, which rounds otherwise.
@@ -133,10 +133,10 @@ TEST(AccuracyTest, TheVerdictHasTheFigureThatMakesItPoorAndTheSameOfTheCure) {
   ASSERT_TRUE(report.cure) << report.verdict;
   EXPECT_TRUE(report.verdict.starts_with("poor: up to 20 % of the largest distance"))
       << report.verdict;
-  const std::string gain = "with " + setting_text(*report.cure) + " it is up to " +
+  const std::string gain = "with " + hint_text({setting_of(*report.cure)}) + " it is up to " +
                            percent_text(report.cure->max_of_range);
-  EXPECT_NE(report.verdict.find(gain), std::string::npos) << report.verdict;
-  EXPECT_EQ(report.verdict.find(percent_text(report.figures.mean_relative)), std::string::npos);
+  EXPECT_NE(sentence(report).find(gain), std::string::npos) << sentence(report);
+  EXPECT_EQ(sentence(report).find(percent_text(report.figures.mean_relative)), std::string::npos);
 }
 
 TEST(AccuracyTest, NothingIsMeasuredAgainstAMethodThatIsNoBetter) {

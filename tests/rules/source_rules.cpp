@@ -201,6 +201,26 @@ std::string refusal(std::string_view path, const Permission& permission, const s
   return from + " must not use " + header + " (" + library + ")";
 }
 
+/// Whether a string literal of the line holds two dashes and a letter; comments may.
+bool has_option_in_string(std::string_view line) {
+  bool in_string = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const std::string_view rest = line.substr(i);
+    if (!in_string && rest.starts_with("//")) return false;
+    if (!in_string && rest.starts_with("'\"'")) {
+      i += 2;
+    } else if (in_string && line[i] == '\\') {
+      ++i;
+    } else if (line[i] == '"') {
+      in_string = !in_string;
+    } else if (in_string && rest.size() > 2 && rest.starts_with("--") &&
+               std::isalpha(static_cast<unsigned char>(rest[2])) != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 bool is_code(std::string_view path) {
@@ -274,6 +294,16 @@ std::vector<Violation> check_backend_conditions(const SourceFile& file) {
                     [&](const char* word) { return condition.find(word) != std::string::npos; });
     if (!on_backend) return;
     found.push_back({file.path, number, "a condition on a backend belongs in the registry"});
+  });
+  return found;
+}
+
+std::vector<Violation> check_option_names(const SourceFile& file) {
+  std::vector<Violation> found;
+  if (!is_code(file.path) || !starts_with_folder(file.path, "solver")) return found;
+  for_each_line(file.text, [&](int number, const std::string& line) {
+    if (!has_option_in_string(line)) return;
+    found.push_back({file.path, number, "a string names an option; a hint names a setting"});
   });
   return found;
 }

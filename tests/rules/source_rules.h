@@ -36,6 +36,9 @@ std::vector<Violation> check_length(const SourceFile& file);
 /// No #if on a backend outside solver/linear/backend_registry.cpp.
 std::vector<Violation> check_backend_conditions(const SourceFile& file);
 
+/// No string of `solver/` names an option of the command line: hints name settings.
+std::vector<Violation> check_option_names(const SourceFile& file);
+
 /// C++ sources and shaders, as opposed to scripts and CMake files.
 bool is_code(std::string_view path);
 

@@ -160,6 +160,17 @@ TEST(Rules, AConditionOnABackendOutsideTheRegistryIsFound) {
   }
 }
 
+TEST(Rules, AnOptionInAStringOfTheSolverIsFound) {
+  for (const char* line : {"f(\"use --method wavefront\");\n", "f('\"', \"a\\\"b\", \"--x\");\n"}) {
+    EXPECT_EQ(check_option_names({"solver/heat/a.cpp", line}).size(), 1U) << line;
+    EXPECT_TRUE(check_option_names({"app/a.cpp", line}).empty()) << line;
+  }
+  for (const char* line : {"--count;\n", "f(\"a\", --b, \"c\");\n", "f(\"-- 3\");\n",
+                           "f();  // \"--method wavefront\"\n", "f('\"', --b, '\"');\n"}) {
+    EXPECT_TRUE(check_option_names({"solver/heat/a.cpp", line}).empty()) << line;
+  }
+}
+
 class RulesTree : public testing::Test {
  protected:
   static const std::vector<SourceFile>& files() {
@@ -202,6 +213,10 @@ TEST_F(RulesTree, EachFolderIncludesOnlyWhatItMay) {
 TEST_F(RulesTree, EachFileSaysItsLicence) { EXPECT_EQ(violations(check_licence), ""); }
 
 TEST_F(RulesTree, NoFileIsLong) { EXPECT_EQ(violations(check_length), ""); }
+
+TEST_F(RulesTree, NoStringOfTheSolverNamesAnOption) {
+  EXPECT_EQ(violations(check_option_names), "");
+}
 
 TEST_F(RulesTree, OnlyTheRegistryHasConditionsOnBackends) {
   EXPECT_EQ(violations(check_backend_conditions), "");

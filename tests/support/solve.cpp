@@ -20,14 +20,14 @@ std::vector<std::string> names(bool iterative) {
 HeatMethod method_of(const MeshPtr& mesh, const HeatOptions& options) {
   auto method = HeatMethod::build(mesh, options);
   // GoogleTest reports it as the failure of the test that is running.
-  if (!method) throw std::runtime_error(method.error().message);
+  if (!method) throw std::runtime_error(sentence(method.error()));
   return std::move(*method);
 }
 
 DistanceResult solve(const HeatMethod& method, const SourceSet& sources,
                      const QueryOptions& query) {
   auto result = method.solve(sources, query);
-  if (!result) throw std::runtime_error(result.error().message);
+  if (!result) throw std::runtime_error(sentence(result.error()));
   return std::move(*result);
 }
 

@@ -263,6 +263,19 @@ TEST_F(Panels, TellAFailureOverThePicture) {
   EXPECT_FALSE(is_drawn("Notices/close"));
 }
 
+TEST_F(Panels, OfferWhatMayHelpAfterAFailure) {
+  open_square();
+  for (const char* line :
+       {"source set 0", "strict on", "backend eigen-ldlt", "memory-limit 1e-6"}) {
+    (void)session_.submit(*app::parse_command(line));
+  }
+  frames(3);
+  click_item("Notices/backend cg");
+  frames(3);
+  EXPECT_EQ(session_.state().options.backend, "cg");
+  EXPECT_EQ(session_.failure(), "");
+}
+
 TEST_F(Panels, WorkWithTheLightThemeAndLargerLetters) {
   open_square();
   click_item("Menu/View");

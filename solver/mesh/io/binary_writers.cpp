@@ -189,9 +189,10 @@ Result<std::string> stl_bytes(const TriangleMesh& mesh) {
     append_floats(has_normal ? Vec3(area / area.norm()) : Vec3(Vec3::Zero()));
     for (std::size_t k = 0; k < 3; ++k) {
       if (at(k).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()}) {
-        return Error{ErrorCode::kBadInput, "vertex " + std::to_string(face[k]) +
-                                               " is too far away for the 32-bit numbers of STL; "
-                                               "write .ply, .obj or .off"};
+        return Error{
+            ErrorCode::kBadInput,
+            "vertex " + std::to_string(face[k]) + " is too far away for the 32-bit numbers of STL",
+            {"write .ply, .obj or .off"}};
       }
       append_floats(at(k));
     }

@@ -41,7 +41,7 @@ Result<FileBytes> FileBytes::read(const std::string& path) {
     if (auto same = file->check_unchanged(); !same) return same.error();
     return read;
   } catch (const ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, printable(path) + ": " + failure.message};
+    return Error{ErrorCode::kBadFile, printable(path) + ": " + failure.message, failure.hint};
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, printable(path) + ": not enough memory to read it"};
   }

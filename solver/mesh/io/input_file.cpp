@@ -55,8 +55,8 @@ InputFile::~InputFile() {
 
 Result<InputFile> InputFile::open(const std::string& path) {
   const std::string shown = printable(path);
-  const auto failure = [&shown](const std::string& cause) {
-    return Error{ErrorCode::kBadFile, shown + ": " + cause};
+  const auto failure = [&shown](const std::string& cause, Hint hint = {}) {
+    return Error{ErrorCode::kBadFile, shown + ": " + cause, std::move(hint)};
   };
   // O_NONBLOCK: opening a pipe must not wait for its writer.
   InputFile file(shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
@@ -64,7 +64,7 @@ Result<InputFile> InputFile::open(const std::string& path) {
   if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &status) != 0) {
     return failure(open_cause(errno));
   }
-  if (S_ISDIR(status.st_mode)) return failure("is a directory; give a mesh file in it");
+  if (S_ISDIR(status.st_mode)) return failure("is a directory", {"give a mesh file in it"});
   if (!S_ISREG(status.st_mode)) return failure("is not a regular file");
   if (status.st_size == 0) return failure("the file is empty (0 bytes)");
   file.before_ = version_in(status);
@@ -91,10 +91,10 @@ void InputFile::read(char* to, std::size_t count, std::size_t place) const {
 Result<void> InputFile::check_unchanged() const {
   struct stat now {};
   if (::fstat(descriptor_, &now) == 0 && version_in(now) == before_) return {};
-  return Error{ErrorCode::kBadFile, shown_ + ": was changed while it was read (it had " +
-                                        std::to_string(size()) + " bytes and now has " +
-                                        std::to_string(now.st_size) +
-                                        "); read it again once it is complete"};
+  return Error{ErrorCode::kBadFile,
+               shown_ + ": was changed while it was read (it had " + std::to_string(size()) +
+                   " bytes and now has " + std::to_string(now.st_size) + ")",
+               {"read it again once it is complete"}};
 }
 
 }  // namespace geotherm::io

@@ -113,8 +113,8 @@ const char* ObjChunk::parse_face(const char* p) {
     }
   }
   if (fan.corners() < 3) {
-    fail_at_line(text, start,
-                 "a face has " + std::to_string(fan.corners()) + " corners; it needs at least 3");
+    fail_at_line(text, start, "a face has " + std::to_string(fan.corners()) + " corners",
+                 {"it needs at least 3"});
   }
   fan.end(polygons);
   return p;

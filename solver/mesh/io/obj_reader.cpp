@@ -111,7 +111,7 @@ class ObjSource {
 [[noreturn]] void fail_in_piece(ObjSource& source, std::size_t i, const ReadFailure& failure) {
   if (failure.line == 0) throw failure;
   const std::size_t line = source.lines_before(i) + failure.line;
-  throw ReadFailure{"line " + std::to_string(line) + ": " + failure.cause};
+  throw ReadFailure{"line " + std::to_string(line) + ": " + failure.cause, 0, {}, failure.hint};
 }
 
 /// Parses all chunks that `is_due`; of several failures the first in the file is thrown.

@@ -23,7 +23,7 @@ void read_keyword(TextScanner& scanner) {
       word != "STOFF" && word != "STCOFF" && word != "STNOFF" && word != "STCNOFF") {
     scanner.fail("an OFF file starts with the word OFF");
   }
-  if (scanner.peek() == "BINARY") scanner.fail("binary OFF is not supported; save it as text");
+  if (scanner.peek() == "BINARY") scanner.fail("binary OFF is not supported", {"save it as text"});
 }
 
 std::size_t read_count(TextScanner& scanner, const char* things, std::size_t bytes_each) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <unordered_set>
+#include <utility>
 
 #include "solver/mesh/io/parse_number.h"
 #include "solver/mesh/io/read_failure.h"
@@ -81,7 +82,7 @@ class HeaderReader {
     } else if (name == "binary_big_endian") {
       header_.format = PlyFormat::kBigEndian;
     } else {
-      fail("unknown format; there are ascii, binary_little_endian, binary_big_endian");
+      fail("unknown format", {"there are ascii, binary_little_endian, binary_big_endian"});
     }
   }
 
@@ -118,7 +119,9 @@ class HeaderReader {
     return *type;
   }
 
-  [[noreturn]] void fail(const std::string& cause) const { fail_at_line(bytes_, start_, cause); }
+  [[noreturn]] void fail(const std::string& cause, Hint hint = {}) const {
+    fail_at_line(bytes_, start_, cause, std::move(hint));
+  }
 
   std::string_view bytes_;
   const char* next_;           ///< the next line

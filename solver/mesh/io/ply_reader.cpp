@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/core/number_text.h"
@@ -204,8 +205,8 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
 
 /// What the file must have to be a mesh; returns the property with the corners of a face.
 std::size_t check_elements(std::string_view bytes, const PlyHeader& header) {
-  const auto fail = [&](const std::string& cause) {
-    fail_at_line(bytes, header.body - 1, cause);  // at the header's end
+  const auto fail = [&](const std::string& cause, Hint hint = {}) {
+    fail_at_line(bytes, header.body - 1, cause, std::move(hint));  // at the header's end
   };
   const PlyElement* const vertex = header.find("vertex");
   if (vertex == nullptr) fail("the header has no element \"vertex\"");
@@ -215,10 +216,11 @@ std::size_t check_elements(std::string_view bytes, const PlyHeader& header) {
     }
   }
   const PlyElement* const face = header.find("face");
+  if (face == nullptr && header.find("tristrips") != nullptr) {
+    fail("the file has triangle strips, which are not supported", {"save it with faces"});
+  }
   if (face == nullptr) {
-    fail(header.find("tristrips") == nullptr
-             ? "the file has no faces (no element \"face\"): a point cloud has no surface"
-             : "the file has triangle strips, which are not supported; save it with faces");
+    fail("the file has no faces (no element \"face\"): a point cloud has no surface");
   }
   int corners = face->find("vertex_indices", true);
   if (corners < 0) corners = face->find("vertex_index", true);

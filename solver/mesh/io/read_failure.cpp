@@ -2,16 +2,18 @@
 #include "solver/mesh/io/read_failure.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace geotherm::io {
 
-void fail_at_line(std::string_view text, const char* where, const std::string& cause) {
+void fail_at_line(std::string_view text, const char* where, const std::string& cause, Hint hint) {
   const auto line = static_cast<std::size_t>(1 + std::count(text.data(), where, '\n'));
-  throw ReadFailure{"line " + std::to_string(line) + ": " + cause, line, cause};
+  throw ReadFailure{"line " + std::to_string(line) + ": " + cause, line, cause, std::move(hint)};
 }
 
-void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause) {
-  throw ReadFailure{"byte " + std::to_string(where - bytes.data()) + ": " + cause};
+void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause, Hint hint) {
+  throw ReadFailure{
+      "byte " + std::to_string(where - bytes.data()) + ": " + cause, 0, {}, std::move(hint)};
 }
 
 std::string quoted(std::string_view text, const char* where) {

@@ -27,16 +27,17 @@ std::size_t most_bytes() {
 }
 
 Error too_large(const std::string& name, std::size_t most) {
-  return {ErrorCode::kOutOfMemory, name + ": a model from a stream may have at most " +
-                                       std::to_string(most) +
-                                       " bytes, half of the memory that is free; write it to a "
-                                       "file and name that"};
+  return {ErrorCode::kOutOfMemory,
+          name + ": a model from a stream may have at most " + std::to_string(most) +
+              " bytes, half of the memory that is free",
+          {"write it to a file and name that"}};
 }
 
 Error ended(const std::string& name, std::size_t size) {
-  return {ErrorCode::kOutOfMemory, name + ": the memory ended after " + std::to_string(size) +
-                                       " bytes of a model from a stream; write it to a file and "
-                                       "name that"};
+  return {
+      ErrorCode::kOutOfMemory,
+      name + ": the memory ended after " + std::to_string(size) + " bytes of a model from a stream",
+      {"write it to a file and name that"}};
 }
 
 }  // namespace

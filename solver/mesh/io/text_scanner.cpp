@@ -2,6 +2,7 @@
 #include "solver/mesh/io/text_scanner.h"
 
 #include <cmath>
+#include <utility>
 
 #include "solver/mesh/io/parse_number.h"
 #include "solver/mesh/io/read_failure.h"
@@ -67,14 +68,14 @@ void TextScanner::skip_line() {
   p_ = newline == std::string_view::npos ? end_ : p_ + newline;
 }
 
-void TextScanner::fail(const std::string& cause) const {
+void TextScanner::fail(const std::string& cause, Hint hint) const {
   std::string message = cause;
   if (thing_ != nullptr) {
     message += std::string(" in ") + thing_;
     if (number_ > 0) message += ' ' + std::to_string(number_);
     if (count_ > 0) message += " of " + std::to_string(count_);
   }
-  fail_at_line(text_, last_, message);
+  fail_at_line(text_, last_, message, std::move(hint));
 }
 
 void TextScanner::fail_unreadable(const char* expected) const {

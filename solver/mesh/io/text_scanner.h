@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "solver/core/hint.h"
+
 namespace geotherm::io {
 
 /// Reads words and numbers from text that is padded as FileBytes's is. White space separates;
@@ -47,7 +49,7 @@ class TextScanner {
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - p_); }
 
   /// Throws "line N: cause in THING NUMBER of COUNT", for the word that was taken last.
-  [[noreturn]] void fail(const std::string& cause) const;
+  [[noreturn]] void fail(const std::string& cause, Hint hint = {}) const;
 
  private:
   const char* next();
