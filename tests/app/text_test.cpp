@@ -100,7 +100,7 @@ TEST(JsonText, ReadsBackAsTheSameDoublesAndHasNullForWhatIsNotFinite) {
   const double third = 1.0 / 3;
   const Json json = {{"a", {{"b", third}, {"c", {1, 2}}, {"d", std::nan("")}}},
                      {"e", std::numeric_limits<double>::infinity()}};
-  const std::string text = to_text(json);
+  const std::string text = app::to_text(json);
   const Json back = Json::parse(text);
   EXPECT_EQ(back["a"]["b"].get<double>(), third);
   EXPECT_TRUE(back["a"]["d"].is_null());
@@ -110,7 +110,7 @@ TEST(JsonText, ReadsBackAsTheSameDoublesAndHasNullForWhatIsNotFinite) {
 }
 
 TEST(JsonText, SurvivesNamesThatAreNoUtf8) {
-  EXPECT_TRUE(Json::accept(to_text(Json{{"name", "a\xff\"b"}})));
+  EXPECT_TRUE(Json::accept(app::to_text(Json{{"name", "a\xff\"b"}})));
 }
 
 }  // namespace
