@@ -241,10 +241,11 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
 Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
                                  const Progress& progress) {
   const std::vector<std::string> colour_maps = drawing.colour_maps();
-  const auto settings = picture_settings(arguments.settings, arguments.picture, colour_maps);
-  if (!settings) return settings.error();
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
+  const auto settings =
+      picture_settings(*asked, arguments.settings, arguments.picture, colour_maps);
+  if (!settings) return settings.error();
   const MethodOptions& options = asked->options;
   if (needs_fields(settings->view) && options.method != MethodKind::kHeat) {
     return Error{ErrorCode::kBadInput,

@@ -7,9 +7,9 @@
 #include "app/compare_report.h"
 #include "app/explore/apply.h"
 #include "app/explore/session.h"
-#include "app/option_value.h"
 #include "app/outputs.h"
 #include "app/text.h"
+#include "app/told.h"
 #include "app/view_picture.h"
 #include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/input_file.h"
@@ -177,7 +177,7 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
                                          std::span<const std::string> colour_maps) {
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
-  const auto picture = picture_settings(arguments.settings, arguments.picture, colour_maps);
+  const auto picture = picture_settings(*asked, arguments.settings, arguments.picture, colour_maps);
   if (!picture) return picture.error();
   const auto sources = source_texts(arguments.sources);
   if (!sources) return sources.error();
@@ -204,8 +204,8 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   const std::vector<std::string> colour_maps = drawing.colour_maps();
   auto commands = commands_of(arguments, colour_maps);
   if (!commands) return commands.error();
-  double scale = 0;
-  if (auto taken = take(scale_in(arguments.scale), "--scale", scale); !taken) return taken.error();
+  const auto scale = scale_in(arguments.scale);
+  if (!scale) return about("--scale", scale.error());
   if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
 
   // A window that opens to say that there is no such file helps nobody.
@@ -218,13 +218,13 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   start.commands = *std::move(commands);
   start.script = arguments.script;
   start.device = arguments.picture.device;
-  start.scale = scale;
+  start.scale = *scale;
   start.validation = arguments.validation;
   start.command = arguments.command;
   if (arguments.settings.has("size")) {
-    const auto settings = picture_settings(arguments.settings, arguments.picture, colour_maps);
-    start.width = settings->width;
-    start.height = settings->height;
+    const PictureSettings picture = settings_in(arguments.settings)->picture;
+    start.width = picture.width;
+    start.height = picture.height;
   }
   if (auto done = window.run(start); !done) return done.error();
   return CommandOutput{};

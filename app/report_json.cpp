@@ -73,7 +73,7 @@ Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
   Json json = Json::array();
   for (const auto* failed : {&method.fallbacks(), &result.fallbacks}) {
     for (const Fallback& each : *failed) {
-      json.push_back({{"backend", each.backend}, {"reason", each.reason}});
+      json.push_back({{"backend", each.backend}, {"reason", each.error.message}});
     }
   }
   return json;

@@ -33,11 +33,11 @@ std::string spelling_of(const Setting& setting) {
 }
 
 /// The phrase, the values there are, and what holds where the option is left out.
-std::string help_of(const Setting& setting) {
+std::string help_of(const Setting& setting, const ViewerState& state) {
   const std::string help(setting.help);
   if (!setting.bare.empty()) return setting.bare == "off" ? "without " + help : help;
   if (!setting.forms.empty()) return help + ": " + std::string(setting.forms);
-  const std::string usual = setting.get(usual_settings());
+  const std::string usual = setting.get(state);
   if (setting.values == nullptr) return help + ", default " + usual;
   std::vector<std::string> values = setting.values();
   for (std::string& value : values) {
@@ -59,6 +59,7 @@ std::vector<std::string_view> names_of(SettingGroup group, std::vector<std::stri
 
 void add_setting_options(CLI::App& command, SettingArguments& arguments,
                          const std::vector<std::string_view>& names) {
+  const ViewerState usual = usual_settings();
   for (const std::string_view name : names) {
     const Setting& setting = *find_setting(name);
     const auto take = [&arguments, name](const std::string& text) {
@@ -67,11 +68,12 @@ void add_setting_options(CLI::App& command, SettingArguments& arguments,
     CLI::Option* const option =
         setting.bare.empty()
             ? command
-                  .add_option_function<std::string>(spelling_of(setting), take, help_of(setting))
+                  .add_option_function<std::string>(spelling_of(setting), take,
+                                                    help_of(setting, usual))
                   ->type_name(std::string(setting.value_name))
             : command.add_flag_callback(
                   spelling_of(setting), [take, bare = std::string(setting.bare)] { take(bare); },
-                  help_of(setting));
+                  help_of(setting, usual));
     option->group(heading_of(setting.group));
   }
 }

@@ -27,8 +27,8 @@ std::vector<std::string> told(const std::vector<Warning>& warnings) {
 std::string told(const AccuracyReport& report) { return sentence(report, kBeforeOption); }
 
 Error about(const std::string& where, Error error) {
-  const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-  return {error.code, where + ": " + subject + error.message, std::move(error.hint)};
+  const Hint hint = std::exchange(error.hint, {});
+  return {error.code, where + ": " + sentence(error), hint};
 }
 
 Error about(const std::string& where, Error error, ErrorCode code) {

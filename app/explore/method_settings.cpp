@@ -191,10 +191,7 @@ std::vector<Setting> method_settings() {
                  "held on the sources.",
        .get = [](const State& s) { return to_text(s.options.heat); },
        .set = [](State& s, const Text& t) { return store(parse_heat_mode(t), s.options.heat); },
-       .values =
-           [] {
-             return Names{"unit", "diffuse", "hold"};
-           }},
+       .values = heat_mode_names},
       {.name = "boundary",
        .of_heat = true,
        .value_name = "RULE",
@@ -204,10 +201,7 @@ std::vector<Setting> method_settings() {
        .get = [](const State& s) { return to_text(s.options.boundary); },
        .set = [](State& s,
                  const Text& t) { return store(parse_boundary_rule(t), s.options.boundary); },
-       .values =
-           [] {
-             return Names{"neumann", "dirichlet", "average"};
-           }},
+       .values = boundary_rule_names},
       {.name = "laplacian",
        .of_heat = true,
        .value_name = "KIND",
@@ -219,10 +213,7 @@ std::vector<Setting> method_settings() {
        .get = [](const State& s) { return to_text(s.options.laplacian); },
        .set = [](State& s,
                  const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
-       .values =
-           [] {
-             return Names{"auto", "cotan", "intrinsic-delaunay", "tufted", "refined"};
-           }},
+       .values = laplacian_names},
       {.name = "variant",
        .of_heat = true,
        .value_name = "NAME",
@@ -230,10 +221,7 @@ std::vector<Setting> method_settings() {
        .detail = "corrected: this program's; classic: as first published.",
        .get = [](const State& s) { return to_text(s.options.variant); },
        .set = [](State& s, const Text& t) { return store(parse_variant(t), s.options.variant); },
-       .values =
-           [] {
-             return Names{"corrected", "classic"};
-           }},
+       .values = variant_names},
       {.name = "precision",
        .of_heat = true,
        .value_name = "NAME",
@@ -243,10 +231,7 @@ std::vector<Setting> method_settings() {
        .get = [](const State& s) { return to_text(s.options.precision); },
        .set = [](State& s,
                  const Text& t) { return store(parse_precision(t), s.options.precision); },
-       .values =
-           [] {
-             return Names{"compact", "refined", "full"};
-           }},
+       .values = precision_names},
       {.name = "memory-limit",
        .of_heat = true,
        .value_name = "SIZE",

@@ -70,7 +70,7 @@ Setting picture_switch(std::string_view name, std::string_view option, std::stri
 }  // namespace
 
 std::vector<Setting> picture_settings_table() {
-  std::vector<Setting> all = {
+  return {
       {.name = "view",
        .group = kPicture,
        .value_name = "VIEW",
@@ -211,7 +211,6 @@ std::vector<Setting> picture_settings_table() {
              return Names{"perspective", "orthographic"};
            }},
   };
-  return all;
 }
 
 }  // namespace geotherm::app

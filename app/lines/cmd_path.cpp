@@ -5,7 +5,6 @@
 
 #include "app/lines/path_report.h"
 #include "app/load_model.h"
-#include "app/option_value.h"
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
 #include "app/solve_steps.h"
@@ -56,8 +55,9 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   PathTask task{asked->reading, asked->picture, {}, {}, {}};
-  auto all = take(parse_path_field(arguments.field), "--field", task.options.field);
-  if (!all) return all.error();
+  const auto field = parse_path_field(arguments.field);
+  if (!field) return about("--field", field.error());
+  task.options.field = *field;
   task.options.closed = arguments.closed;
   task.options.hold_points = arguments.hold;
   const bool geodesic = task.options.field == PathField::kGeodesic;

@@ -60,13 +60,11 @@ void complete_bare_fit(std::vector<std::string>& words) {
   }
 }
 
-Result<PictureSettings> picture_settings(const SettingArguments& settings,
+Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,
                                          const PictureArguments& a,
                                          std::span<const std::string> colour_maps) {
-  const auto state = settings_in(settings);
-  if (!state) return state.error();
-  PictureSettings picture = state->picture;
-  const bool typed_map = settings.has("colour-map");
+  PictureSettings picture = asked.picture;
+  const bool typed_map = typed.has("colour-map");
   if (auto map = choose_colour_map(typed_map, colour_maps, picture.colour_map); !map) {
     return map.error();
   }
@@ -77,7 +75,7 @@ Result<PictureSettings> picture_settings(const SettingArguments& settings,
     if (!frames) return about("--turntable", frames.error());
     picture.turntable = *frames;
   }
-  if (auto fit = choose_fit(settings.has("fit"), picture, picture.camera); !fit) return fit.error();
+  if (auto fit = choose_fit(typed.has("fit"), picture, picture.camera); !fit) return fit.error();
   picture.device = a.device;
   return picture;
 }

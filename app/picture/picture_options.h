@@ -25,9 +25,10 @@ void add_picture_options(CLI::App& command, SettingArguments& settings,
 /// becomes `--fit=tight`.
 void complete_bare_fit(std::vector<std::string>& words);
 
-/// `colour_maps`: the names there are, the default first. Errors: kBadInput, with the option's
+/// `asked`: settings_in() of what was typed, `typed`; `colour_maps`: the names there are, the
+/// default first. Errors: kBadInput, with the option's
 /// name, the value and what is expected.
-Result<PictureSettings> picture_settings(const SettingArguments& settings,
+Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,
                                          const PictureArguments& arguments,
                                          std::span<const std::string> colour_maps);
 

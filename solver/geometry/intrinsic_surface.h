@@ -54,6 +54,11 @@ struct IntrinsicSurface {
   double mean_edge = 0;           ///< of the mesh, model units; also the unit of `intrinsic`
   /// V and inserted vertices.
   Index vertex_count() const { return mesh->vertex_count() + refinement.points; }
+  /// Of a vertex of the mesh or an inserted one, model units.
+  const Vec3& position(Index vertex) const {
+    const Index own = mesh->vertex_count();
+    return vertex < own ? mesh->positions()[vertex] : refinement.positions[vertex - own];
+  }
   std::vector<Warning> warnings;
 
   struct Times {           ///< milliseconds

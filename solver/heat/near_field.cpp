@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <queue>
+#include <span>
 #include <utility>
 
 #include "solver/wave/segment_distance.h"
@@ -94,7 +95,10 @@ class Neighbourhood {
   /// along edges, up to the radius.
   void gather(std::size_t most) {
     for (const auto& anchor : anchors_) reach(anchor.row, anchor.offset);
-    for (const auto& piece : pieces_) add_face(piece.face);
+    for (const auto& piece : pieces_) {
+      for (const Index row : mesh_.faces[piece.face]) reach(row, kUnreached);
+      add_face(piece.face);
+    }
     double last = 0;
     while (!queue_.empty()) {
       const auto [distance, number] = queue_.top();
@@ -129,7 +133,8 @@ class Neighbourhood {
       }
     }
     std::vector<Vec3> positions;
-    for (const Index row : rows_.keys()) positions.push_back(position(surface_.vertex_of_row[row]));
+    for (const Index row : rows_.keys())
+      positions.push_back(surface_.position(surface_.vertex_of_row[row]));
     auto built = TriangleMesh::build(std::move(positions), mesh.faces);
     if (!built) return built.error();
     out->mesh = std::make_shared<const TriangleMesh>(*std::move(built));
@@ -149,30 +154,22 @@ class Neighbourhood {
   }
 
   /// The sides beyond which there are other faces.
-  SourceSeeds ends() const {
-    SourceSeeds out;
-    for (Index number = 0; number < static_cast<Index>(operator_face_.size()); ++number) {
-      const auto at = corners_of(mesh_.layout[operator_face_[number]]);
-      for (int k = 0; k < 3; ++k) {
-        if (ends_at(number, k)) out.pieces.push_back({number, at[k], at[next_corner(k)], 0.0, 0});
-      }
+  std::vector<Side> ends() const {
+    std::vector<Side> sides;
+    for (Side side = 0; side < 3 * static_cast<Side>(operator_face_.size()); ++side) {
+      if (is_end(face_of(side), corner_of(side))) sides.push_back(side);
     }
-    return out;
+    return sides;
   }
 
-  /// The least distance from a source to an end, or below it.
-  double least_outward(const WaveFront& wave, const WaveTables& tables) const {
-    double least = kUnreached;
-    for (std::size_t rank = 0; rank < tables.faces.size(); ++rank) {
-      const WaveFace& face = tables.faces[rank];
-      for (int k = 0; k < 3; ++k) {
-        if (!ends_at(tables.intrinsic_face[rank], k)) continue;
-        // No point of a side is farther than this from an end of it or a sample.
-        const double between = face.length[k] / (2 * (kSamples + 1));
-        least = std::min(least, wave.least_on(face.edge[k]) - between);
-      }
+  SourceSeeds seeds_on(std::span<const Side> sides) const {
+    SourceSeeds out;
+    for (const Side side : sides) {
+      const auto at = corners_of(mesh_.layout[operator_face_[face_of(side)]]);
+      const int k = corner_of(side);
+      out.pieces.push_back({face_of(side), at[k], at[next_corner(k)], 0.0, 0});
     }
-    return std::max(least, 0.0);
+    return out;
   }
 
   /// A way through other faces is at least as long as the shortest way to an end, and from any end
@@ -205,20 +202,14 @@ class Neighbourhood {
     if (distance * per_length_ <= kRadius) queue_.emplace(distance, number);
   }
 
+  /// A face whose corners have been reached.
   void add_face(Index f) {
-    for (const Index row : mesh_.faces[f]) reach(row, kUnreached);
     if (faces_.add(mesh_.intrinsic_face[f]).second) operator_face_.push_back(f);
-  }
-
-  const Vec3& position(Index vertex) const {
-    const Index own = surface_.mesh->vertex_count();
-    return vertex < own ? surface_.mesh->positions()[vertex]
-                        : surface_.refinement.positions[vertex - own];
   }
 
   /// Whether there are faces beyond a side that are not here. Sides without a twin may have some,
   /// but at an end all of whose faces are here.
-  bool ends_at(Index number, int k) const {
+  bool is_end(Index number, int k) const {
     const Side twin = surface_.intrinsic.twin[3 * faces_.keys()[number] + k];
     if (twin != kNoSide) return faces_.find(face_of(twin)) == kNoIndex;
     const Face& face = mesh_.faces[operator_face_[number]];
@@ -238,6 +229,20 @@ class Neighbourhood {
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
+/// The least distance from a source to one of these sides, or below it.
+double least_distance(const WaveFront& wave, const WaveTables& tables,
+                      std::span<const Side> sides) {
+  double least = kUnreached;
+  for (const Side side : sides) {
+    const WaveFace& face = tables.faces[tables.rank_of_face[face_of(side)]];
+    const int k = corner_of(side);
+    // No point of a side is farther than this from an end of it or a sample.
+    const double between = face.length[k] / (2 * (kSamples + 1));
+    least = std::min(least, wave.least_on(face.edge[k]) - between);
+  }
+  return std::max(least, 0.0);
+}
+
 /// Errors: kOutOfMemory.
 Result<void> add_component(const Surface& surface, const SourceAnchors& anchors, Index component,
                            std::vector<NearVertex>& out) {
@@ -251,8 +256,9 @@ Result<void> add_component(const Surface& surface, const SourceAnchors& anchors,
   WaveFront wave(tables, kSamples), inward(tables, kSamples);
   using Outcome = WaveFront::Outcome;
   if (wave.run(**local, near.sources(), false, {}) != Outcome::kDone) return {};
-  if (inward.run(**local, near.ends(), false, {}) != Outcome::kDone) return {};
-  near.add_to(out, tables, wave, near.least_outward(wave, tables), inward);
+  const std::vector<Side> ends = near.ends();
+  if (inward.run(**local, near.seeds_on(ends), false, {}) != Outcome::kDone) return {};
+  near.add_to(out, tables, wave, least_distance(wave, tables, ends), inward);
   return {};
 }
 

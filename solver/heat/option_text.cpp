@@ -50,6 +50,13 @@ std::string name_of(const Names<Enum, N>& names, Enum value) {
 }
 
 template <class Enum, std::size_t N>
+std::vector<std::string> all_of(const Names<Enum, N>& names) {
+  std::vector<std::string> all;
+  for (const auto& [each, name] : names) all.emplace_back(name);
+  return all;
+}
+
+template <class Enum, std::size_t N>
 Result<Enum> value_of(const Names<Enum, N>& names, std::string_view what, std::string_view text) {
   std::string known;
   for (const auto& [value, name] : names) {
@@ -102,6 +109,12 @@ std::string to_text(BoundaryRule rule) { return name_of(kBoundaryRules, rule); }
 std::string to_text(LaplacianKind kind) { return name_of(kLaplacians, kind); }
 std::string to_text(Variant variant) { return name_of(kVariants, variant); }
 std::string to_text(Precision precision) { return name_of(kPrecisions, precision); }
+
+std::vector<std::string> heat_mode_names() { return all_of(kHeatModes); }
+std::vector<std::string> boundary_rule_names() { return all_of(kBoundaryRules); }
+std::vector<std::string> laplacian_names() { return all_of(kLaplacians); }
+std::vector<std::string> variant_names() { return all_of(kVariants); }
+std::vector<std::string> precision_names() { return all_of(kPrecisions); }
 
 Result<TimeStep> parse_time_step(std::string_view text, double factor) {
   bool has_value = false;

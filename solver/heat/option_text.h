@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "solver/core/result.h"
 #include "solver/heat/heat_options.h"
@@ -18,6 +19,13 @@ std::string to_text(BoundaryRule rule);
 std::string to_text(LaplacianKind kind);
 std::string to_text(Variant variant);
 std::string to_text(Precision precision);
+
+/// Every name of a kind, the default first.
+std::vector<std::string> heat_mode_names();
+std::vector<std::string> boundary_rule_names();
+std::vector<std::string> laplacian_names();
+std::vector<std::string> variant_names();
+std::vector<std::string> precision_names();
 
 /// `factor` (m) is no part of the time step's text; it is kept from the argument.
 Result<TimeStep> parse_time_step(std::string_view text, double factor = 1.0);

@@ -58,8 +58,7 @@ struct UsedVertices {
       if (v < own && !surface.on_surface[v]) continue;
       local[v] = static_cast<Index>(vertices.size());
       vertices.push_back(static_cast<Index>(v));
-      positions.push_back(v < own ? surface.mesh->positions()[v]
-                                  : surface.refinement.positions[v - own]);
+      positions.push_back(surface.position(vertices.back()));
       parts.of.push_back(surface.parts.of[v]);
     }
     parts.count = surface.parts.count;

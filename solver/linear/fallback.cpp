@@ -37,10 +37,6 @@ Successor successor_of(const Error& error) {
   }
 }
 
-Fallback failure_of(std::string backend, Error error) {
-  return {std::move(backend), error.message, std::move(error)};
-}
-
 std::string next_backend(std::span<const Fallback> failed, Successor successor) {
   for (const std::string& name : backend_names()) {
     if (std::ranges::count(failed, name, &Fallback::backend) > 0) continue;
@@ -52,7 +48,8 @@ std::string next_backend(std::span<const Fallback> failed, Successor successor) 
 
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by) {
   std::string text;
-  for (const Fallback& each : failed) text += each.backend + " failed: " + each.reason + "; ";
+  for (const Fallback& each : failed)
+    text += each.backend + " failed: " + each.error.message + "; ";
   return text + std::string(by) + " took over";
 }
 
@@ -61,7 +58,7 @@ Error joint_error(std::span<const Fallback> failed) {
   if (failed.size() == 1) return last;
   Error error{last.code, {}, last.hint};
   for (const Fallback& each : failed) {
-    error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.reason;
+    error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.error.message;
   }
   return error;
 }

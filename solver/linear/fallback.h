@@ -14,8 +14,7 @@ namespace geotherm {
 /// A backend that could not do the work that was asked of it.
 struct Fallback {
   std::string backend;
-  std::string reason;  ///< the error's message
-  Error error;         ///< as it came
+  Error error;  ///< as it came
 };
 
 /// Which backend may do what another one could not.
@@ -36,13 +35,10 @@ struct Trial {
   Successor successor = Successor::kNone;
 };
 
-/// A failure as it is told.
-Fallback failure_of(std::string backend, Error error);
-
 /// The first of backend_names() that has not failed and may follow; empty where there is none.
 std::string next_backend(std::span<const Fallback> failed, Successor successor);
 
-/// "A failed: REASON; B took over". Precondition: `failed` is not empty.
+/// "A failed: MESSAGE; B took over". Precondition: `failed` is not empty.
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by);
 
 /// What all of them say, with the code and the hint of the last. Precondition: not empty.
@@ -61,7 +57,7 @@ Result<Value> first_that_works(std::string backend, bool strict, std::vector<Fal
     const Error& error = trial.outcome.error();
     const bool final = error.code == ErrorCode::kCancelled || error.code == ErrorCode::kBadInput;
     if (strict || final) return error;
-    failed.push_back(failure_of(backend, error));
+    failed.push_back({backend, error});
     backend = next_backend(failed, trial.successor);
     if (backend.empty()) return joint_error(failed);
   }

@@ -31,18 +31,13 @@ std::uint64_t spread(std::uint64_t x) {
 
 /// Vertices that faces use, along a space-filling curve.
 std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
-  const auto own = static_cast<std::size_t>(base.mesh->vertex_count());
-  const auto position = [&base, own](Index v) -> const Vec3& {
-    const auto at = static_cast<std::size_t>(v);
-    return at < own ? base.mesh->positions()[at] : base.refinement.positions[at - own];
-  };
   std::vector<Index> used;
   Vec3 low = Vec3::Constant(kUnreached), high = -low;
   for (Index v = 0; v < base.vertex_count(); ++v) {
     if (static_cast<std::size_t>(v) < base.on_surface.size() && base.on_surface[v] == 0) continue;
     used.push_back(v);
-    low = low.cwiseMin(position(v));
-    high = high.cwiseMax(position(v));
+    low = low.cwiseMin(base.position(v));
+    high = high.cwiseMax(base.position(v));
   }
   const Vec3 origin = low / 2;  // halves, because the extent may be beyond the doubles' range
   const double extent = (high / 2 - origin).maxCoeff();
@@ -52,7 +47,7 @@ std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   const int pieces = piece_count(std::min(threads, kMostPieces), std::ssize(used), kGrain);
   for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
-      const Vec3 at = (position(used[i]) / 2 - origin) * steps;
+      const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
       std::uint64_t code = 0;
       for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
       codes[i] = {code, used[i]};

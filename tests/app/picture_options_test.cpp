@@ -9,13 +9,20 @@ namespace geotherm::test {
 namespace {
 
 using app::parse_view;
-using app::picture_settings;
 using app::PictureArguments;
 using app::PictureFit;
 using app::PictureSettings;
 using app::SettingArguments;
 
 const std::vector<std::string> kMaps = {"red-blue", "viridis"};
+
+Result<PictureSettings> picture_settings(const SettingArguments& typed,
+                                         const PictureArguments& arguments,
+                                         const std::vector<std::string>& maps) {
+  const auto asked = app::settings_in(typed);
+  if (!asked) return asked.error();
+  return app::picture_settings(*asked, typed, arguments, maps);
+}
 
 TEST(PictureOptions, AreTheDefaultsOfTheSettingsWhenNothingIsTyped) {
   const auto settings = picture_settings({}, {}, kMaps);

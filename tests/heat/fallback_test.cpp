@@ -49,8 +49,8 @@ TEST_P(FailingSetup, IsTakenOverByTheNextBackend) {
   EXPECT_EQ(method.options().backend, next);
   ASSERT_EQ(method.fallbacks().size(), 1U);
   EXPECT_EQ(method.fallbacks()[0].backend, "faulty");
-  EXPECT_TRUE(says(method.warnings(),
-                   "faulty failed: " + method.fallbacks()[0].reason + "; " + next + " took over"));
+  EXPECT_TRUE(says(method.warnings(), "faulty failed: " + method.fallbacks()[0].error.message +
+                                          "; " + next + " took over"));
   const DistanceResult answer = solve(method, kSources);
   EXPECT_EQ(answer.distances, solve(method_of(mesh, asking(next)), kSources).distances);
   EXPECT_EQ(answer.backend, next);
@@ -99,8 +99,8 @@ TEST_P(FailingQuery, IsAnsweredByTheNextBackend) {
   const DistanceResult answer = solve(method, kSources);
   EXPECT_EQ(answer.backend, next);
   ASSERT_EQ(answer.fallbacks.size(), 1U);
-  EXPECT_TRUE(says(answer.warnings,
-                   "faulty failed: " + answer.fallbacks[0].reason + "; " + next + " took over"));
+  EXPECT_TRUE(says(answer.warnings, "faulty failed: " + answer.fallbacks[0].error.message + "; " +
+                                        next + " took over"));
   EXPECT_EQ(answer.distances, solve(method_of(mesh, asking(next)), kSources).distances);
 }
 

@@ -11,27 +11,27 @@ namespace {
 const Error kPivot = {ErrorCode::kNumericalFailure, "pivot 3 of 8", {"try another"}, "first"};
 
 TEST(Fallback, HasTheMessageAsItsReason) {
-  const Fallback failed = failure_of("first", kPivot);
+  const Fallback failed = {"first", kPivot};
   EXPECT_EQ(failed.backend, "first");
-  EXPECT_EQ(failed.reason, "pivot 3 of 8");
+  EXPECT_EQ(failed.error.message, "pivot 3 of 8");
   EXPECT_EQ(sentence(failed.error), "first: pivot 3 of 8; try another");
 }
 
 TEST(Fallback, GoesThroughTheOthersInTheirOrder) {
   const std::vector<std::string> names = backend_names();
-  std::vector<Fallback> failed = {failure_of(names.back(), kPivot)};
+  std::vector<Fallback> failed = {Fallback{names.back(), kPivot}};
   std::vector<std::string> tried;
   for (;;) {
     const std::string next = next_backend(failed, Successor::kAny);
     if (next.empty()) break;
     tried.push_back(next);
-    failed.push_back(failure_of(next, kPivot));
+    failed.push_back(Fallback{next, kPivot});
   }
   EXPECT_EQ(tried, std::vector<std::string>(names.begin(), names.end() - 1));
 }
 
 TEST(Fallback, AsksForAFactorOrForNone) {
-  const std::vector<Fallback> failed = {failure_of(backend_names().front(), kPivot)};
+  const std::vector<Fallback> failed = {Fallback{backend_names().front(), kPivot}};
   EXPECT_EQ(next_backend(failed, Successor::kFactorless), "cg");
   EXPECT_FALSE((*find_backend(next_backend({}, Successor::kFactored)))->iterative());
   EXPECT_EQ(next_backend(failed, Successor::kNone), "");
@@ -39,8 +39,8 @@ TEST(Fallback, AsksForAFactorOrForNone) {
 
 TEST(Fallback, SaysWhoFailedWhyAndWhoTookOver) {
   const std::vector<Fallback> failed = {
-      failure_of("first", kPivot),
-      failure_of("second", {ErrorCode::kOutOfMemory, "2 GB", {"less"}, "second"})};
+      Fallback{"first", kPivot},
+      Fallback{"second", {ErrorCode::kOutOfMemory, "2 GB", {"less"}, "second"}}};
   EXPECT_EQ(takeover_text(failed, "third"),
             "first failed: pivot 3 of 8; second failed: 2 GB; third took over");
   EXPECT_EQ(sentence(joint_error(failed)), "first: pivot 3 of 8, second: 2 GB; less");
