@@ -13,10 +13,10 @@ namespace geotherm::app {
 namespace {
 
 /// Sources of many that are checked.
-constexpr std::size_t kMostSampled = 8;
+constexpr std::size_t kMaxSampled = 8;
 
 std::vector<std::size_t> spread(std::size_t count) {
-  const std::size_t taken = std::min(count, kMostSampled);
+  const std::size_t taken = std::min(count, kMaxSampled);
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < taken; ++i) {
     numbers.push_back(taken == 1 ? 0 : i * (count - 1) / (taken - 1));
@@ -104,7 +104,7 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
 }
 
 MethodKind judge_of_better(MethodKind kind, CheckMode mode, Index faces) {
-  if (faces <= kMostFacesExact) return MethodKind::kExact;
+  if (faces <= kMaxFacesExact) return MethodKind::kExact;
   if (mode == CheckMode::kThorough) return reference_for(kind, faces);
   return kind == MethodKind::kWavefront ? MethodKind::kWavefrontFine : kind;
 }

@@ -20,7 +20,7 @@ namespace geotherm::app {
 namespace {
 
 constexpr Index kBatch = 16;
-constexpr Index kMostQueries = 100'000;
+constexpr Index kMaxQueries = 100'000;
 constexpr std::uint64_t kSeed = 1;
 
 struct Plan {
@@ -66,10 +66,10 @@ Result<Plan> plan_of(const CompareArguments& arguments) {
   if (auto chosen = choose_solvers(arguments, options, plan.task); !chosen) return chosen.error();
   plan.reading = asked->reading;
   const auto queries = number_in<Index>(arguments.queries);
-  if (!queries || *queries < 1 || *queries > kMostQueries) {
+  if (!queries || *queries < 1 || *queries > kMaxQueries) {
     return Error{ErrorCode::kBadInput, "--queries: '" + one_line(arguments.queries) +
                                            "' is no number of queries; give 1 to " +
-                                           std::to_string(kMostQueries)};
+                                           std::to_string(kMaxQueries)};
   }
   plan.queries = *queries;
   auto sources = sources_of(arguments.sources);

@@ -20,13 +20,13 @@ Result<Index> faces_in(const GenerateArguments& arguments) {
     for (const BundledModel& model : bundled_models()) {
       if (model.name == arguments.name) return model.faces;
     }
-    return kFewestModelFaces;  // the unknown name is the error to report
+    return kMinModelFaces;  // the unknown name is the error to report
   }
   const auto faces = number_in<Index>(arguments.faces);
-  if (faces && *faces >= kFewestModelFaces && *faces <= kMostModelFaces) return *faces;
+  if (faces && *faces >= kMinModelFaces && *faces <= kMaxModelFaces) return *faces;
   return Error{ErrorCode::kBadInput,
                "--faces: '" + one_line(arguments.faces) + "' is no number of faces; give " +
-                   std::to_string(kFewestModelFaces) + " to " + std::to_string(kMostModelFaces)};
+                   std::to_string(kMinModelFaces) + " to " + std::to_string(kMaxModelFaces)};
 }
 
 }  // namespace

@@ -17,13 +17,13 @@
 namespace geotherm::app {
 namespace {
 
-constexpr double kLeastScale = 0.5;
-constexpr double kMostScale = 4;
+constexpr double kMinScale = 0.5;
+constexpr double kMaxScale = 4;
 
 Result<double> scale_in(const std::string& text) {
   if (text.empty()) return 0.0;
   const auto scale = number_in<double>(text);
-  if (scale && *scale >= kLeastScale && *scale <= kMostScale) return *scale;
+  if (scale && *scale >= kMinScale && *scale <= kMaxScale) return *scale;
   return Error{ErrorCode::kBadInput,
                "'" + one_line(text) + "' is no scale of panels; give 0.5 to 4, such as 2"};
 }

@@ -32,14 +32,14 @@ constexpr double kStep = 4;  // from one size to the next
 
 /// Attempts go on for this long, a few at least.
 constexpr double kAttemptsMs = 300;
-constexpr int kLeastAttempts = 4;
+constexpr int kMinAttempts = 4;
 
 /// The greatest of what attempts give.
 template <class Attempt>
 double best_of(Attempt&& attempt) {
   const Stopwatch watch;
   double best = 0;
-  for (int k = 0; k < kLeastAttempts || watch.milliseconds() < kAttemptsMs; ++k) {
+  for (int k = 0; k < kMinAttempts || watch.milliseconds() < kAttemptsMs; ++k) {
     best = std::max(best, attempt());
   }
   return best;

@@ -23,7 +23,7 @@ constexpr Effort kQuick = {{1'500, 3, 6'000}, {600, 9, 4'000}, {600, 3, 6'000}};
 constexpr Effort kFull = {{8'000, 5, 60'000}, {4'000, 21, 20'000}, {4'000, 5, 30'000}};
 
 /// What a backend may take on one mesh, and what its rates may.
-constexpr double kMostQuickMs = 25'000, kMostFullMs = 300'000;
+constexpr double kMaxQuickMs = 25'000, kMaxFullMs = 300'000;
 constexpr double kRatesQuickMs = 300, kRatesFullMs = 1'500;
 
 /// Rates take a set-up more: not where it is longer than this.
@@ -120,7 +120,7 @@ class SolveBench {
               std::vector<std::unique_ptr<Contender>>& contenders,
               std::vector<std::size_t>& places) const {
     const double free = free_megabytes();
-    const Limits limits{plan_.quick ? kMostQuickMs : kMostFullMs, kMemoryOfOne * free};
+    const Limits limits{plan_.quick ? kMaxQuickMs : kMaxFullMs, kMemoryOfOne * free};
     double together = 0;
     for (const std::string& name : names) {
       auto contender =

@@ -17,7 +17,7 @@ constexpr float kReach = 9;             ///< pixels at scale 1 from the middle o
 constexpr double kTurnPerHeight = 220;  ///< degrees for a drag across the picture
 constexpr double kZoomPerHeight = 3.5;  ///< logarithm of the zoom for a drag across it
 constexpr double kZoomPerNotch = 1.15;
-constexpr std::size_t kMostPlaces = 20000;  ///< of more, none can be aimed at
+constexpr std::size_t kMaxPlaces = 20000;  ///< of more, none can be aimed at
 constexpr double kHidden = 0.02;  ///< of the model's size: a place that far behind is not seen
 
 constexpr const char* kButtons[] = {"Left", "Right", "Middle"};
@@ -53,7 +53,7 @@ bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_
 }
 
 std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
-  if (!frame.model() || frame.explored().places.size() > kMostPlaces) return std::nullopt;
+  if (!frame.model() || frame.explored().places.size() > kMaxPlaces) return std::nullopt;
   std::optional<std::size_t> nearest;
   float least = frame.px(kReach);
   const auto& places = frame.explored().places;

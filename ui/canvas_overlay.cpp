@@ -18,7 +18,7 @@ namespace geotherm::ui {
 namespace {
 
 constexpr double kNoticeTime = 12;  ///< seconds
-constexpr std::size_t kMostNotices = 3;
+constexpr std::size_t kMaxNotices = 3;
 
 constexpr ImGuiWindowFlags kFloating =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -191,7 +191,7 @@ void take_notices(Frame& frame) {
     auto& notices = frame.ui.notices;
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == line.text; });
     notices.push_back({line.text, line.kind, ImGui::GetTime() + kNoticeTime, line.settings});
-    if (notices.size() > kMostNotices) notices.erase(notices.begin());
+    if (notices.size() > kMaxNotices) notices.erase(notices.begin());
   }
 }
 

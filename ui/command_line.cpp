@@ -13,7 +13,7 @@
 namespace geotherm::ui {
 namespace {
 
-constexpr std::size_t kMostPast = 200;
+constexpr std::size_t kMaxPast = 200;
 
 /// Up and down through what was typed before.
 int recall(ImGuiInputTextCallbackData* data) {
@@ -41,7 +41,7 @@ void run_line(Frame& frame) {
   form.error.clear();
   frame.ui.write_question.send(frame, *std::move(command));
   form.past.push_back(line);
-  if (form.past.size() > kMostPast) form.past.erase(form.past.begin());
+  if (form.past.size() > kMaxPast) form.past.erase(form.past.begin());
   form.recalled = -1;
   form.line.clear();
 }

@@ -14,10 +14,10 @@ namespace geotherm::ui {
 namespace {
 
 // What a file may ask for; anything else is not worth believing.
-constexpr float kLeastWidth = 160, kMostWidth = 1200;
-constexpr float kLeastHeight = 60, kMostHeight = 1200;
-constexpr float kLeastScale = 0.5F, kMostScale = 4;
-constexpr std::size_t kMostSections = 64;
+constexpr float kMinWidth = 160, kMaxWidth = 1200;
+constexpr float kMinHeight = 60, kMaxHeight = 1200;
+constexpr float kMinScale = 0.5F, kMaxScale = 4;
+constexpr std::size_t kMaxSections = 64;
 constexpr std::size_t kLongestFile = 65536;
 constexpr std::string_view kOpen = "open ";  ///< before the name of a section
 
@@ -34,10 +34,10 @@ void take_number(std::string_view text, float least, float most, float& number) 
 }
 
 void take_line(std::string_view name, std::string_view value, Layout& layout) {
-  if (name == "left-width") take_number(value, kLeastWidth, kMostWidth, layout.left_width);
-  if (name == "right-width") take_number(value, kLeastWidth, kMostWidth, layout.right_width);
-  if (name == "log-height") take_number(value, kLeastHeight, kMostHeight, layout.log_height);
-  if (name == "scale") take_number(value, kLeastScale, kMostScale, layout.scale);
+  if (name == "left-width") take_number(value, kMinWidth, kMaxWidth, layout.left_width);
+  if (name == "right-width") take_number(value, kMinWidth, kMaxWidth, layout.right_width);
+  if (name == "log-height") take_number(value, kMinHeight, kMaxHeight, layout.log_height);
+  if (name == "scale") take_number(value, kMinScale, kMaxScale, layout.scale);
   if (name == "left") take_flag(value, layout.left);
   if (name == "right") take_flag(value, layout.right);
   if (name == "log") take_flag(value, layout.log);
@@ -45,7 +45,7 @@ void take_line(std::string_view name, std::string_view value, Layout& layout) {
   if (name == "theme" && value == "light") layout.theme = Theme::kLight;
   if (!name.starts_with(kOpen) || (value != "on" && value != "off")) return;
   const std::string section(app::trimmed(name.substr(kOpen.size())));
-  if (!section.empty() && layout.open.size() < kMostSections) layout.open[section] = value == "on";
+  if (!section.empty() && layout.open.size() < kMaxSections) layout.open[section] = value == "on";
 }
 
 }  // namespace

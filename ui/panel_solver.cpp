@@ -17,7 +17,7 @@
 namespace geotherm::ui {
 namespace {
 
-constexpr double kLeastFactor = 0.01, kMostFactor = 1000;  ///< of the slider
+constexpr double kMinFactor = 0.01, kMaxFactor = 1000;  ///< of the slider
 
 /// The choice of a setting whose text is NAME or NAME:VALUE. `value` gives what follows a name.
 template <class Value>
@@ -57,8 +57,8 @@ void draw_factor(Frame& frame) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   double factor = current;
   ImGui::SetNextItemWidth(width * 0.6F - gap);
-  if (ImGui::SliderScalar("##slider", ImGuiDataType_Double, &factor, &kLeastFactor, &kMostFactor,
-                          "", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
+  if (ImGui::SliderScalar("##slider", ImGuiDataType_Double, &factor, &kMinFactor, &kMaxFactor, "",
+                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput)) {
     const std::string text = app::significant(factor, 3);
     if (app::number_in<double>(text) != current) frame.set("time-factor", text);
   }

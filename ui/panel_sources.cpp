@@ -14,7 +14,7 @@
 namespace geotherm::ui {
 namespace {
 
-constexpr int kMostRandom = 100000;
+constexpr int kMaxRandom = 100000;
 constexpr int kListLines = 6;  ///< of the list before it scrolls
 
 /// "3, 99 512" -> "3,99,512": what people type as a list of vertices. Other texts stay.
@@ -77,7 +77,7 @@ void draw_random(Frame& frame) {
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
   ImGui::InputInt("##count", &form.count, 0, 0);
   frame.mark("count");
-  form.count = std::clamp(form.count, 1, kMostRandom);
+  form.count = std::clamp(form.count, 1, kMaxRandom);
   ImGui::SameLine();
   if (draw_button(frame, "set random", "set", frame.model(), button)) {
     frame.send(app::command::SetSources{{"random:" + std::to_string(form.count)}});

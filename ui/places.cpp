@@ -29,20 +29,20 @@ Bars fit_bars(Bars wanted, float room, float least) {
 Places place_panels(const Layout& layout, float width, float height, float scale, float line) {
   width = std::max(0.0F, width);
   height = std::max(0.0F, height);
-  const float least_canvas = kLeastCanvas * scale;
+  const float least_canvas = kMinCanvas * scale;
   Places places;
   const float menu = std::min(line, height);
   const float status = height - menu - line >= least_canvas * 0.5F ? line : 0;
   const float middle = height - menu - status;
 
-  Bars bars{layout.left ? std::max(layout.left_width, kLeastBar) * scale : 0,
-            layout.right ? std::max(layout.right_width, kLeastBar) * scale : 0};
-  bars = fit_bars(bars, width - least_canvas, kLeastBar * scale);
+  Bars bars{layout.left ? std::max(layout.left_width, kMinBar) * scale : 0,
+            layout.right ? std::max(layout.right_width, kMinBar) * scale : 0};
+  bars = fit_bars(bars, width - least_canvas, kMinBar * scale);
   bars = {std::floor(bars.left), std::floor(bars.right)};
 
-  float log = layout.log ? std::max(layout.log_height, kLeastLog) * scale : 0;
+  float log = layout.log ? std::max(layout.log_height, kMinLog) * scale : 0;
   log = std::floor(std::min(log, middle - least_canvas));
-  if (log < kLeastLog * scale) log = 0;
+  if (log < kMinLog * scale) log = 0;
 
   const float inner = width - bars.left - bars.right;
   places.menu = {0, 0, width, menu};

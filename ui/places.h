@@ -6,9 +6,9 @@
 
 namespace geotherm::ui {
 
-inline constexpr float kLeastCanvas = 200;  ///< pixels at scale 1 that panels leave to the picture
-inline constexpr float kLeastBar = 240;     ///< width of a side bar, pixels at scale 1
-inline constexpr float kLeastLog = 70;      ///< height of the log, pixels at scale 1
+inline constexpr float kMinCanvas = 200;  ///< pixels at scale 1 that panels leave to the picture
+inline constexpr float kMinBar = 240;     ///< width of a side bar, pixels at scale 1
+inline constexpr float kMinLog = 70;      ///< height of the log, pixels at scale 1
 
 /// Where panels lie. What is hidden, or has no room, has no width.
 struct Places {

@@ -11,9 +11,9 @@
 namespace geotherm::ui {
 namespace {
 
-constexpr float kGrip = 5;        ///< width of an edge that can be dragged, pixels at scale 1
-constexpr float kMostBar = 900;   ///< pixels at scale 1
-constexpr float kMostLog = 1000;  ///< pixels at scale 1
+constexpr float kGrip = 5;       ///< width of an edge that can be dragged, pixels at scale 1
+constexpr float kMaxBar = 900;   ///< pixels at scale 1
+constexpr float kMaxLog = 1000;  ///< pixels at scale 1
 
 /// Tab moves through the fields of a bar while one of them is typed in, and is a key of the picture
 /// otherwise; ImGui would start with the first field.
@@ -80,7 +80,7 @@ void draw_left(Frame& frame) {
   if (draw_grip(frame, "left edge", {place.x + place.width - grip, place.y},
                 {grip, place.height})) {
     const float width = (ImGui::GetIO().MousePos.x + grip / 2) / frame.ui.scale;
-    frame.ui.layout.left_width = std::clamp(width, kLeastBar, kMostBar);
+    frame.ui.layout.left_width = std::clamp(width, kMinBar, kMaxBar);
   }
   ImGui::End();
 }
@@ -100,7 +100,7 @@ void draw_right(Frame& frame) {
   if (draw_grip(frame, "right edge", {place.x, place.y}, {grip, place.height})) {
     const float all = ImGui::GetIO().DisplaySize.x;
     const float width = (all - ImGui::GetIO().MousePos.x + grip / 2) / frame.ui.scale;
-    frame.ui.layout.right_width = std::clamp(width, kLeastBar, kMostBar);
+    frame.ui.layout.right_width = std::clamp(width, kMinBar, kMaxBar);
   }
   ImGui::End();
 }
@@ -113,7 +113,7 @@ void draw_log(Frame& frame) {
   if (draw_grip(frame, "log edge", {place.x, place.y}, {place.width, grip})) {
     const float bottom = place.y + place.height;
     const float height = (bottom - ImGui::GetIO().MousePos.y + grip / 2) / frame.ui.scale;
-    frame.ui.layout.log_height = std::clamp(height, kLeastLog, kMostLog);
+    frame.ui.layout.log_height = std::clamp(height, kMinLog, kMaxLog);
   }
   ImGui::End();
 }

@@ -16,7 +16,7 @@ namespace geotherm::app {
 namespace {
 
 constexpr const char* kFirstSource = "random:1";
-constexpr Index kMostRandom = std::numeric_limits<Index>::max();
+constexpr Index kMaxRandom = std::numeric_limits<Index>::max();
 
 Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
@@ -132,7 +132,7 @@ class Applier {
   Result<void> operator()(const command::MoreSources& /*c*/) {
     if (const auto at = last_random(); at != s_.sources.rend()) {
       const RandomVertices random = *random_in(*at);
-      if (random.count == kMostRandom) return bad("there are as many random sources as can be");
+      if (random.count == kMaxRandom) return bad("there are as many random sources as can be");
       *at = random_text(random.count + 1, random.seed);
     } else {
       s_.sources.push_back(kFirstSource);
@@ -161,7 +161,7 @@ class Applier {
     std::uint64_t seed = 0;
     for (const std::string& text : s_.sources) {
       const auto random = random_in(text);
-      if (random) count = std::min<Index>(kMostRandom - count, random->count) + count;
+      if (random) count = std::min<Index>(kMaxRandom - count, random->count) + count;
       if (random) seed = std::max(seed, random->seed);
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
@@ -180,18 +180,18 @@ class Applier {
 
   Result<void> operator()(const command::Zoom& c) {
     CameraSettings& camera = s_.picture.camera;
-    const double zoom = std::clamp(camera.zoom * c.factor, kLeastZoom, kMostZoom);
+    const double zoom = std::clamp(camera.zoom * c.factor, kMinZoom, kMaxZoom);
     const double factor = zoom / camera.zoom;
     camera.zoom = zoom;
-    camera.pan_right = within(c.right + (camera.pan_right - c.right) * factor, kMostPan);
-    camera.pan_up = within(c.up + (camera.pan_up - c.up) * factor, kMostPan);
+    camera.pan_right = within(c.right + (camera.pan_right - c.right) * factor, kMaxPan);
+    camera.pan_up = within(c.up + (camera.pan_up - c.up) * factor, kMaxPan);
     return {};
   }
 
   Result<void> operator()(const command::Pan& c) {
     CameraSettings& camera = s_.picture.camera;
-    camera.pan_right = within(camera.pan_right + c.right, kMostPan);
-    camera.pan_up = within(camera.pan_up + c.up, kMostPan);
+    camera.pan_right = within(camera.pan_right + c.right, kMaxPan);
+    camera.pan_up = within(camera.pan_up + c.up, kMaxPan);
     return {};
   }
 

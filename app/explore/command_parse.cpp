@@ -78,7 +78,7 @@ Result<Command> read_orbit(WordReader& reader) {
 }
 
 Result<Command> read_zoom(WordReader& reader) {
-  const auto factor = reader.number(kLeastZoom / kMostZoom, kMostZoom / kLeastZoom);
+  const auto factor = reader.number(kMinZoom / kMaxZoom, kMaxZoom / kMinZoom);
   if (!factor) return factor.error();
   if (reader.left() == 1) return reader.fail("both RIGHT and UP, or neither");
   const auto n = all_numbers(reader);
@@ -99,15 +99,15 @@ Result<Command> read_centre(WordReader& reader) {
 }
 
 Result<Command> read_place(WordReader& reader) {
-  const auto azimuth = reader.number(-kMostAngle, kMostAngle);
+  const auto azimuth = reader.number(-kMaxAngle, kMaxAngle);
   if (!azimuth) return azimuth.error();
   const auto elevation = reader.number(-90, 90);
   if (!elevation) return elevation.error();
-  const auto zoom = reader.number(kLeastZoom, kMostZoom);
+  const auto zoom = reader.number(kMinZoom, kMaxZoom);
   if (!zoom) return zoom.error();
-  const auto right = reader.number(-kMostPan, kMostPan);
+  const auto right = reader.number(-kMaxPan, kMaxPan);
   if (!right) return right.error();
-  const auto up = reader.number(-kMostPan, kMostPan);
+  const auto up = reader.number(-kMaxPan, kMaxPan);
   if (!up) return up.error();
   return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
 }

@@ -93,8 +93,8 @@ MethodKind Explorer::reference_of(const ExploreRequest& request, const Answer& a
   if (request.check == Check::kExact) return MethodKind::kExact;
   if (request.check == Check::kWavefrontFine) return MethodKind::kWavefrontFine;
   // While a source is dragged exact distances must take no longer than a frame or two.
-  constexpr Index kMostFacesDragged = 10'000;
-  const bool dragged = !request.quality && faces > kMostFacesDragged;
+  constexpr Index kMaxFacesDragged = 10'000;
+  const bool dragged = !request.quality && faces > kMaxFacesDragged;
   return dragged ? MethodKind::kWavefrontFine : reference_for(answer.options.method, faces);
 }
 

@@ -23,8 +23,8 @@ using Text = std::string;
 using enum SettingGroup;
 using enum SettingKind;
 
-constexpr int kMostThreads = 1024;
-constexpr int kMostRefine = 6;
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxRefine = 6;
 constexpr const char* kFree = "free";  // the memory limit that the machine sets
 
 Error bad_value(const Text& text, const Text& why) {
@@ -40,8 +40,8 @@ Result<double> parse_time_factor(const Text& text) {
 /// 0: one a core.
 Result<int> parse_threads(const Text& text) {
   const auto threads = number_in<int>(text);
-  if (threads && *threads >= 0 && *threads <= kMostThreads) return *threads;
-  return bad_value(text, "is no number of threads; give 1 to " + std::to_string(kMostThreads));
+  if (threads && *threads >= 0 && *threads <= kMaxThreads) return *threads;
+  return bad_value(text, "is no number of threads; give 1 to " + std::to_string(kMaxThreads));
 }
 
 /// In 2^20 bytes; 0: what is free.
@@ -64,8 +64,8 @@ Result<double> parse_memory_limit(const Text& text) {
 
 Result<int> parse_refine(const Text& text) {
   const auto times = number_in<int>(text);
-  if (times && *times >= 0 && *times <= kMostRefine) return *times;
-  return bad_value(text, "is no number of refinements; give 0 to " + std::to_string(kMostRefine) +
+  if (times && *times >= 0 && *times <= kMaxRefine) return *times;
+  return bad_value(text, "is no number of refinements; give 0 to " + std::to_string(kMaxRefine) +
                              ", each makes four times as many faces");
 }
 

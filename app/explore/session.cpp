@@ -14,10 +14,10 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::size_t kMostLogLines = 4000;
-constexpr std::size_t kMostUndo = 200;
+constexpr std::size_t kMaxLogLines = 4000;
+constexpr std::size_t kMaxUndo = 200;
 /// Scripts that run scripts end here: most likely they run each other.
-constexpr int kMostScripts = 100;
+constexpr int kMaxScripts = 100;
 
 template <class... Kinds>
 bool is_any_of(const Command& command) {
@@ -48,7 +48,7 @@ Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(
 Session::~Session() = default;
 
 void Session::State::note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings) {
-  if (log.size() >= kMostLogLines) log.erase(log.begin(), log.begin() + kMostLogLines / 4);
+  if (log.size() >= kMaxLogLines) log.erase(log.begin(), log.begin() + kMaxLogLines / 4);
   log.push_back({kind, std::move(text), std::move(settings)});
   last_logged_merges = kind == LogLine::Kind::kCommand;
 }
@@ -107,7 +107,7 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   }
   if (undo_rule(command).undoable && *next != state) {
     if (!last_undoable || !continues(*last_undoable, command)) undo.push_back(state);
-    if (undo.size() > kMostUndo) undo.erase(undo.begin());
+    if (undo.size() > kMaxUndo) undo.erase(undo.begin());
     redo.clear();
     last_undoable = command;
     if (!undo.empty() && same_but_camera(undo.back(), *next)) {
@@ -152,10 +152,10 @@ Result<void> Session::State::submit(const Command& command, const Session& sessi
 }
 
 Result<void> Session::State::run_script(const std::string& path) {
-  if (++scripts_run > kMostScripts) {
+  if (++scripts_run > kMaxScripts) {
     script.clear();
     scripts_run = 0;
-    return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMostScripts) +
+    return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMaxScripts) +
                                            " scripts have run each other; end the circle"};
   }
   auto lines = read_script(path);

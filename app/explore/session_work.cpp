@@ -16,7 +16,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::size_t kMostQueries = 240;
+constexpr std::size_t kMaxQueries = 240;
 constexpr int kCompareQueries = 10;
 constexpr int kCompareBatch = 16;
 
@@ -190,7 +190,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
     note_error(before);
     return;
   }
-  if (queries.size() >= kMostQueries) queries.erase(queries.begin());
+  if (queries.size() >= kMaxQueries) queries.erase(queries.begin());
   queries.push_back(
       {solver_at_work(*explored.a->method, explored.a->result), explored.a->result.timing});
   if (!request.quality) return;  // a drag goes on

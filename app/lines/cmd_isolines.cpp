@@ -14,7 +14,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr int kMostLevels = 100000;
+constexpr int kMaxLevels = 100000;
 
 /// Where the lines are to be, before the distances are known.
 struct Levels {
@@ -32,10 +32,10 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
   Levels levels;
   if (!arguments.count.empty()) {
     const auto count = number_in<int>(arguments.count);
-    if (!count || *count < 1 || *count > kMostLevels) {
+    if (!count || *count < 1 || *count > kMaxLevels) {
       return Error{ErrorCode::kBadInput, "--count: '" + one_line(arguments.count) +
                                              "' is no number of levels; give 1 to " +
-                                             grouped(kMostLevels)};
+                                             grouped(kMaxLevels)};
     }
     levels.count = *count;
     return levels;
@@ -61,13 +61,13 @@ Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
     return levels;
   }
   const double number = largest / asked.spacing;
-  if (number > kMostLevels) {
+  if (number > kMaxLevels) {
     return Error{ErrorCode::kBadInput, "--spacing: " + significant(asked.spacing) + " makes " +
                                            significant(number) +
                                            " lines up to the largest "
                                            "distance " +
                                            significant(largest) + ", more than " +
-                                           grouped(kMostLevels) + "; give a larger one"};
+                                           grouped(kMaxLevels) + "; give a larger one"};
   }
   for (int i = 1; i * asked.spacing < largest; ++i) levels.push_back(i * asked.spacing);
   return levels;

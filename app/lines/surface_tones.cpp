@@ -21,8 +21,8 @@ constexpr std::array kLevels = {-0.5, 0.45, 0.6, 0.72, 0.82, 0.9};
 
 /// Pixels between grid points, so many grid points at most.
 double step_for(int width, int height) {
-  constexpr double kMostPoints = 90000;
-  return std::max(2.0, std::sqrt(width * static_cast<double>(height) / kMostPoints));
+  constexpr double kMaxPoints = 90000;
+  return std::max(2.0, std::sqrt(width * static_cast<double>(height) / kMaxPoints));
 }
 
 std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {

@@ -16,15 +16,15 @@ namespace {
 /// The picture's smaller side that widths in pixels are meant for.
 constexpr float kUsualSide = 720;
 /// Lines of a small picture stay visible.
-constexpr float kLeastScale = 0.75F;
+constexpr float kMinScale = 0.75F;
 /// More isolines than this tell nothing on a bar.
-constexpr double kMostLinesOnBar = 200;
+constexpr double kMaxLinesOnBar = 200;
 
 /// Between the model and the sides of the picture, of the smaller of them.
 constexpr float kMargin = 0.03F;
 
 /// Colours that stand for those of all regions.
-constexpr std::size_t kMostPatches = 6;
+constexpr std::size_t kMaxPatches = 6;
 
 constexpr float kPaperOpacity = 0.75F;
 
@@ -123,7 +123,7 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
     groups.erase(kNoIndex);
     const std::size_t known = groups.size();
     engine::Key key{.label = "nearest source (" + std::to_string(known) + ")"};
-    for (std::uint32_t i = 0; i < std::min(known, kMostPatches); ++i) {
+    for (std::uint32_t i = 0; i < std::min(known, kMaxPatches); ++i) {
       key.patches.push_back(engine::region_colour(i));
     }
     keys.push_back(std::move(key));
@@ -163,7 +163,7 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   for (std::size_t i = 0; i < scale.ticks.values.size(); ++i) {
     legend.ticks.push_back({position(scale.ticks.values[i]), scale.ticks.labels[i]});
   }
-  if (!(scale.spacing > 0) || width / scale.spacing > kMostLinesOnBar) return legend;
+  if (!(scale.spacing > 0) || width / scale.spacing > kMaxLinesOnBar) return legend;
   const double first = std::floor(scale.min / scale.spacing) + 1;
   for (double i = first; i * scale.spacing < scale.max; ++i) {
     legend.lines.push_back(position(i * scale.spacing));
@@ -205,7 +205,7 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
     scene.markers.colour = kSourceRed;
   }
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
-  scene.pixel_scale = std::max(side / kUsualSide, kLeastScale);
+  scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
   return scene;
 }
 

@@ -22,7 +22,7 @@ namespace geotherm::app {
 namespace {
 
 /// Warnings of answers that are shown; they are alike from source to source.
-constexpr std::size_t kMostWarnings = 5;
+constexpr std::size_t kMaxWarnings = 5;
 
 void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more) {
   for (const std::string& text : more) {
@@ -140,9 +140,9 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   figures.queries_ms = watch.milliseconds();
   figures.peak_rss_mb = peak_rss_mb();
 
-  if (of_answers.size() > kMostWarnings) {
-    const auto more = static_cast<std::int64_t>(of_answers.size() - kMostWarnings);
-    of_answers.resize(kMostWarnings);
+  if (of_answers.size() > kMaxWarnings) {
+    const auto more = static_cast<std::int64_t>(of_answers.size() - kMaxWarnings);
+    of_answers.resize(kMaxWarnings);
     of_answers.push_back("and " + counted(more, "more such warning", "more such warnings") +
                          " about the first " +
                          counted(static_cast<std::int64_t>(work.chunk), "source", "sources"));

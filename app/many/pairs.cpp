@@ -18,7 +18,7 @@ namespace geotherm::app {
 namespace {
 
 /// A table of more columns fits no terminal.
-constexpr std::size_t kMostInTable = 10;
+constexpr std::size_t kMaxInTable = 10;
 
 bool is_npy(const std::string& path) { return io::file_extension(path) == ".npy"; }
 
@@ -143,7 +143,7 @@ std::string pairs_table(const ManySources& work, const ManyFigures& figures,
                                                 counted(count * (count - 1) / 2, "pair", "pairs") +
                                                 ", up to " + significant(most)},
                                  {"directions differ by", directions}});
-  if (pairs.size() <= kMostInTable) text += '\n' + matrix_table(pairs);
+  if (pairs.size() <= kMaxInTable) text += '\n' + matrix_table(pairs);
   return text;
 }
 

@@ -13,7 +13,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr std::size_t kMostShown = 20;
+constexpr std::size_t kMaxShown = 20;
 
 /// How many vertices each sample is the nearest of.
 std::vector<Index> cell_sizes(const FarthestPoints& points) {
@@ -86,7 +86,7 @@ std::string sample_table(const SampleFigures& f) {
   constexpr auto kRight = TextTable::Align::kRight;
   TextTable list({{"sample", kRight}, {"vertex", kRight}, {"radius", kRight}, {"cell", kRight}});
   const std::vector<Index> cells = cell_sizes(points);
-  const std::size_t shown = std::min(points.samples.size(), kMostShown);
+  const std::size_t shown = std::min(points.samples.size(), kMaxShown);
   for (std::size_t i = 0; i < shown; ++i) {
     list.add_row({std::to_string(i), std::to_string(points.samples[i].vertex),
                   significant(points.samples[i].radius), grouped(cells[i])});

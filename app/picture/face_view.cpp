@@ -14,18 +14,18 @@ namespace {
 /// Errors beyond those of this share of the faces, at sources and creases, have the last colour.
 constexpr double kShown = 0.95;
 /// An error as large as the gradient itself.
-constexpr double kMostError = 1;
+constexpr double kMaxError = 1;
 
 /// A round number that most values are below.
 double error_scale(const std::vector<double>& values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
                        [](double x) { return std::isfinite(x); });
-  if (known.empty()) return kMostError;
+  if (known.empty()) return kMaxError;
   const auto place = static_cast<std::ptrdiff_t>(kShown * static_cast<double>(known.size() - 1));
   std::ranges::nth_element(known, known.begin() + place);
   const double most = known[static_cast<std::size_t>(place)];
-  return most > 0 ? std::min(round_number_above(most), kMostError) : kMostError;
+  return most > 0 ? std::min(round_number_above(most), kMaxError) : kMaxError;
 }
 
 double scale_end(QualityField field, const std::vector<double>& values) {

@@ -12,7 +12,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr int kMostFrames = 3600;
+constexpr int kMaxFrames = 3600;
 
 Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_maps,
                                std::string& chosen) {
@@ -70,8 +70,8 @@ Result<PictureSettings> picture_settings(const ViewerState& asked, const Setting
   }
   if (!a.turntable.empty()) {
     const auto frames =
-        whole_between(a.turntable, 1, kMostFrames,
-                      "is no number of pictures; give 1 to " + std::to_string(kMostFrames));
+        whole_between(a.turntable, 1, kMaxFrames,
+                      "is no number of pictures; give 1 to " + std::to_string(kMaxFrames));
     if (!frames) return about("--turntable", frames.error());
     picture.turntable = *frames;
   }

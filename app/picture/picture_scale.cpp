@@ -11,7 +11,7 @@ namespace geotherm::app {
 namespace {
 
 /// Labels keep their distance on a bar of any length with so many.
-constexpr int kMostTicks = 7;
+constexpr int kMaxTicks = 7;
 /// Isolines that are not what the picture is about are farther apart by this.
 constexpr double kFewer = 2.5;
 
@@ -23,7 +23,7 @@ PictureScale face_scale(const PictureData& data, const PictureSettings& settings
   scale.bar = settings.bar && !data.face_values.empty();
   if (scale.bar) {
     scale.ticks =
-        make_ticks(scale.min, scale.max, kMostTicks, face_tick_step(settings.view).value_or(0));
+        make_ticks(scale.min, scale.max, kMaxTicks, face_tick_step(settings.view).value_or(0));
   }
   return scale;
 }
@@ -86,7 +86,7 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
     if (width > pixels * scale.spacing) scale.spacing = 0;
   }
   scale.bar = settings.bar && painted && (largest > 0 || has_range);
-  if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMostTicks, scale.spacing);
+  if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMaxTicks, scale.spacing);
   return scale;
 }
 

@@ -82,7 +82,7 @@ Result<std::optional<double>> parse_spacing(const std::string& text) {
 }
 
 Result<double> parse_azimuth(const std::string& text) {
-  return number_between(text, -kMostAngle, kMostAngle,
+  return number_between(text, -kMaxAngle, kMaxAngle,
                         "is no angle; give degrees about the vertical axis, such as 30");
 }
 
@@ -92,7 +92,7 @@ Result<double> parse_elevation(const std::string& text) {
 }
 
 Result<double> parse_zoom(const std::string& text) {
-  return number_between(text, kLeastZoom, kMostZoom,
+  return number_between(text, kMinZoom, kMaxZoom,
                         "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits");
 }
 
@@ -101,7 +101,7 @@ Result<Pan> parse_pan(const std::string& text) {
     const auto right = number_in<double>(parts->first);
     const auto up = number_in<double>(parts->second);
     const auto fits = [](const std::optional<double>& part) {
-      return part && std::abs(*part) <= kMostPan;
+      return part && std::abs(*part) <= kMaxPan;
     };
     if (fits(right) && fits(up)) return Pan{*right, *up};
   }

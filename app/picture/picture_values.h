@@ -36,9 +36,9 @@ inline std::string switch_text(bool on) { return on ? "on" : "off"; }
 Result<int> whole_between(const std::string& text, int least, int most, const std::string& why);
 
 /// Bounds of the camera.
-inline constexpr double kLeastZoom = 1e-3, kMostZoom = 1e6;
-inline constexpr double kMostPan = 1e3;    ///< picture heights
-inline constexpr double kMostAngle = 1e6;  ///< degrees
+inline constexpr double kMinZoom = 1e-3, kMaxZoom = 1e6;
+inline constexpr double kMaxPan = 1e3;    ///< picture heights
+inline constexpr double kMaxAngle = 1e6;  ///< degrees
 inline constexpr int kLargestPictureSide = 8192;
 
 }  // namespace geotherm::app

@@ -17,7 +17,7 @@ constexpr double kSlack = 1e-6;
 /// Labels from here on are written with a power of ten.
 constexpr int kLargePower = 6;
 constexpr int kSmallPower = -4;
-constexpr int kMostDecimals = 12;
+constexpr int kMaxDecimals = 12;
 
 /// m * 10^power as the double next to it, which a product would miss.
 double decimal(const char* mantissa, int power) {
@@ -42,11 +42,11 @@ std::vector<double> round_numbers_about(double x) {
 
 /// Decimals that show multiples of `step` without rounding.
 int decimals_of(double step) {
-  for (int decimals = 0; decimals < kMostDecimals; ++decimals) {
+  for (int decimals = 0; decimals < kMaxDecimals; ++decimals) {
     const double scaled = step * std::pow(10.0, decimals);
     if (scaled >= 0.5 && std::abs(scaled - std::round(scaled)) <= kSlack * scaled) return decimals;
   }
-  return kMostDecimals;
+  return kMaxDecimals;
 }
 
 void add_labels(Ticks& ticks) {

@@ -14,8 +14,8 @@
 namespace geotherm::app {
 namespace {
 
-constexpr double kLeastFactor = 1e-6, kMostFactor = 1e6;
-constexpr int kMostFactors = 200;
+constexpr double kMinFactor = 1e-6, kMaxFactor = 1e6;
+constexpr int kMaxFactors = 200;
 
 /// LEAST:MOST:COUNT.
 Result<std::vector<double>> parse_factors(const std::string& text) {
@@ -25,8 +25,8 @@ Result<std::vector<double>> parse_factors(const std::string& text) {
     const auto least = number_in<double>(text.substr(0, first));
     const auto most = number_in<double>(text.substr(first + 1, second - first - 1));
     const auto count = number_in<int>(text.substr(second + 1));
-    if (least && most && count && *least >= kLeastFactor && *most <= kMostFactor &&
-        *least < *most && *count >= 2 && *count <= kMostFactors) {
+    if (least && most && count && *least >= kMinFactor && *most <= kMaxFactor && *least < *most &&
+        *count >= 2 && *count <= kMaxFactors) {
       return study_factors(*least, *most, *count);
     }
   }

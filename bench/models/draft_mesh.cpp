@@ -18,7 +18,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr double kFlattest = 0.5;
 // Sum of cotangents below which an edge is not Delaunay; not zero, or ties would flip for ever.
 constexpr double kNotDelaunay = -1e-6;
-constexpr int kMostRounds = 20;
+constexpr int kMaxRounds = 20;
 
 /// Half-edge h = 3 f + c runs from corner c of face f to the next corner.
 class Flipper {
@@ -28,7 +28,7 @@ class Flipper {
   }
 
   void run() {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       Index flips = 0;
       for (Index h = 0; h < std::ssize(twin_); ++h) {
         if (twin_[at(h)] > h && try_flip(h)) ++flips;

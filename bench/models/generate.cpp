@@ -36,11 +36,11 @@ Result<TriangleMesh> generate_model(std::string_view name, Index faces, const Pr
     return Error{ErrorCode::kNotAvailable, "there is no bundled model \"" + std::string(name) +
                                                "\"; there are " + all_names()};
   }
-  if (faces < kFewestModelFaces || faces > kMostModelFaces) {
+  if (faces < kMinModelFaces || faces > kMaxModelFaces) {
     return Error{ErrorCode::kBadInput,
                  std::to_string(faces) + " faces were asked for; the model \"" + std::string(name) +
-                     "\" can have " + std::to_string(kFewestModelFaces) + " to " +
-                     std::to_string(kMostModelFaces)};
+                     "\" can have " + std::to_string(kMinModelFaces) + " to " +
+                     std::to_string(kMaxModelFaces)};
   }
   Result<generate::DraftMesh> made = maker->make(faces, progress);
   if (!made) return made.error();

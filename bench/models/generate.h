@@ -10,8 +10,8 @@
 namespace geotherm {
 
 /// Fewest and most faces that a model can be asked for.
-inline constexpr Index kFewestModelFaces = 500;
-inline constexpr Index kMostModelFaces = 5'000'000;
+inline constexpr Index kMinModelFaces = 500;
+inline constexpr Index kMaxModelFaces = 5'000'000;
 
 /// Makes a bundled model (terrain, sleeve, cube, gargoyle or bunny) of about `faces` faces (within
 /// 3 % from 2,000 on). Each is an oriented manifold with exactly one component and no degenerate

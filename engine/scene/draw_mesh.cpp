@@ -12,7 +12,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 /// Every face at a vertex is compared with every other there, up to this many; beyond, all are
 /// taken for one fan.
-constexpr std::uint32_t kMostCompared = 64;
+constexpr std::uint32_t kMaxCompared = 64;
 
 /// Area vectors of all faces: normals as long as twice the area.
 std::vector<glm::vec3> area_vectors(const SurfaceGeometry& geometry) {
@@ -84,7 +84,7 @@ class Builder {
     const float crease = std::cos(glm::radians(kCreaseAngle));
     for (std::size_t v = 0; v < geometry_.positions.size(); ++v) {
       const std::size_t first_group = groups_.size();
-      if (corners.first[v + 1] - corners.first[v] > kMostCompared) {
+      if (corners.first[v + 1] - corners.first[v] > kMaxCompared) {
         group_as_one(corners, v, areas, normals);
         continue;
       }

@@ -20,7 +20,7 @@ using Layout = vk::ImageLayout;
 constexpr const char* kDoing = "drawing in the window";
 
 /// A surface may become outdated as often as a window is resized while we look.
-constexpr int kMostAttempts = 8;
+constexpr int kMaxAttempts = 8;
 
 }  // namespace
 
@@ -134,7 +134,7 @@ bool WindowTarget::State::acquire() {
 }
 
 bool WindowTarget::State::take_image(glm::ivec2 pixels) {
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     if (stale || made_for != pixels) make_swapchain(pixels);
     if (swapchain.empty()) {
       stale = true;

@@ -19,10 +19,10 @@ template <class Entry, class Emit>
 RawVector<Entry> counting_sort(std::size_t items, std::size_t keys, int threads, const Emit& emit,
                                std::vector<std::uint32_t>& start) {
   // Each thread counts on its own: of more than these the counts would cost more than the items.
-  constexpr int kMostPieces = 8;
+  constexpr int kMaxPieces = 8;
   constexpr std::int64_t kGrain = 1 << 14;  // items a thread must have to be worth starting
   const auto count = static_cast<std::int64_t>(items);
-  const int pieces = piece_count(std::min(threads, kMostPieces), count, kGrain);
+  const int pieces = piece_count(std::min(threads, kMaxPieces), count, kGrain);
   std::vector<std::vector<std::uint32_t>> cursors(static_cast<std::size_t>(pieces));
   for (auto& cursor : cursors) cursor.resize(keys);
   for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {

@@ -12,9 +12,9 @@ namespace geotherm {
 void keep_freed_memory() {
 #ifdef __GLIBC__
   constexpr int kLargestBlock = 32 << 20;  // the most that glibc takes
-  constexpr int kMostKept = 512 << 20;
+  constexpr int kMaxKept = 512 << 20;
   if (mallopt(M_MMAP_THRESHOLD, kLargestBlock) == 0) return;
-  mallopt(M_TRIM_THRESHOLD, kMostKept);
+  mallopt(M_TRIM_THRESHOLD, kMaxKept);
 #endif
 }
 

@@ -26,9 +26,9 @@ Character first_character(std::string_view text) {
     if ((byte(i) & 0xc0U) != 0x80) return {};
     code = code << 6U | (byte(i) & 0x3fU);
   }
-  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+  constexpr char32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000};
   const bool surrogate = code >= 0xd800 && code < 0xe000;
-  if (code < kLeast[length] || code > 0x10ffff || surrogate) return {};
+  if (code < kMin[length] || code > 0x10ffff || surrogate) return {};
   return {code, length};
 }
 

@@ -32,9 +32,9 @@ class HelperPool {
   std::vector<std::unique_ptr<HelperThreads>> free_ = with_room();  // so that give() never fails
 
   static std::vector<std::unique_ptr<HelperThreads>> with_room() {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t kMax = 64;
     std::vector<std::unique_ptr<HelperThreads>> out;
-    out.reserve(kMost);
+    out.reserve(kMax);
     return out;
   }
 };

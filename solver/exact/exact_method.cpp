@@ -91,7 +91,7 @@ Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const Sour
   const auto workers = static_cast<std::size_t>(state_->threads.at_once(sets.size()));
   return solve_sets(sets, state_->threads, progress,
                     [&](const SourceSet& sources, const Progress& part) {
-                      return state_->solve(sources, Propagation::kMostBytes / workers, query, part);
+                      return state_->solve(sources, Propagation::kMaxBytes / workers, query, part);
                     });
 }
 

@@ -96,7 +96,7 @@ Result<void> Propagation::check(const Progress& progress) {
                  "exact distances on " + std::to_string(faces) +
                      " faces: " + std::to_string(bytes / sizeof(Window)) +
                      " windows are kept and fill " + std::to_string(most_bytes_ >> 20) + " MB",
-                 {most_bytes_ < kMostBytes ? "take fewer threads, or " : "use ",
+                 {most_bytes_ < kMaxBytes ? "take fewer threads, or " : "use ",
                   SettingHint{"method", {"wavefront-fine"}}}};
   }
   const double done = static_cast<double>(work_) / static_cast<double>(kWindowWork);

@@ -24,10 +24,10 @@ class Propagation {
   };
 
   /// Where run() gives up, in bytes of windows: 1.5 GiB.
-  static constexpr std::size_t kMostBytes = std::size_t{3} << 29;
+  static constexpr std::size_t kMaxBytes = std::size_t{3} << 29;
 
   /// Keeps a reference.
-  explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMostBytes);
+  explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMaxBytes);
 
   /// Starts from the seeds and runs to the end; once. Lengths as those of the surface; until the
   /// end they are measured from the least offset, so that they keep their digits. `progress` is

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kGrain = 1 << 12;
 
 /// Share of a face's stiffness coupling that its mass coupling may take away.
-constexpr double kMostOfStiffness = 0.5;
+constexpr double kMaxOfStiffness = 0.5;
 
 }  // namespace
 
@@ -81,7 +81,7 @@ std::array<double, 3> FemOperator::weights(std::size_t face) const {
   // The consistent mass couples each pair by area / 12; no more of it than half of what the
   // stiffness couples, so that M keeps the signs that make u positive.
   const double mass = share * mass_factor_ * p.base * p.height / 24;
-  for (double& weight : w) weight -= std::min(mass, kMostOfStiffness * std::max(weight, 0.0));
+  for (double& weight : w) weight -= std::min(mass, kMaxOfStiffness * std::max(weight, 0.0));
   return w;
 }
 

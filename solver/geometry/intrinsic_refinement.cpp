@@ -165,7 +165,7 @@ struct Place {
 /// Walks straight from the middle of a face to its circumcentre. A place without face and border:
 /// rounding has led the walk astray.
 Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
-  constexpr int kMostSteps = 1000;  // walks within the circumcircle are a few faces long
+  constexpr int kMaxSteps = 1000;  // walks within the circumcircle are a few faces long
   const FaceLayout p = lay_out(mesh.lengths[face]);
   std::array<Point2, 3> at = {Point2(0, 0), Point2(p.base, 0), Point2(p.x, p.height)};
   const Point2 target(p.base / 2,
@@ -173,7 +173,7 @@ Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   const Point2 start = (at[0] + at[1] + at[2]) / 3;
   const Point2 way = target - start;
   int entry = -1;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     int exit = -1;
     for (int k = 0; k < 3; ++k) {
       const Point2 &a = at[k], &b = at[next_corner(k)];

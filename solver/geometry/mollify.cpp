@@ -21,7 +21,7 @@ constexpr double kAim = 1.1 * kStrict;
 /// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
 constexpr double kPoint = 1e-70;
 /// Rounds at most: ordinary files take three.
-constexpr int kMostRounds = 100;
+constexpr int kMaxRounds = 100;
 
 /// What is missing to the triangle inequality over side k, at most 0 where it is strict enough.
 double missing(const Lengths& l, int k, double strict) {
@@ -72,7 +72,7 @@ class LocalRepair {
   /// In rounds, each of which sees the lengths that the one before has left: the order of faces
   /// does not matter. False where the work does not end.
   bool run(std::vector<Index> active) {
-    for (int round = 0; round < kMostRounds; ++round) {
+    for (int round = 0; round < kMaxRounds; ++round) {
       std::vector<Index> called;
       for (const Index f : active) ask_for(f, called);
       if (called.empty()) return true;

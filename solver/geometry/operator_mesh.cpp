@@ -18,9 +18,9 @@ constexpr std::int64_t kGrain = 1 << 13;
 /// cross.
 constexpr Index kRowsOfRange = 8192;
 /// More would feed no more cores than people have, and let more faces cross.
-constexpr Index kMostRanges = 32;
+constexpr Index kMaxRanges = 32;
 
-Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1, kMostRanges); }
+Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1, kMaxRanges); }
 
 /// Brings the faces that cross from one range of rows to another to the end; all stay in order
 /// otherwise. Gives the ranges.

@@ -17,7 +17,7 @@ namespace geotherm {
 /// several threads; grows to what one query of each thread holds.
 class BlockPool {
  public:
-  BlockPool() { free_.reserve(kMost); }  // so that give() never fails, destructors call it
+  BlockPool() { free_.reserve(kMax); }  // so that give() never fails, destructors call it
 
   /// A block with any content.
   Block take(Eigen::Index rows, Eigen::Index columns) {
@@ -40,12 +40,12 @@ class BlockPool {
     if (block.size() == 0) return;
     const std::lock_guard lock(mutex_);
     // Batches and single queries alternate at most: other shapes make room.
-    if (free_.size() >= kMost) free_.erase(free_.begin());
+    if (free_.size() >= kMax) free_.erase(free_.begin());
     free_.push_back(std::move(block));
   }
 
  private:
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMax = 16;
   std::mutex mutex_;
   std::vector<Block> free_;
 };

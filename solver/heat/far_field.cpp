@@ -18,7 +18,7 @@ namespace geotherm {
 namespace {
 
 /// With direct solvers some 50 million edges at t = h^2: more than fit in memory.
-constexpr int kMostLevels = std::numeric_limits<HeatField::Level>::max();
+constexpr int kMaxLevels = std::numeric_limits<HeatField::Level>::max();
 /// Rows to ask that are worth a thread: some 0.1 ms.
 constexpr std::int64_t kRowsOfThread = 1000;
 /// Ranges of faces that are.
@@ -49,7 +49,7 @@ Result<void> FarField::extend(std::span<const Eigen::Index> columns, const Range
   const Range whole = components_.count == 1 ? of_columns : range();
   first_ = whole.largest;
   Far far = keep(below(whole, {}), all, rows);
-  for (int level = 1; !columns_.empty() && level <= kMostLevels; ++level) {
+  for (int level = 1; !columns_.empty() && level <= kMaxLevels; ++level) {
     // How many levels there will be is not known: each has half of the rest.
     const double rest = std::pow(0.5, level);
     if (!report(progress, "solve", 1 - rest)) return cancelled_error();

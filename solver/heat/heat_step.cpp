@@ -87,7 +87,7 @@ bool HeatStep::on_border(const SourceAnchors& anchors) const {
 
 bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) const {
   if (boundary_ != BoundaryRule::kNeumann && on_border(anchors)) return true;
-  return mode == HeatMode::kHold && (iterative_ || anchors.anchors.size() > kMostHeldRows);
+  return mode == HeatMode::kHold && (iterative_ || anchors.anchors.size() > kMaxHeldRows);
 }
 
 double HeatStep::held_value(const SourceAnchors::Anchor& anchor) const {

@@ -12,7 +12,7 @@
 namespace geotherm {
 
 /// Held vertices up to this many are reached through the shared factor (HeatMode::kHold).
-inline constexpr std::size_t kMostHeldRows = 128;
+inline constexpr std::size_t kMaxHeldRows = 128;
 
 /// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of heat_options.h.
 class HeatStep {

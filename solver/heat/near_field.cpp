@@ -22,13 +22,13 @@ constexpr double kInner = 0.5;
 /// Faces that a wave walks over for one source of a component: in proportion to the share of its
 /// vertices that had to be inserted, up to the most; many sources walk over a tenth of its faces
 /// together, or over those at the sources.
-constexpr double kFacesOfShare = 5000, kMost = 800, kShareOfMany = 0.1;
+constexpr double kFacesOfShare = 5000, kMax = 800, kShareOfMany = 0.1;
 /// Fewer faces than lie around a vertex and its neighbours tell nothing.
-constexpr double kFewest = 24;
+constexpr double kMin = 24;
 
 std::size_t faces_worth_walking(const ComponentSize& component, std::size_t sources) {
-  const double one = std::min(kFacesOfShare * component.inserted, kMost);
-  if (one < kFewest) return 0;
+  const double one = std::min(kFacesOfShare * component.inserted, kMax);
+  if (one < kMin) return 0;
   const double many = std::min(one * static_cast<double>(sources), kShareOfMany * component.faces);
   return static_cast<std::size_t>(std::max(one, many));
 }

@@ -138,7 +138,7 @@ Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const Sou
     case ConstraintMode::kPinSources: {
       std::size_t most = 0;
       for (const SourceAnchors& a : anchors) most = std::max(most, a.anchors.size());
-      return iterative_ || most > kMostSchurRows
+      return iterative_ || most > kMaxSchurRows
                  ? solve_held(b, anchors, work, progress)
                  : solve_schur(std::move(b), anchors, work, progress);
     }

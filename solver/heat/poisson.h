@@ -12,7 +12,7 @@ namespace geotherm {
 
 /// Held vertices beyond this many are solved by a numeric factorisation of their own instead of a
 /// dense Schur complement on the shared factor.
-inline constexpr std::size_t kMostSchurRows = 128;
+inline constexpr std::size_t kMaxSchurRows = 128;
 
 /// What solving for phi did.
 struct PoissonAnswer {
@@ -49,7 +49,7 @@ class PoissonSolver {
   /// True when a query with these sources makes a factor of its own.
   bool needs_own_system(const SourceAnchors& anchors) const {
     return constraint_.mode == ConstraintMode::kPinSources &&
-           (iterative_ || anchors.anchors.size() > kMostSchurRows);
+           (iterative_ || anchors.anchors.size() > kMaxSchurRows);
   }
 
   FactorStats stats() const { return system_->factor().stats(); }

@@ -47,10 +47,10 @@ class EigenAnalysis final : public Analysis {
         !same) {
       return same.error();
     }
-    if (constexpr std::int64_t kMost = std::numeric_limits<int>::max(); entries_ > kMost) {
+    if (constexpr std::int64_t kMax = std::numeric_limits<int>::max(); entries_ > kMax) {
       return Error{ErrorCode::kOutOfMemory,
                    "needs a factor of " + std::to_string(entries_) + " entries, at most " +
-                       std::to_string(kMost) + " can be counted",
+                       std::to_string(kMax) + " can be counted",
                    {"try ", SettingHint{"backend", {"cg"}}},
                    kName};
     }

@@ -98,7 +98,7 @@ class NativeAnalysis final : public Analysis {
     FactorStorage storage = storage_for(options.storage);
     FactorFailure failure =
         factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
-    const bool unsafe = failure.narrow || factor.cancellation > kMostCancellation;
+    const bool unsafe = failure.narrow || factor.cancellation > kMaxCancellation;
     if (storage != FactorStorage::kFull && unsafe && failure.column == kNoIndex) {
       storage = FactorStorage::kFull;
       factor = {};
@@ -129,7 +129,7 @@ class NativeAnalysis final : public Analysis {
   static constexpr Index kNarrowFrom = 20'000;
   /// Good meshes have 2 to 10. Where elimination takes more of a diagonal entry away than all but
   /// this share, weights differ by so many orders that the rounding of narrow numbers would show.
-  static constexpr double kMostCancellation = 64;
+  static constexpr double kMaxCancellation = 64;
 
   FactorStorage storage_for(FactorStorage asked) const {
     return tree_->size() < kNarrowFrom ? FactorStorage::kFull : asked;

@@ -14,7 +14,7 @@
 namespace geotherm {
 namespace {
 
-constexpr int kMostBins = 512;
+constexpr int kMaxBins = 512;
 /// A direction along which a part has less than this share of its greatest extent is left out.
 constexpr float kThin = 0.3F;
 /// And so is one along which it has next to none, where an inverse would overflow.
@@ -160,7 +160,7 @@ Plane sweep(const Reaches& reaches, std::size_t lane, int bins) {
   struct Bin {
     Index own, lowest, highest;  ///< vertices of which this is the bin of that kind
   };
-  std::array<Bin, kMostBins> all;
+  std::array<Bin, kMaxBins> all;
   std::fill_n(all.begin(), bins, Bin{});
   for (std::size_t i = 0; i < reaches.size(); ++i) {
     ++all[reaches.own[i][lane]].own;
@@ -200,7 +200,7 @@ Separator cut(const Reaches& reaches, const Plane& plane) {
 
 std::vector<Separator> plane_cuts(const GraphPart& part, int most, int threads) {
   const std::vector<Extent> extents = find_extents(part, threads);
-  const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMostBins);
+  const int bins = std::clamp(static_cast<int>(4 * std::sqrt(part.size())), 16, kMaxBins);
   const Reaches reaches = find_reaches(part, extents, bins, threads);
   std::vector<Plane> planes(extents.size());
   parallel_for(part.size() > kVerticesAPiece ? threads : 1, std::ssize(planes), 1,

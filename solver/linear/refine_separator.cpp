@@ -16,14 +16,14 @@ struct Move {
   std::int8_t to;
 };
 
-/// Moves by gain, best first, of the same gain the latest first. A gain below kLeast waits with
-/// those of kLeast.
+/// Moves by gain, best first, of the same gain the latest first. A gain below kMin waits with
+/// those of kMin.
 class MoveQueue {
  public:
   MoveQueue() { first_.fill(kNoIndex); }
 
   void push(const Move& move) {
-    const Index list = std::max(move.gain, kLeast) - kLeast;
+    const Index list = std::max(move.gain, kMin) - kMin;
     moves_.push_back({move, first_[list]});
     first_[list] = static_cast<Index>(moves_.size()) - 1;
     best_ = std::max(best_, list);
@@ -40,14 +40,14 @@ class MoveQueue {
   }
 
  private:
-  static constexpr Index kLeast = -14;
+  static constexpr Index kMin = -14;
 
   struct Waiting {
     Move move;
     Index next;
   };
   std::vector<Waiting> moves_;
-  std::array<Index, 2 - kLeast> first_;
+  std::array<Index, 2 - kMin> first_;
   Index best_ = kNoIndex;
 };
 

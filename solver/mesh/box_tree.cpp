@@ -10,7 +10,7 @@ namespace {
 constexpr int kBins = 16;
 constexpr std::size_t kLeaf = 4;            // most items of a leaf
 constexpr float kStepCost = 1.0F;           // of a node, in tests of an item
-constexpr float kLeastLength = 1e-30F;      // of centres that bins can tell apart
+constexpr float kMinLength = 1e-30F;        // of centres that bins can tell apart
 constexpr int kHalvesFrom = 40;             // depth; 2^31 items have at most 31 levels of halves
 constexpr std::size_t kAskFrom = 1U << 12;  // splits of so many items ask the progress
 
@@ -52,7 +52,7 @@ struct Bins {
       axis = k;
     }
     low = centres.low[axis];
-    scale = length > kLeastLength ? kBins * (1 - 1e-5F) / length : 0.0F;
+    scale = length > kMinLength ? kBins * (1 - 1e-5F) / length : 0.0F;
   }
   int of(const FloatBox& box) const {
     return std::clamp(static_cast<int>((centre(box, axis) - low) * scale), 0, kBins - 1);

@@ -42,7 +42,7 @@ struct BoxNode {
 
 /// A hierarchy of boxes over items: node 0 is the root, and there is none without items.
 struct BoxTree {
-  static constexpr int kMostDepth = 72;
+  static constexpr int kMaxDepth = 72;
 
   std::vector<BoxNode> nodes;
   std::vector<Index> ids;
@@ -50,7 +50,7 @@ struct BoxTree {
 
 /// Splits where the surface area heuristic is lowest over 16 bins of box centres on the longest
 /// axis (Wald 2007); in halves where the centres tell nothing, and below depth 40, so that no input
-/// makes the tree deeper than kMostDepth. Cost: O(n log n). Errors: kCancelled.
+/// makes the tree deeper than kMaxDepth. Cost: O(n log n). Errors: kCancelled.
 Result<BoxTree> build_box_tree(std::vector<BoxItem> items, const Progress& progress);
 
 }  // namespace geotherm

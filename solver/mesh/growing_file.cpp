@@ -61,9 +61,9 @@ struct GrowingFile::State {
 
   /// A file of a new name beside the target; 0, or the system's error code.
   int open_beside(std::optional<mode_t> mode) {
-    constexpr int kMostAttempts = 1000;
+    constexpr int kMaxAttempts = 1000;
     const std::string stem = target + ".tmp-" + std::to_string(::getpid()) + '-';
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const std::string name = stem + std::to_string(attempt);
       unfinished.reset();  // before errno is set
       unfinished = std::make_unique<UnfinishedFile>(name);

@@ -22,7 +22,7 @@ constexpr double kPad = 1e-13;
 constexpr double kNear = 4;
 
 /// Components of a direction are taken to be at least this, which moves no ray by as much as kPad.
-constexpr double kLeastComponent = 1e-30;
+constexpr double kMinComponent = 1e-30;
 
 /// Maps the model into [-1, 1]^3: by a power of two, so that nothing over- or underflows and
 /// scaling rounds nothing.
@@ -35,8 +35,8 @@ struct Frame {
 };
 
 Frame frame_of(const TriangleMesh& mesh) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  Vec3 low = Vec3::Constant(kMost), high = Vec3::Constant(-kMost);
+  constexpr double kMax = std::numeric_limits<double>::max();
+  Vec3 low = Vec3::Constant(kMax), high = Vec3::Constant(-kMax);
   for (const Face& face : mesh.faces()) {
     if (repeats_corner(face)) continue;
     for (const Index v : face) {
@@ -100,7 +100,7 @@ struct Ray {
     ray.sy = direction[ray.y] / ray.sz;
     for (int k = 0; k < 3; ++k) {
       ray.inverse[k] =
-          1 / std::copysign(std::max(std::abs(direction[k]), kLeastComponent), direction[k]);
+          1 / std::copysign(std::max(std::abs(direction[k]), kMinComponent), direction[k]);
     }
     return ray;
   }
@@ -180,7 +180,7 @@ struct RayTree::State {
       std::uint32_t node;
       double entry;
     };
-    std::array<Waiting, BoxTree::kMostDepth + 1> waiting;
+    std::array<Waiting, BoxTree::kMaxDepth + 1> waiting;
     std::size_t count = 0;
     Best best;
     Waiting at{0, tree.nodes.empty() ? std::numeric_limits<double>::infinity()

@@ -6,17 +6,17 @@
 namespace geotherm {
 
 Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
-  constexpr std::size_t kMost = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
+  constexpr std::size_t kMax = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
   if (faces.empty()) {
     return Error{ErrorCode::kBadInput,
                  "the mesh has no faces (" + std::to_string(positions.size()) + " vertices)",
                  {"distances need a surface of triangles"}};
   }
-  if (positions.size() > kMost || faces.size() > kMost) {
+  if (positions.size() > kMax || faces.size() > kMax) {
     return Error{ErrorCode::kBadInput,
                  "the mesh has " + std::to_string(positions.size()) + " vertices and " +
                      std::to_string(faces.size()) + " faces",
-                 {"at most " + std::to_string(kMost) + " of each are supported"}};
+                 {"at most " + std::to_string(kMax) + " of each are supported"}};
   }
   const auto vertex_count = static_cast<Index>(positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {

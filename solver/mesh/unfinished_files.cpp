@@ -78,10 +78,10 @@ UnfinishedFile::~UnfinishedFile() {
 }
 
 void remove_unfinished_files() noexcept {
-  constexpr int kMostWaits = 1000, kMilliseconds = 1;
+  constexpr int kMaxWaits = 1000, kMilliseconds = 1;
   closed = true;
   for (Slot& slot : slots) {
-    for (int i = 0; slot.state == kOpening && i < kMostWaits; ++i) {
+    for (int i = 0; slot.state == kOpening && i < kMaxWaits; ++i) {
       ::poll(nullptr, 0, kMilliseconds);
     }
     if (slot.state == kOpen) ::unlink(slot.path.data());

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAtSource = 1e-12;
 
 /// Windows need some seconds there.
-constexpr Index kMostFacesExact = 200'000;
+constexpr Index kMaxFacesExact = 200'000;
 
 }  // namespace
 
@@ -67,14 +67,14 @@ JointError joint_error(std::span<const std::vector<double>> d,
 }
 
 Grade grade_of(const DistanceError& error) {
-  if (error.max_of_range > kMostOfRange || error.differently_reached > 0) return Grade::kPoor;
+  if (error.max_of_range > kMaxOfRange || error.differently_reached > 0) return Grade::kPoor;
   if (error.mean_relative <= kNearExactError) return Grade::kNearExact;
   if (error.mean_relative <= kGoodError) return Grade::kGood;
   return error.mean_relative <= kFairError ? Grade::kFair : Grade::kPoor;
 }
 
 double badness(const DistanceError& error) {
-  return std::max(error.mean_relative / kGoodError, error.max_of_range / kMostOfRange);
+  return std::max(error.mean_relative / kGoodError, error.max_of_range / kMaxOfRange);
 }
 
 std::string to_text(Grade grade) {
@@ -128,7 +128,7 @@ MethodKind reference_for(MethodKind kind, Index faces) {
     case MethodKind::kFastMarching:
       break;
   }
-  return faces <= kMostFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+  return faces <= kMaxFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
 }
 
 MethodKind usual_reference(MethodKind kind, Index faces) {

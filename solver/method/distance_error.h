@@ -41,13 +41,13 @@ enum class Grade { kNearExact, kGood, kFair, kPoor };
 /// few grossly wrong vertices do not show in that. An error of 5 % is poor even where the reference
 /// hides half a per cent of it.
 inline constexpr double kNearExactError = 1e-3, kGoodError = 0.02, kFairError = 0.05;
-inline constexpr double kMostOfRange = 0.045;
+inline constexpr double kMaxOfRange = 0.045;
 
 /// kPoor as well where one of both reaches vertices that the other does not.
 Grade grade_of(const DistanceError& error);
 
 /// How far an answer is from being good: at most 1 where it is. The larger of the mean error over
-/// kGoodError and the largest over kMostOfRange.
+/// kGoodError and the largest over kMaxOfRange.
 double badness(const DistanceError& error);
 
 /// near exact | good | fair | poor

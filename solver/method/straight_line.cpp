@@ -93,7 +93,7 @@ Index StraightLine::find(const Vec3& place, double& reach, bool any) const {
     }
     return found;
   }
-  std::array<std::pair<double, std::uint32_t>, BoxTree::kMostDepth + 2> waiting;
+  std::array<std::pair<double, std::uint32_t>, BoxTree::kMaxDepth + 2> waiting;
   std::size_t count = 0;
   waiting[count++] = {geotherm::length_to(tree_.nodes[0].box, place), 0};
   while (count > 0) {

@@ -17,7 +17,7 @@ namespace {
 /// Sets that the heat method solves as one block.
 constexpr std::size_t kBlock = 16;
 /// Blocks of a thread in a chunk, at most.
-constexpr std::size_t kMostBlocks = 2;
+constexpr std::size_t kMaxBlocks = 2;
 /// Beyond this, more blocks would cost memory for little: a block takes long enough by itself.
 constexpr std::int64_t kAmpleBytes = std::int64_t{256} << 20;
 
@@ -88,7 +88,7 @@ Result<void> stream_answers(const DistanceMethod& method, std::span<const Source
 
 std::size_t good_chunk(Index vertices, int threads, std::optional<std::int64_t> free_bytes) {
   const std::size_t least = kBlock * static_cast<std::size_t>(thread_count(threads));
-  std::size_t chunk = least * kMostBlocks;
+  std::size_t chunk = least * kMaxBlocks;
   while (chunk > least && chunk_bytes(vertices, chunk) > kAmpleBytes) chunk -= least;
   if (!free_bytes) return chunk;
   const std::int64_t most = *free_bytes / 2;

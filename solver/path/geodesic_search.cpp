@@ -24,7 +24,7 @@ namespace {
 constexpr double kDistanceError = 1e-3;
 
 /// Most vertices tried; of hundreds of paths on rough scans none gained by more.
-constexpr int kMostTries = 16;
+constexpr int kMaxTries = 16;
 
 /// Paths of the crossing graph are tried while they are longer than the best so far by less than
 /// this share, which is more than they lose by their few points on each edge.
@@ -32,16 +32,16 @@ constexpr double kGraphError = 0.04;
 
 /// Most of them tried, and most faces that these may run through in all beyond the first: many
 /// short ones on coarse meshes, a few long ones on fine meshes.
-constexpr std::size_t kMostRoutes = 300, kMostFaces = 20000;
+constexpr std::size_t kMaxRoutes = 300, kMaxFaces = 20000;
 
 /// Most edges that take part, and most points on them all. All of a coarse mesh take part, on which
 /// distances tell least.
-constexpr std::size_t kMostEdges = 3000;
-constexpr int kMostPoints = 15000;
+constexpr std::size_t kMaxEdges = 3000;
+constexpr int kMaxPoints = 15000;
 
 /// Points on an edge, evenly between its vertices: with 5 of them 0.4 % of paths on coarse tori
 /// were missed, with 12 less than 0.1 %.
-constexpr int kLeastOnEdge = 5, kMostOnEdge = 12;
+constexpr int kMinOnEdge = 5, kMaxOnEdge = 12;
 
 /// Points of an edge at which the distances are estimated.
 constexpr int kSamples = 5;
@@ -110,7 +110,7 @@ class Search {
     std::ranges::sort(near);
     int tries = 0;
     for (const auto& [length, v] : near) {
-      if (tries == kMostTries || length > best_.length * (1 + kDistanceError)) break;
+      if (tries == kMaxTries || length > best_.length * (1 + kDistanceError)) break;
       if (seen_[v] || surface_.corners_at(v).empty()) continue;
       ++tries;
       const SurfacePoint vertex = SurfacePoint::at_vertex(v);
@@ -129,8 +129,8 @@ class Search {
     if (!(best_.length > 0)) return {};
     const CrossingGraph graph(surface_, ends_, best_.length);
     std::size_t faces = 0;
-    for (const SurfacePath& route : graph.routes(best_.length * (1 + kGraphError), kMostRoutes)) {
-      if (faces > kMostFaces || route.length > best_.length * (1 + kGraphError)) break;
+    for (const SurfacePath& route : graph.routes(best_.length * (1 + kGraphError), kMaxRoutes)) {
+      if (faces > kMaxFaces || route.length > best_.length * (1 + kGraphError)) break;
       faces += route.faces.size();
       if (auto tried = shorten_from(route); !tried) return tried;
     }
@@ -159,7 +159,7 @@ CrossingGraph::CrossingGraph(const PathSurface& surface, const GeodesicEnds& end
 }
 
 void CrossingGraph::choose_edges(const GeodesicEnds& ends) {
-  const bool all = static_cast<std::size_t>(surface_.edges().edge_count()) <= kMostEdges;
+  const bool all = static_cast<std::size_t>(surface_.edges().edge_count()) <= kMaxEdges;
   std::vector<std::pair<double, Index>> chosen;
   const double unit = surface_.unit();
   for (Index e = 0; e < surface_.edges().edge_count(); ++e) {
@@ -175,13 +175,13 @@ void CrossingGraph::choose_edges(const GeodesicEnds& ends) {
     }
     if (all || least <= longest_) chosen.emplace_back(least, e);
   }
-  if (chosen.size() > kMostEdges) {
-    std::ranges::nth_element(chosen, chosen.begin() + kMostEdges);
-    chosen.resize(kMostEdges);
+  if (chosen.size() > kMaxEdges) {
+    std::ranges::nth_element(chosen, chosen.begin() + kMaxEdges);
+    chosen.resize(kMaxEdges);
     std::ranges::sort(chosen);
   }
-  const int points = std::clamp(kMostPoints / std::max(static_cast<int>(chosen.size()), 1),
-                                kLeastOnEdge, kMostOnEdge);
+  const int points =
+      std::clamp(kMaxPoints / std::max(static_cast<int>(chosen.size()), 1), kMinOnEdge, kMaxOnEdge);
   for (const auto& [least, e] : chosen) {
     for (const Index v : {surface_.edges().low(e), surface_.edges().high(e)}) {
       if (node_of_vertex_[v] == kNone) node_of_vertex_[v] = add_node(SurfacePoint::at_vertex(v));

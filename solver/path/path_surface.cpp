@@ -22,8 +22,8 @@ struct Frame {
 
 /// About the vertices that faces use; the unit is a power of two, so that scaling rounds nothing.
 Frame frame_of(std::span<const Vec3> positions, std::span<const Face> faces) {
-  constexpr double kMost = std::numeric_limits<double>::max();
-  Vec3 low = Vec3::Constant(kMost), high = Vec3::Constant(-kMost);
+  constexpr double kMax = std::numeric_limits<double>::max();
+  Vec3 low = Vec3::Constant(kMax), high = Vec3::Constant(-kMax);
   for (const Face& face : faces) {
     for (const Index v : face) {
       low = low.cwiseMin(positions[v]);

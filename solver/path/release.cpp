@@ -14,7 +14,7 @@ namespace {
 constexpr double kStraight = 1e-8;
 
 /// A step must shorten the legs by more than this share of their length, or it is round-off.
-constexpr double kLeastGain = 1e-14;
+constexpr double kMinGain = 1e-14;
 
 Error outside_face(std::size_t piece) {
   return {ErrorCode::kBadInput,
@@ -93,7 +93,7 @@ std::optional<std::vector<Index>> strip_past(const PathSurface& surface, const L
   return strip;
 }
 
-bool is_shorter(double length, double before) { return length < before * (1 - kLeastGain); }
+bool is_shorter(double length, double before) { return length < before * (1 - kMinGain); }
 
 Result<void> release_bends(const PathSurface& surface, std::vector<Leg>& legs,
                            ShortenBudget& budget) {

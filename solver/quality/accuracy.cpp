@@ -168,9 +168,9 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
   const bool wanted = search == CureSearch::kWherePoor ? report.grade == Grade::kPoor
                                                        : report.grade >= Grade::kFair;
   if (!wanted || report.figures.differently_reached > 0) return {};
-  auto found = diagnose(mesh, answers, better.method, better.distances,
-                        search == CureSearch::kWherePoor ? kMostFacesBesides : kMostFacesDiagnosed,
-                        progress);
+  auto found =
+      diagnose(mesh, answers, better.method, better.distances,
+               search == CureSearch::kWherePoor ? kMaxFacesBesides : kMaxFacesDiagnosed, progress);
   if (!found) return found.error();
   report.cause = std::move(found->cause);
   report.cure = std::move(found->cure);

@@ -18,8 +18,8 @@ namespace geotherm {
 /// When other settings are tried (diagnose()).
 enum class CureSearch {
   kNever,
-  kWherePoor,     ///< on meshes of up to kMostFacesBesides faces
-  kWhereNotGood,  ///< also where the answer is fair, and on larger meshes (kMostFacesDiagnosed)
+  kWherePoor,     ///< on meshes of up to kMaxFacesBesides faces
+  kWhereNotGood,  ///< also where the answer is fair, and on larger meshes (kMaxFacesDiagnosed)
 };
 
 struct AccuracyOptions {

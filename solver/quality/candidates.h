@@ -13,7 +13,7 @@ namespace geotherm {
 struct Candidate {
   std::string option, value;  ///< what is changed, as on the command line without dashes
   std::string because;        ///< why it may be the cause; empty: it is not wrong as it is
-  double faces = 1;           ///< of the work, in those of the mesh (kMostFacesDiagnosed)
+  double faces = 1;           ///< of the work, in those of the mesh (kMaxFacesDiagnosed)
   MethodOptions options;
 };
 

@@ -12,7 +12,7 @@ namespace geotherm {
 namespace {
 
 /// What leaves more of the error than this explains nothing.
-constexpr double kMostLeft = 0.8;
+constexpr double kMaxLeft = 0.8;
 
 /// What leaves more than this of what the best before it leaves is not the cause: values that are
 /// right on some meshes only, after one that is recommended; four times as many faces.
@@ -44,7 +44,7 @@ class Search {
     const double left = badness(*error);
     const bool good = left <= 1 && left < badness(before_);
     if (good) found.cure = tried;
-    const double most = std::min(kMostLeft * badness(before_), (found.cause ? share : 1) * left_);
+    const double most = std::min(kMaxLeft * badness(before_), (found.cause ? share : 1) * left_);
     if (error->mean_relative >= before_.mean_relative || (left >= most && !good)) return {};
     found.cause = ErrorCause{candidate.option, candidate.value, candidate.because,
                              before_.mean_relative, error->mean_relative};
@@ -76,7 +76,7 @@ class Search {
     options.method = kind;
     options.threads = answers_.options.threads;
     if (is_better(reference_, kind)) return try_against(options, reference_, better_, progress);
-    const bool small = mesh_->face_count() <= kMostFacesExact;
+    const bool small = mesh_->face_count() <= kMaxFacesExact;
     for (const MethodKind judge : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
       if (!is_better(judge, kind) || (judge == MethodKind::kExact && !small)) continue;
       const auto better = solve_reference(mesh_, judge, answers_.sources, options.threads,

@@ -51,24 +51,24 @@ struct CheckedAnswers {
 /// How much work a search for a cure takes on, as faces that are set up for one setting: a setting
 /// that shares all but one factor counts for a third of the mesh, a cover for two, a refined mesh
 /// for four. The first where it was asked for, the second where it was not.
-inline constexpr Index kMostFacesDiagnosed = 300'000;
-inline constexpr Index kMostFacesBesides = 100'000;
+inline constexpr Index kMaxFacesDiagnosed = 300'000;
+inline constexpr Index kMaxFacesBesides = 100'000;
 
 /// Exact distances take some tenths of a second up to here, so that other methods are held against
 /// them, and they are offered where no other method is good.
-inline constexpr Index kMostFacesExact = 20'000;
+inline constexpr Index kMaxFacesExact = 20'000;
 
 /// What makes wrong answers right, by trying: solves again with one setting at a time changed, and
 /// takes the first whose answer is good. In this order, and the cheapest of each kind first:
 /// options of the heat method that are not what is recommended, set to that; other values of its
 /// options (time factors 2 and 4, the variant classic, other rules where there is a border, tufted
-/// covers, a finer mesh); the methods wavefront, wavefront-fine and, on up to kMostFacesExact faces
+/// covers, a finer mesh); the methods wavefront, wavefront-fine and, on up to kMaxFacesExact faces
 /// or where it is the reference, exact. Where no option of the heat method makes it good, the one
 /// that lowers the error most is the cause if it takes more than a fifth away, more faces only if
 /// they leave less than half of what another one leaves. What fails is passed over. `better`:
 /// distances of `reference` for the same sources. The method wavefront is held against exact
 /// distances on small meshes, else against wavefront-fine, where it is itself the reference.
-/// `most_faces`: kMostFacesDiagnosed or kMostFacesBesides. Errors: kCancelled. Cost: a set-up and
+/// `most_faces`: kMaxFacesDiagnosed or kMaxFacesBesides. Errors: kCancelled. Cost: a set-up and
 /// queries for each setting tried, at most 16.
 Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const CheckedAnswers& answers, MethodKind reference,

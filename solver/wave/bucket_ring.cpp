@@ -8,13 +8,13 @@ namespace {
 
 /// Distances above this many buckets are all in one; offsets can be that large.
 constexpr double kLast = 1e18;
-constexpr std::int64_t kFewest = 64;
+constexpr std::int64_t kMin = 64;
 
 }  // namespace
 
 BucketRing::BucketRing(double width, double span) : per_length_(1 / width) {
-  std::int64_t count = kFewest;
-  while (count < kMost && static_cast<double>(count) * width < span) count *= 2;
+  std::int64_t count = kMin;
+  while (count < kMax && static_cast<double>(count) * width < span) count *= 2;
   buckets_.resize(static_cast<std::size_t>(count));
   storage_.resize(buckets_.size());
 }

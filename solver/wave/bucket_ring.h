@@ -14,7 +14,7 @@ namespace geotherm {
 /// its last bucket.
 class BucketRing {
  public:
-  /// `width` of a bucket; the ring spans at least `span`, or kMost buckets.
+  /// `width` of a bucket; the ring spans at least `span`, or kMax buckets.
   BucketRing(double width, double span);
 
   /// Makes it empty and connects it to a pass, which then holds its state.
@@ -30,7 +30,7 @@ class BucketRing {
   std::size_t bytes() const;
 
  private:
-  static constexpr std::int64_t kMost = 1 << 20;
+  static constexpr std::int64_t kMax = 1 << 20;
 
   void let_in(WavePass& pass);
   void grow(WaveBucket& bucket);

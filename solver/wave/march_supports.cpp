@@ -12,7 +12,7 @@ using Point2 = Eigen::Vector2d;
 /// acute in another: grids are full of them.
 constexpr double kRightAngle = 1e-6;
 /// Faces that are unfolded at one corner; on a Delaunay triangulation a few do.
-constexpr int kMostUnfolded = 50;
+constexpr int kMaxUnfolded = 50;
 
 /// The corner beyond side `k` of a face, on the left of the way from `start` to `end`, where the
 /// side lies.
@@ -38,7 +38,7 @@ std::optional<Splitter> find_splitter(const IntrinsicMesh& mesh, Side opposite, 
                                       const Point2& second) {
   Point2 p = first, q = second;
   Side side = opposite;
-  for (int i = 0; i < kMostUnfolded; ++i) {
+  for (int i = 0; i < kMaxUnfolded; ++i) {
     const Side twin = mesh.twin[side];
     if (twin == kNoSide) return std::nullopt;
     const Index f = face_of(twin);

@@ -16,7 +16,7 @@ constexpr double kRingSpan = 4;
 constexpr std::size_t kVisitsBetweenCalls = 1 << 14;
 /// Visits of an edge, on average, and of few edges together, after which a wave is given up. Broken
 /// meshes take up to some dozens.
-constexpr std::size_t kMostVisits = 500, kMostOfFew = 1 << 20;
+constexpr std::size_t kMaxVisits = 500, kMaxOfFew = 1 << 20;
 
 using Point2 = Eigen::Vector2d;
 
@@ -43,7 +43,7 @@ WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds&
       next_call = visits_ + kVisitsBetweenCalls;
       const double share = std::min(static_cast<double>(visits_) / static_cast<double>(edges), 1.0);
       if (!report(progress, "solve", share)) return Outcome::kCancelled;
-      if (visits_ > kMostOfFew + kMostVisits * edges) return Outcome::kEndless;
+      if (visits_ > kMaxOfFew + kMaxVisits * edges) return Outcome::kEndless;
     } while (pass.place > 0);
   }
   return Outcome::kDone;

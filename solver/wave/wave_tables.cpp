@@ -43,8 +43,8 @@ std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   const double extent = (high / 2 - origin).maxCoeff();
   const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
   RawVector<std::pair<std::uint64_t, Index>> codes(used.size());
-  constexpr int kMostPieces = 8;  // merging takes a pass over the vertices for each
-  const int pieces = piece_count(std::min(threads, kMostPieces), std::ssize(used), kGrain);
+  constexpr int kMaxPieces = 8;  // merging takes a pass over the vertices for each
+  const int pieces = piece_count(std::min(threads, kMaxPieces), std::ssize(used), kGrain);
   for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;

@@ -46,9 +46,9 @@ TEST_P(Interrupt, EndsTheProgramByTheSignalWithoutHalfAFile) {
 /// False where the file was written before it could be halted.
 bool interrupt_writing(const RunningProgram& program, const TemporaryDirectory& folder,
                        int number) {
-  constexpr int kMostLooks = 200'000, kBetweenLooks = 50, kUntilHalted = 5000;  // microseconds
+  constexpr int kMaxLooks = 200'000, kBetweenLooks = 50, kUntilHalted = 5000;  // microseconds
   const auto is_writing = [](const std::string& name) { return name.find(".tmp-") != name.npos; };
-  for (int look = 0; look < kMostLooks; ++look) {
+  for (int look = 0; look < kMaxLooks; ++look) {
     const auto names = folder.names();
     if (std::ranges::any_of(names, is_writing)) break;
     if (!names.empty()) break;  // it is there already
@@ -63,9 +63,9 @@ bool interrupt_writing(const RunningProgram& program, const TemporaryDirectory& 
 }
 
 TEST_P(Interrupt, RemovesTheFileThatIsBeingWritten) {
-  constexpr int kMostRuns = 20;
+  constexpr int kMaxRuns = 20;
   bool halted = false;
-  for (int i = 0; i < kMostRuns && !halted; ++i) {
+  for (int i = 0; i < kMaxRuns && !halted; ++i) {
     const TemporaryDirectory folder;
     const RunningProgram program(folder.path("."),
                                  {"generate", "terrain", "--faces", "100000", "-o", "terrain.obj"});

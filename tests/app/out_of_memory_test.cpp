@@ -86,9 +86,9 @@ class LittleMemory : public testing::TestWithParam<std::string> {
   /// Tries `work` with ever more memory; it must be refused at first, and done at last.
   template <class Work>
   void expect_refusals_then_done(const Work& work) {
-    constexpr std::size_t kStep = 2, kMost = 200;
+    constexpr std::size_t kStep = 2, kMax = 200;
     int refused = 0;
-    for (std::size_t megabytes = 1; megabytes < kMost; megabytes += kStep) {
+    for (std::size_t megabytes = 1; megabytes < kMax; megabytes += kStep) {
       const Ending ending = with_memory(megabytes, work);
       ASSERT_TRUE(ending == kDone || ending == kRefused)
           << "ending " << ending << " with " << megabytes << " MB";

@@ -53,8 +53,8 @@ TEST(PictureSceneOf, AModelFarFromTheOriginKeepsItsShape) {
 }
 
 TEST(PictureSceneOf, CoordinatesAtBothEndsOfTheDoublesIsFinite) {
-  constexpr double kMost = 1.7e308;
-  const MeshPtr mesh = finish({{{-kMost, 0, 0}, {kMost, 0, 0}, {0, kMost, -kMost}}, {{0, 1, 2}}});
+  constexpr double kMax = 1.7e308;
+  const MeshPtr mesh = finish({{{-kMax, 0, 0}, {kMax, 0, 0}, {0, kMax, -kMax}}, {{0, 1, 2}}});
   const PictureData data = picture_of(*mesh);
   for (const PictureData::Vector& place : data.positions) EXPECT_LE(wide(place).norm(), 1 + kFloat);
   EXPECT_TRUE(std::isfinite(data.model_per_scene));

@@ -100,7 +100,7 @@ TEST_F(Program, EachKeepsTheUnreachedInfiniteAndSaysWhy) {
 }
 
 TEST_F(Program, EachThatIsInterruptedLeavesNothing) {
-  constexpr int kMostLooks = 20'000, kBetweenLooks = 1000;  // microseconds
+  constexpr int kMaxLooks = 20'000, kBetweenLooks = 1000;  // microseconds
   folder.write("rows.npy", "old");
   const RunningProgram program(
       folder.path("."), {"solve", "terrain", "-s", "random:5000", "--each", "-o", "rows.npy"});
@@ -109,7 +109,7 @@ TEST_F(Program, EachThatIsInterruptedLeavesNothing) {
     return std::ranges::any_of(
         names, [](const std::string& name) { return name.find(".tmp-") != name.npos; });
   };
-  for (int look = 0; look < kMostLooks && !begun(); ++look) ::usleep(kBetweenLooks);
+  for (int look = 0; look < kMaxLooks && !begun(); ++look) ::usleep(kBetweenLooks);
   ASSERT_TRUE(begun());
   program.signal(SIGINT);
   EXPECT_EQ(program.wait().code, 128 + SIGINT);

@@ -70,15 +70,15 @@ TEST_F(ProgramView, NeedsNoMoreAddressSpaceThanARender) {
     ::setrlimit(RLIMIT_AS, &before);
     return code;
   };
-  constexpr rlim_t kStep = 250, kLeast = 1250, kMost = 8000;
+  constexpr rlim_t kStep = 250, kMin = 1250, kMax = 8000;
   const std::vector<std::string> picture = {"bunny", "--size", "64x48", "-o", "p.png"};
   std::vector<std::string> render = picture, view = picture;
   render.insert(render.begin(), "render");
   render.insert(render.end(), {"-s", "3"});
   view.insert(view.begin(), "view");
-  rlim_t least = kLeast;
-  while (least < kMost && code_under(least, render) != 0) least += kStep;
-  ASSERT_LT(least, kMost);
+  rlim_t least = kMin;
+  while (least < kMax && code_under(least, render) != 0) least += kStep;
+  ASSERT_LT(least, kMax);
   EXPECT_EQ(code_under(least + kStep, view), 0) << "under " << least + kStep << " MB";
 }
 

@@ -70,12 +70,12 @@ TEST(TickLabels, OfLargeAndSmallNumbersShareAPowerOfTen) {
 }
 
 TEST(Ticks, AreFewDistinctAndWithinTheRangeWhateverItIs) {
-  constexpr int kMost = 7;
+  constexpr int kMax = 7;
   for (double width = 1e-30; width < 1e30; width *= 3.1) {
     for (const double min : {0.0, -width / 3, width, -7.7 * width}) {
-      const Ticks ticks = make_ticks(min, min + width, kMost);
+      const Ticks ticks = make_ticks(min, min + width, kMax);
       ASSERT_GE(ticks.values.size(), 2U) << min << " " << width;
-      ASSERT_LE(ticks.values.size(), static_cast<std::size_t>(kMost)) << min << " " << width;
+      ASSERT_LE(ticks.values.size(), static_cast<std::size_t>(kMax)) << min << " " << width;
       const double slack = 1e-5 * width;
       EXPECT_GE(ticks.values.front(), min - slack);
       EXPECT_LE(ticks.values.back(), min + width + slack);

@@ -189,13 +189,13 @@ TEST_P(GenerateModelNameTest, HasTheSameBitsOnASecondRun) {
 }
 
 TEST_P(GenerateModelNameTest, SmallestSizeIsASingleCleanPieceToo) {
-  const Result<TriangleMesh> made = generate_model(GetParam(), kFewestModelFaces);
+  const Result<TriangleMesh> made = generate_model(GetParam(), kMinModelFaces);
   ASSERT_TRUE(made);
   const Structure found = structure_of(*made);
   EXPECT_TRUE(found.oriented && found.single_fans && found.all_vertices_used);
   EXPECT_EQ(found.components, 1);
   constexpr double kCoarseTolerance = 0.06;  // so few faces come in large steps
-  EXPECT_NEAR(static_cast<double>(made->face_count()) / kFewestModelFaces, 1, kCoarseTolerance);
+  EXPECT_NEAR(static_cast<double>(made->face_count()) / kMinModelFaces, 1, kCoarseTolerance);
 }
 
 TEST_P(GenerateModelNameTest, StopsWhenTheCallerCancels) {
@@ -256,7 +256,7 @@ TEST(GenerateModel, UnknownNameIsAnErrorThatListsTheNames) {
 }
 
 TEST(GenerateModel, SizesOutsideTheLimitsAreErrorsThatSayTheLimits) {
-  for (const Index faces : {-1, 1, kFewestModelFaces - 1, kMostModelFaces + 1}) {
+  for (const Index faces : {-1, 1, kMinModelFaces - 1, kMaxModelFaces + 1}) {
     const Result<TriangleMesh> made = generate_model("cube", faces);
     ASSERT_FALSE(made) << faces;
     EXPECT_EQ(made.error().code, ErrorCode::kBadInput);

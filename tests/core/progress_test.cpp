@@ -27,7 +27,7 @@ TEST(Progress, OfAPartIsAShareOfTheWhole) {
 }
 
 TEST(Progress, OfThreadsIsCalledByOneAtATimeInOrderAndNotAgainAfterStop) {
-  constexpr int kMost = 500;
+  constexpr int kMax = 500;
   std::atomic<int> inside = 0;
   int calls = 0;
   double last = 0;
@@ -36,7 +36,7 @@ TEST(Progress, OfThreadsIsCalledByOneAtATimeInOrderAndNotAgainAfterStop) {
     EXPECT_GE(share, last);
     last = share;
     --inside;
-    return ++calls < kMost;
+    return ++calls < kMax;
   };
   SharedProgress shared(progress);
   {
@@ -48,7 +48,7 @@ TEST(Progress, OfThreadsIsCalledByOneAtATimeInOrderAndNotAgainAfterStop) {
       });
     }
   }
-  EXPECT_EQ(calls, kMost);
+  EXPECT_EQ(calls, kMax);
   EXPECT_FALSE(report(shared.function(), "a", 1));
 }
 

@@ -9,7 +9,7 @@
 namespace geotherm::test {
 namespace {
 
-constexpr int kMostVertices = 40, kMostFaces = 80, kMostSources = 5;
+constexpr int kMaxVertices = 40, kMaxFaces = 80, kMaxSources = 5;
 
 /// Takes numbers off the front; behind the end there are zeros.
 class ByteReader {
@@ -93,7 +93,7 @@ std::vector<Vec3> read_positions(ByteReader& reader, int count) {
 
 std::vector<Face> read_faces(ByteReader& reader, int vertices) {
   std::vector<Face> faces;
-  while (!reader.at_end() && static_cast<int>(faces.size()) < kMostFaces) {
+  while (!reader.at_end() && static_cast<int>(faces.size()) < kMaxFaces) {
     Face face;
     for (Index& corner : face) corner = reader.below(vertices);
     faces.push_back(face);
@@ -104,12 +104,12 @@ std::vector<Face> read_faces(ByteReader& reader, int vertices) {
 /// Now and then one that does not exist, a weight that is wrong or an offset.
 SourceSet read_sources(ByteReader& reader, int vertices) {
   SourceSet set;
-  for (int count = 1 + reader.below(kMostSources); count > 0; --count) {
+  for (int count = 1 + reader.below(kMaxSources); count > 0; --count) {
     const int kind = reader.below(8);
     if (kind < 4) {
       set.points.push_back(SurfacePoint::at_vertex(reader.byte() % (vertices + (kind == 3))));
     } else if (kind < 6) {
-      const int face = reader.below(kMostFaces);
+      const int face = reader.below(kMaxFaces);
       const double a = reader.below(9) / 8.0, b = (1 - a) * reader.below(9) / 8.0;
       set.points.push_back(SurfacePoint::in_face(face, {a, b, kind == 4 ? 1 - a - b : b}));
     } else {
@@ -129,7 +129,7 @@ FuzzCase decode_case(Bytes bytes) {
   ByteReader reader(bytes);
   FuzzCase result;
   read_options(reader, result);
-  const int vertices = 3 + reader.below(kMostVertices - 2);
+  const int vertices = 3 + reader.below(kMaxVertices - 2);
   result.sources = read_sources(reader, vertices);
   std::vector<Vec3> positions = read_positions(reader, vertices);
   auto mesh = TriangleMesh::build(std::move(positions), read_faces(reader, vertices));

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStrictBy = 1e-5 * (1 - 1e-9);
 // What one face may take, relative to its longest side: what is missing, and a tenth more so that
 // corrections end; twice that where two of its sides are short.
-constexpr double kMostPerFace = 2.5e-5;
+constexpr double kMaxPerFace = 2.5e-5;
 
 void expect_strict(const IntrinsicMesh& mesh) {
   for (const auto& l : mesh.lengths) {
@@ -46,7 +46,7 @@ TEST(LongFlatFace, LeavesEdgesThatAreNotItsOwn) {
   draft.faces.push_back({0, kCells, 1});
   const IntrinsicMesh mesh = intrinsic_of(*finish(draft), false).mesh;
   EXPECT_LE(mesh.mollified.edges, 3);
-  EXPECT_LE(mesh.mollified.most * mesh.unit, kMostPerFace * kCells);
+  EXPECT_LE(mesh.mollified.most * mesh.unit, kMaxPerFace * kCells);
   expect_strict(mesh);
 }
 
@@ -75,7 +75,7 @@ TEST(FacesThatAreOnePoint, BecomeProperOnes) {
   draft.faces.insert(draft.faces.end(), {{p, p + 1, p + 2}, {p, p + 2, p + 3}});
   const IntrinsicMesh mesh = intrinsic_of(*finish(draft), false).mesh;
   EXPECT_EQ(mesh.mollified.faces, 2);
-  EXPECT_LT(mesh.mollified.most, kMostPerFace);
+  EXPECT_LT(mesh.mollified.most, kMaxPerFace);
   expect_strict(mesh);
 }
 

@@ -103,8 +103,8 @@ TEST_P(PinnedSources, AreTheSameThroughADenseSystemAndThroughHeldRows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sources, PinnedSources,
-                         testing::Values(2, static_cast<Index>(kMostSchurRows),
-                                         static_cast<Index>(kMostSchurRows) + 1));
+                         testing::Values(2, static_cast<Index>(kMaxSchurRows),
+                                         static_cast<Index>(kMaxSchurRows) + 1));
 
 TEST(PinVertex, ThatIsNotOnTheSurfaceIsAnError) {
   Draft draft = sphere(2);

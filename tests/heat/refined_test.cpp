@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(Files, KnownCases,
 class NarrowPlane : public testing::TestWithParam<Case> {};
 
 TEST_P(NarrowPlane, CorrectedIsAsGoodAsClassic) {
-  constexpr double kMost = 1.1;  // of the error of classic
+  constexpr double kMax = 1.1;  // of the error of classic
   const MeshPtr mesh = finish(GetParam().draft());
   HeatOptions classic;
   classic.variant = Variant::kClassic;
@@ -309,7 +309,7 @@ TEST_P(NarrowPlane, CorrectedIsAsGoodAsClassic) {
     for (const Vec3& p : positions) straight.push_back((p - positions[v]).norm());
     const SourceSet source = SourceSet::of_vertices({v});
     EXPECT_LE(distance_error(solve(corrected, source).distances, straight).mean_relative,
-              kMost * distance_error(solve(published, source).distances, straight).mean_relative)
+              kMax * distance_error(solve(published, source).distances, straight).mean_relative)
         << v;
   }
 }

@@ -80,9 +80,9 @@ class LargeInput : public testing::TestWithParam<Case> {
 
 TEST_P(LargeInput, TakesTimeInProportionToItsSize) {
   // Eight times as much takes sixty-four times as long where it is quadratic.
-  constexpr double kTimes = 8, kMost = 24, kClock = 1e-3;
+  constexpr double kTimes = 8, kMax = 24, kClock = 1e-3;
   const int count = GetParam().count;
-  EXPECT_LT(seconds(static_cast<int>(kTimes) * count), kMost * (seconds(count) + kClock));
+  EXPECT_LT(seconds(static_cast<int>(kTimes) * count), kMax * (seconds(count) + kClock));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -141,7 +141,7 @@ TEST(ThrowingProgressParallel, PassesThroughDiagnosis) {
   const std::vector<double> better(answer->distances.size(), 1.0);
   expect_passed_on([&](const Progress& progress) {
     EXPECT_TRUE(diagnose(mesh, {*method, options, {&sources, 1}, {&answer->distances, 1}},
-                         MethodKind::kWavefront, {&better, 1}, kMostFacesDiagnosed, progress));
+                         MethodKind::kWavefront, {&better, 1}, kMaxFacesDiagnosed, progress));
   });
 }
 

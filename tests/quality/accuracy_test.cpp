@@ -71,7 +71,7 @@ TEST(AccuracyTest, AFewGrosslyWrongVerticesArePoorWhateverTheMean) {
   EXPECT_EQ(report->figures.worst, 333);
   EXPECT_EQ(report->verdict.rfind("poor: up to ", 0), 0U) << report->verdict;
   ASSERT_TRUE(report->cure) << report->verdict;
-  EXPECT_LE(report->cure->max_of_range, kMostOfRange);
+  EXPECT_LE(report->cure->max_of_range, kMaxOfRange);
 }
 
 TEST(AccuracyTest, SeveralSetsHaveTheMeanOfTheMeansAndTheLargestOfAny) {

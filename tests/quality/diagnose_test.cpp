@@ -24,7 +24,7 @@ const SourceSet kSource = SourceSet::of_vertices({0});
 /// What is found for distances that someone claims to be those of a method.
 Result<Diagnosis> diagnosis_of(const MeshPtr& mesh, const MethodOptions& options,
                                const Distances& distances, MethodKind reference,
-                               const Distances& better, Index most_faces = kMostFacesDiagnosed,
+                               const Distances& better, Index most_faces = kMaxFacesDiagnosed,
                                const Progress& progress = {}) {
   const auto method = build_method(mesh, options);
   if (!method) return method.error();
@@ -99,8 +99,8 @@ TEST(DiagnoseTest, AGoodSettingIsTheCureHoweverLittleItLowersTheError) {
   const MeshPtr mesh = finish(sphere(3));
   const Distances usual = distances_of(mesh, {});
   // Both are a little too long at one vertex: as much as is good, and a tenth more.
-  const Distances better = wrong_at_one_vertex(usual, -0.95 * kMostOfRange);
-  const Distances poor = wrong_at_one_vertex(usual, 0.15 * kMostOfRange);
+  const Distances better = wrong_at_one_vertex(usual, -0.95 * kMaxOfRange);
+  const Distances poor = wrong_at_one_vertex(usual, 0.15 * kMaxOfRange);
   MethodOptions wrong;
   wrong.time_step.factor = 1.5;
   const auto found = diagnosis_of(mesh, wrong, poor, MethodKind::kExact, better);
@@ -219,7 +219,7 @@ TEST(DiagnoseTest, CanBeCancelled) {
   const Distances distances(vertices, 1), better(vertices, 2);
   const auto never = [](std::string_view, double) { return false; };
   const auto found =
-      diagnosis_of(mesh, {}, distances, MethodKind::kExact, better, kMostFacesDiagnosed, never);
+      diagnosis_of(mesh, {}, distances, MethodKind::kExact, better, kMaxFacesDiagnosed, never);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::kCancelled);
 }

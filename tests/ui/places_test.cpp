@@ -48,7 +48,7 @@ TEST_P(WindowSizes, PanelsLeaveTheCanvasAlone) {
     const float line = 21 * scale;
     const Places places = place_panels(layout, width, height, scale, line);
     expect_sound(places, width, height);
-    const float least = kLeastCanvas * scale;
+    const float least = kMinCanvas * scale;
     EXPECT_GE(places.canvas.width, std::min(width, least));
     EXPECT_GE(places.canvas.height, std::min(height - 2 * line, least) - 0.01F);
   }
@@ -114,7 +114,7 @@ TEST_F(BarEdges, ResizeTheSideBars) {
   frame();
   EXPECT_NEAR(panels_->canvas().width, 700, 8);
   drag(middle_of("Bars/left edge"), {5, 600});
-  EXPECT_EQ(panels_->layout().left_width, kLeastBar);
+  EXPECT_EQ(panels_->layout().left_width, kMinBar);
 }
 
 TEST_F(BarEdges, RememberWhichSectionsAreOpen) {

@@ -132,11 +132,11 @@ Index ObjChunk::parse_corner(const char*& p) {
   if (written == 0) {
     fail_at_line(text, start, "a face uses vertex 0, but OBJ counts vertices from 1");
   }
-  constexpr std::int64_t kMost = std::numeric_limits<Index>::max();
-  if (written > kMost || written < -kMost) [[unlikely]] {
+  constexpr std::int64_t kMax = std::numeric_limits<Index>::max();
+  if (written > kMax || written < -kMax) [[unlikely]] {
     fail_at_line(text, start,
                  "a face uses vertex " + std::to_string(written) + ", but at most " +
-                     std::to_string(kMost) + " vertices are supported");
+                     std::to_string(kMax) + " vertices are supported");
   }
   if (written < 0) return relative_corner(start, written);
   return static_cast<Index>(written - 1);

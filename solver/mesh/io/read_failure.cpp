@@ -17,12 +17,12 @@ void fail_at_byte(std::string_view bytes, const char* where, const std::string& 
 }
 
 std::string quoted(std::string_view text, const char* where) {
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMax = 24;
   std::string word = "\"";
   for (const char* end = text.data() + text.size(); where < end; ++where) {
     const auto c = static_cast<unsigned char>(*where);
     if (c == ' ' || (c >= '\t' && c <= '\r')) break;
-    if (word.size() > kMost) {
+    if (word.size() > kMax) {
       word += "...";
       break;
     }
