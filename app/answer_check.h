@@ -29,28 +29,23 @@ enum class OnPoor {
 struct CheckSettings {
   CheckMode mode = CheckMode::kUsual;
   OnPoor on_poor = OnPoor::kKeep;
+  std::optional<MethodKind> against = {};  ///< named by the user; none: what `mode` takes
+  bool quick = false;  ///< while something moves: figures alone, no search, no warning
 };
 
 /// Refuses distances that may turn into those of another method where the heat is needed. `what`:
 /// the option that needs it, with its value. Errors: kBadInput.
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
 
-/// Holds answers against better ones, without a search for a cure. Where `mode` has none for this
-/// method the report says so. `better`: the reference, for the search. Errors: kCancelled; all
-/// others are a report that says why nothing was checked.
-Result<AccuracyReport> check_answers(const std::shared_ptr<const TriangleMesh>& mesh,
-                                     const CheckedAnswers& answers, CheckMode mode,
-                                     ReferenceAnswers& better, const Progress& progress);
+/// What answers of a method are held against in this mode; no better than the method itself, where
+/// they are not.
+MethodKind reference_in(CheckMode mode, MethodKind checked, Index faces);
 
 /// The report on a method that is not held against another one in this mode.
 AccuracyReport unchecked(MethodKind method, CheckMode mode);
 
-/// The same against `reference`; where that is no better than the method, the report says so.
-/// `beside`: CheckedAnswers::method, or another one on the mesh whose triangulation is shared.
-Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& mesh,
-                                     const CheckedAnswers& answers, MethodKind reference,
-                                     const DistanceMethod& beside, ReferenceAnswers& better,
-                                     const Progress& progress);
+/// The report on a check that failed.
+AccuracyReport failed_check(MethodKind method, const Error& error);
 
 /// Looks for a cure as far as the mode asks for one. Errors: kCancelled.
 Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
@@ -61,7 +56,7 @@ Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const Trian
 /// wavefront-fine and, where these are held against it, exact.
 std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces);
 /// What such a method is held against; `kind` itself, where nothing better fits.
-MethodKind judge_of_better(MethodKind kind, CheckMode mode, Index faces);
+MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces);
 /// Options of such a method.
 MethodOptions better_options(const MethodOptions& options, MethodKind kind);
 
@@ -71,19 +66,6 @@ struct SampleCheck {
   std::size_t of = 0;     ///< all source sets
   std::size_t worst = 0;  ///< number of the set with the largest error
 };
-
-/// Solves for up to 8 of the sets by the method and by a better one, and looks for a cure where the
-/// method is poor and `search` is set. Errors: those of the method's queries.
-Result<SampleCheck> check_sample(const std::shared_ptr<const TriangleMesh>& mesh,
-                                 const DistanceMethod& method, const MethodOptions& options,
-                                 std::span<const SourceSet> sets, CheckMode mode, bool search,
-                                 const Progress& progress);
-
-/// The same against `reference`, without a search. `beside`: as of check_against().
-Result<SampleCheck> check_sample_against(const std::shared_ptr<const TriangleMesh>& mesh,
-                                         const DistanceMethod& method, const MethodOptions& options,
-                                         std::span<const SourceSet> sets, MethodKind reference,
-                                         const DistanceMethod& beside, const Progress& progress);
 
 /// "1.9 % on average, at most 4.3 % of the largest distance, at vertex 17, against wavefront:
 /// good".

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/answer_check.h"
 #include "app/explore/explored_picture.h"
 #include "app/outputs.h"
 #include "app/picture/face_view.h"
@@ -13,8 +12,7 @@
 #include "app/picture_report.h"
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
-#include "app/solve_model.h"
-#include "app/solve_steps.h"
+#include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/stopwatch.h"
@@ -76,22 +74,17 @@ Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
 }
 
 /// Adds the paths to all targets, and what is to be said about them to the warnings.
-Result<void> draw_paths(const std::vector<std::string>& texts, SolveFigures& solved,
+Result<void> draw_paths(const std::vector<std::string>& texts, ModelSolver& solver, Answer& solved,
                         PictureData& data, const Progress& progress, PictureFigures& figures) {
   if (texts.empty()) return {};
   const auto targets = targets_of(texts);
   if (!targets) return targets.error();
   const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
-  MethodOptions waves;
-  waves.method = MethodKind::kWavefront;
-  auto near_exact = build_method(mesh, waves, progress);
-  if (!near_exact) return near_exact.error();
-  const TargetPathFinder finder(mesh, *std::move(near_exact), solved.method);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const Source& target = (*targets)[i];
     const auto placed = resolve_sources({&target, 1}, *mesh);
     if (!placed) return placed.error();
-    const auto found = finder.find(solved.sources, placed->set.points.front(), progress);
+    const auto found = solver.paths_to(placed->set.points.front(), solved, progress);
     if (!found) {
       return about_model(solved.model.name, about(target.where, found.error()));
     }
@@ -129,7 +122,10 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
   if (view == View::kExactError) check.mode = CheckMode::kThorough;
-  auto solved = solve_model(*std::move(model), options, sources, query, check, progress);
+  const auto placed = resolve_sources(sources, *mesh);
+  if (!placed) return placed.error();
+  ModelSolver solver(*std::move(model));
+  auto solved = solver.solve(options, *placed, {query, check}, progress);
   if (!solved && (solved.error().code != ErrorCode::kBadFile || has_area(*mesh))) {
     return solved.error();
   }
@@ -152,7 +148,8 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
     }
     add_error(data, report.values, error_title(report));
   }
-  if (auto drawn = draw_paths(arguments.targets, *solved, data, progress, figures); !drawn) {
+  if (auto drawn = draw_paths(arguments.targets, solver, *solved, data, progress, figures);
+      !drawn) {
     return drawn.error();
   }
   warnings = solved->warnings;

@@ -6,13 +6,13 @@
 
 #include "app/many/each.h"
 #include "app/many/pairs.h"
-#include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/report_table.h"
+#include "app/session/answer.h"
+#include "app/session/model_solver.h"
 #include "app/solve_fields.h"
-#include "app/solve_model.h"
 #include "app/text.h"
 #include "solver/heat/heat_method.h"
 #include "solver/mesh/io/format_writers.h"
@@ -35,9 +35,7 @@ bool needs_nearest(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, holds_mesh);
 }
 
-bool has_several_sources(const SolveFigures& figures) {
-  return source_groups(figures.sources).count > 1;
-}
+bool has_several_sources(const Answer& figures) { return source_groups(figures.sources).count > 1; }
 
 }  // namespace
 
@@ -157,10 +155,13 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
+  const auto sources = resolve_sources(*named, *model->mesh);
+  if (!sources) return sources.error();
   QueryOptions query;
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);
   query.fields = wanted->has_heat();
-  auto figures = solve_model(*std::move(model), options, *named, query, *check, progress);
+  ModelSolver solver(*std::move(model));
+  auto figures = solver.solve(options, *sources, {query, *check}, progress);
   if (!figures) return figures.error();
   note_unused_settings(arguments.settings, options, figures->warnings);
   const auto fields = make_fields(*wanted, *figures);

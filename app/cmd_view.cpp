@@ -28,12 +28,16 @@ Result<double> scale_in(const std::string& text) {
                "'" + one_line(text) + "' is no scale of panels; give 0.5 to 4, such as 2"};
 }
 
-Result<std::vector<std::string>> source_texts(const SourceArguments& arguments) {
+Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
   const auto sources = sources_of(arguments);
   if (!sources) return sources.error();
-  std::vector<std::string> texts;
-  for (const Source& source : *sources) texts.push_back(to_text(source.spec));
-  return texts;
+  std::vector<SourceSpec> specs;
+  for (const Source& source : *sources) {
+    specs.push_back(source.spec);
+    // A session keeps the curve, not the file that it came from.
+    if (auto* const curve = std::get_if<VertexCurve>(&specs.back())) curve->lines.clear();
+  }
+  return specs;
 }
 
 bool is_headless(const ViewArguments& a) {
@@ -179,7 +183,7 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   if (!asked) return asked.error();
   const auto picture = picture_settings(*asked, arguments.settings, arguments.picture, colour_maps);
   if (!picture) return picture.error();
-  const auto sources = source_texts(arguments.sources);
+  const auto sources = sources_in(arguments.sources);
   if (!sources) return sources.error();
   ViewerState state = initial_state();
   state.options = asked->options;

@@ -9,6 +9,7 @@
 #include "app/machine.h"
 #include "app/method_words.h"
 #include "app/progress_bar.h"
+#include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/stopwatch.h"
@@ -84,12 +85,13 @@ class Runner {
   Answers run(const Model& model, MethodOptions options, CompareRow& row) {
     options.strict = true;  // a row is about its own backend
     reset_peak_rss();
-    const auto built = build_method(model.mesh, options, progress_);
-    if (!built) {
-      fail(row, built.error());
+    ModelSolver solver({.mesh = model.mesh});  // the row names the model
+    const auto ready = solver.prepare(options, progress_);
+    if (!ready) {
+      fail(row, ready.error());
       return {};
     }
-    const DistanceMethod& method = **built;
+    const DistanceMethod& method = *ready->method;
     row.setup_ms = method.timing().setup;
     const auto backend = find_backend(row.backend);
     slow_ = (backend && (*backend)->iterative()) || options.method == MethodKind::kExact;
@@ -188,18 +190,10 @@ void measure_difference(const Answers& answers, const Answers& reference, Compar
 /// Better distances for the first queries; empty where they could not be had.
 Answers better_answers(const Model& model, const CompareTask& task, MethodKind kind,
                        const Progress& progress) {
-  Answers answers;
-  MethodOptions options;
-  options.method = kind;
-  const auto method = build_method(model.mesh, options, progress);
-  if (!method) return answers;
-  for (std::size_t q = 0; q < std::min(task.queries.size(), kErrorQueries); ++q) {
-    if (!report(progress, "exact distances", -1)) return {};
-    auto result = (*method)->solve(task.queries[q], {.quality = false});
-    if (!result) return {};
-    answers.push_back(std::move(result->distances));
-  }
-  return answers;
+  const std::span<const SourceSet> first(task.queries.data(),
+                                         std::min(task.queries.size(), kErrorQueries));
+  auto better = solve_reference(model.mesh, kind, first, 0, nullptr, progress);
+  return better ? std::move(better->distances) : Answers();
 }
 
 void measure_error(const Answers& answers, const Answers& better, CompareRow& row) {

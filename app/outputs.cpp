@@ -11,6 +11,7 @@
 
 #include "app/text.h"
 #include "app/told.h"
+#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/write_file.h"
 
 namespace geotherm::app {
@@ -130,6 +131,11 @@ std::vector<std::string> Outputs::made() const {
 
 void Outputs::remove_written() {
   for (const std::string& path : made()) ::unlink(path.c_str());
+}
+
+bool holds_mesh(const std::string& path) {
+  const std::string extension = io::file_extension(path);
+  return extension == ".ply" || extension == ".vtp";
 }
 
 }  // namespace geotherm::app

@@ -52,4 +52,8 @@ class Outputs {
   std::vector<Input> inputs_;
 };
 
+/// Whether a file of distances holds the mesh as well, so that a property can be added to it
+/// without harm: .ply and .vtp.
+bool holds_mesh(const std::string& path);
+
 }  // namespace geotherm::app

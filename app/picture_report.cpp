@@ -29,7 +29,7 @@ void add(std::vector<PngText>& texts, const std::string& name, const std::string
   if (!value.empty()) texts.push_back({"geotherm:" + name, value});
 }
 
-void add_solve_texts(const SolveFigures& solve, std::vector<PngText>& texts) {
+void add_solve_texts(const Answer& solve, std::vector<PngText>& texts) {
   add(texts, "method", to_text(solve.method->kind()));
   add(texts, "largest-distance", number_text(solve.distance.max));
   const HeatMethod* heat = solve.method->heat();

@@ -7,9 +7,9 @@
 
 #include "app/explore/settings.h"
 #include "app/mesh_words.h"
-#include "app/nearest_sources.h"
 #include "app/process_clock.h"
 #include "app/resolve_sources.h"
+#include "app/session/answer.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/parallel.h"
@@ -301,7 +301,7 @@ Json error_json(const SampleCheck& check) {
   return json;
 }
 
-Json solve_json(const SolveFigures& f) {
+Json solve_json(const Answer& f) {
   const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
   const bool heat = f.method->heat() != nullptr;

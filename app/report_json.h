@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/solve_figures.h"
+#include "app/session/answer.h"
 
 namespace geotherm::app {
 
@@ -33,7 +33,7 @@ Json error_json(const AccuracyReport& report);
 /// The same of some of many source sets.
 Json error_json(const SampleCheck& check);
 
-Json solve_json(const SolveFigures& figures);
+Json solve_json(const Answer& figures);
 
 /// Text with a line end. Objects are indented down to the second level, what is deeper stands on
 /// one line. Numbers have the digits that read back as the same double; what is not finite is null.

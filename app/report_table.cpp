@@ -98,7 +98,7 @@ std::string residuals_in_words(const Quality& q) {
 }
 
 /// The rows that only the heat method has.
-void add_heat_rows(TextTable& table, const SolveFigures& figures, const HeatMethod& method) {
+void add_heat_rows(TextTable& table, const Answer& figures, const HeatMethod& method) {
   const MeshSummary& mesh = figures.mesh;
   const HeatOptions& options = method.options();
   table.add_row({"backend", figures.result.backend + ", " +
@@ -111,7 +111,7 @@ void add_heat_rows(TextTable& table, const SolveFigures& figures, const HeatMeth
   table.add_row({"laplacian", laplacian_in_words(method)});
 }
 
-void add_times(TextTable& table, const SolveFigures& f) {
+void add_times(TextTable& table, const Answer& f) {
   const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
   table.add_row({"load", ms(f.model.load_ms)});
@@ -139,7 +139,7 @@ std::string bounds_in_words(const Quality& q) {
 
 }  // namespace
 
-std::string solve_table(const SolveFigures& f) {
+std::string solve_table(const Answer& f) {
   const Quality& q = f.result.quality;
   const HeatMethod* heat = f.method->heat();
   TextTable table = two_columns();

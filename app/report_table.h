@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "app/solve_figures.h"
+#include "app/session/answer.h"
 
 namespace geotherm::app {
 
 /// What `solve` shows to people.
-std::string solve_table(const SolveFigures& figures);
+std::string solve_table(const Answer& figures);
 
 /// What `info` shows to people.
 std::string info_table(const Model& model, const MeshReport& mesh);

@@ -280,6 +280,16 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
   return pool;
 }
 
+Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
+  if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
+  const Source pin{VertexList{{constraint.pin_vertex}},
+                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
+                   ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&pin, 1}, mesh);
+  if (!placed) return placed.error();
+  return {};
+}
+
 std::vector<Index> vertices_of(const SourceSet& set) {
   std::set<Index> vertices;
   for (const SurfacePoint& point : set.points) {

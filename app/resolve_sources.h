@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/source_spec.h"
+#include "solver/heat/heat_options.h"
 #include "solver/mesh/surface_point.h"
 #include "solver/mesh/triangle_mesh.h"
 
@@ -34,6 +35,9 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
 /// Errors: kBadInput (fewer such vertices).
 Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
                                            std::uint64_t seed);
+
+/// Whether the pinned vertex, where one is named, is on the mesh. Errors: kBadInput.
+Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh);
 
 /// All vertices of a set, ends of edges included, ascending, each once.
 std::vector<Index> vertices_of(const SourceSet& set);

@@ -66,7 +66,7 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
   return wanted;
 }
 
-Result<std::vector<DataField>> make_fields(const WantedFields& wanted, SolveFigures& figures) {
+Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures) {
   std::vector<DataField> made;
   for (const QualityField field : wanted.fields) {
     std::span<const double> error;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/solve_figures.h"
+#include "app/session/answer.h"
 #include "solver/core/result.h"
 #include "solver/quality/quality_fields.h"
 
@@ -27,6 +27,6 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
                                    const std::vector<std::string>& paths);
 
 /// The fields of an answer. Errors: kBadInput where there is no error of it.
-Result<std::vector<DataField>> make_fields(const WantedFields& wanted, SolveFigures& figures);
+Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures);
 
 }  // namespace geotherm::app

@@ -17,12 +17,12 @@ PictureFigures figures_of(const Session& session, const PictureSettings& setting
   PictureFigures figures;
   figures.model = explored.model->model.name;
   figures.model_argument = state.model;
-  figures.sources = explored.sources;
+  for (const SourceSpec& source : explored.sources) figures.sources.push_back(to_text(source));
   figures.vertices = explored.model->mesh.vertices;
   figures.faces = explored.model->mesh.faces;
   figures.settings = settings;
   if (const Answer* answer = shown_answer(explored, state.shown)) {
-    figures.solve = app::figures_of(explored, *answer);
+    figures.solve = *answer;
   }
   return figures;
 }

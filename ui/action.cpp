@@ -88,7 +88,7 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
     case Action::kClearSources:
       return app::command::ClearSources{};
     case Action::kBoundarySource:
-      return app::command::SetSources{{"boundary"}};
+      return app::command::SetSources{{app::WholeBoundary{}}};
     case Action::kKeep:
       return app::command::Keep{};
     case Action::kFlip:

@@ -92,7 +92,7 @@ void CanvasInput::begin(Frame& frame, int button) {
   modifiers_ = {io.KeyCtrl, io.KeyShift, io.KeyAlt};
   double_click_ = io.MouseDoubleClicked[button];
   action_.reset();
-  moved_to_.clear();
+  moved_to_.reset();
   painted_ = kNoIndex;
   entry_ = -1;
   const bool plain = !modifiers_.ctrl && !modifiers_.shift && !modifiers_.alt;
@@ -154,10 +154,10 @@ void CanvasInput::move_source(Frame& frame, Mouse to) {
       frame.send(app::command::SetSources{std::move(apart.sources)});
     }
   }
-  std::string text = point_text(*point);
-  if (text == moved_to_) return;
-  moved_to_ = text;
-  frame.send(app::command::MoveSource{entry_, std::move(text)});
+  app::SourceSpec source = source_at(*point);
+  if (source == moved_to_) return;
+  moved_to_ = source;
+  frame.send(app::command::MoveSource{entry_, std::move(source)});
 }
 
 void CanvasInput::paint(Frame& frame, Mouse to) {
@@ -166,7 +166,7 @@ void CanvasInput::paint(Frame& frame, Mouse to) {
   const Index vertex = nearest_corner(*frame.model()->model.mesh, *point);
   if (vertex == painted_) return;
   if (painted_ == kNoIndex) {
-    frame.send(app::command::AddSources{{"curve:" + std::to_string(vertex)}});
+    frame.send(app::command::AddSources{{app::VertexCurve{{vertex}, {}}}});
   } else {
     frame.send(app::command::ExtendCurve{{vertex}});
   }

@@ -48,11 +48,11 @@ class CanvasInput {
   std::optional<MouseAction> action_;  ///< of the drag, once it is one
   std::optional<std::size_t> place_;   ///< of Explored::places, under the press
   int entry_ = -1;                     ///< the source that is moved
-  std::string moved_to_;
+  std::optional<app::SourceSpec> moved_to_;
   Index painted_ = kNoIndex;  ///< the curve's last vertex
   std::optional<SurfacePoint> hovered_;
   /// The sources before the last click set another one, for a double click.
-  std::optional<std::vector<std::string>> before_click_;
+  std::optional<std::vector<app::SourceSpec>> before_click_;
 };
 
 /// Whether the surface hides a place from the eye. Precondition: a model is shown.

@@ -32,9 +32,9 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
   const TriangleMesh& mesh = *frame.model()->model.mesh;
   switch (action) {
     case MouseAction::kSetSource:
-      return frame.send(app::command::SetSources{{point_text(point)}});
+      return frame.send(app::command::SetSources{{source_at(point)}});
     case MouseAction::kAddSource:
-      return frame.send(app::command::AddSources{{point_text(point)}});
+      return frame.send(app::command::AddSources{{source_at(point)}});
     case MouseAction::kRemoveSource:
       // Places belong to what is shown: while other sources are on their way, none can be named.
       if (frame.explored().sources != frame.state().sources) return;
@@ -43,9 +43,10 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
       }
       return;
     case MouseAction::kPick:
-      return frame.send(app::command::Pick{point_text(point)});
+      if (point.is_vertex()) return;  // the pointer is always on a face
+      return frame.send(app::command::Pick{app::FacePoint{point.face, point.weights}});
     case MouseAction::kTarget:
-      return frame.send(app::command::Target{point_text(point)});
+      return frame.send(app::command::Target{source_at(point)});
     case MouseAction::kCentre: {
       const Vec3 at = position_at(mesh, point);
       return frame.send(app::command::Centre{at.x(), at.y(), at.z()});

@@ -33,17 +33,17 @@ void draw_figures(Frame& frame, const AccuracyReport& report) {
 }
 
 /// Figures of a vertex are shown at a face that has it.
-std::string point_at(const TriangleMesh& mesh, Index vertex) {
+std::optional<app::FacePoint> point_at(const TriangleMesh& mesh, Index vertex) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const Face& face = mesh.faces()[f];
     for (int k = 0; k < 3; ++k) {
       if (face[k] != vertex) continue;
-      std::string text = "face:" + std::to_string(f);
-      for (int j = 0; j < 3; ++j) text += j == k ? ":1" : ":0";
-      return text;
+      app::FacePoint point{f};
+      point.weights[static_cast<std::size_t>(k)] = 1;
+      return point;
     }
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace

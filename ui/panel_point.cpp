@@ -45,17 +45,17 @@ void draw_figures(Frame& frame, const SurfacePoint& point) {
 
 void draw_picked(Frame& frame) {
   draw_heading(frame, "Picked point");
-  const auto& text = frame.state().picked;
-  const MeshReport& mesh = frame.model()->mesh;
-  const auto point = text ? point_in(*text, mesh.vertices, mesh.faces) : std::nullopt;
+  const auto& picked = frame.state().picked;
+  const auto point = picked ? surface_point(*picked, frame.model()->mesh.faces) : std::nullopt;
   if (!point) return draw_dim(frame, "Ctrl+click on the model keeps the figures of a point here.");
   draw_figures(frame, *point);
+  const std::string text = app::to_text(app::SourceSpec(*picked));
   const float width = button_width(3);
-  if (draw_button(frame, "copy", "Copy", true, width)) ImGui::SetClipboardText(text->c_str());
-  draw_tip(frame, "Copies the point as a source: " + *text);
+  if (draw_button(frame, "copy", "Copy", true, width)) ImGui::SetClipboardText(text.c_str());
+  draw_tip(frame, "Copies the point as a source: " + text);
   ImGui::SameLine();
   if (draw_button(frame, "source", "Source", true, width)) {
-    frame.send(app::command::SetSources{{*text}});
+    frame.send(app::command::SetSources{{*picked}});
   }
   draw_tip(frame, "The source is here.");
   ImGui::SameLine();

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/text.h"
+#include "app/told.h"
 #include "ui/action.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"
@@ -48,6 +49,7 @@ void draw_list(Frame& frame) {
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
+      const std::string text = app::to_text(sources[static_cast<std::size_t>(i)]);
       const float corner = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - line;
       ImGui::AlignTextToFramePadding();
       const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -56,9 +58,9 @@ void draw_list(Frame& frame) {
                                 {low.x, low.y + ImGui::GetStyle().FramePadding.y},
                                 {low.x + corner - ImGui::GetCursorPosX() - space, low.y + line},
                                 low.x + corner - ImGui::GetCursorPosX() - space, low.x + corner,
-                                sources[i].c_str(), nullptr, nullptr);
+                                text.c_str(), nullptr, nullptr);
       ImGui::Dummy({corner - ImGui::GetCursorPosX() - space, line});
-      draw_tip(frame, sources[i]);
+      draw_tip(frame, text);
       ImGui::SameLine(corner);
       const std::string key = "remove " + std::to_string(i);
       if (draw_button(frame, key, "\u00d7", true, line)) frame.send(app::command::RemoveSource{i});
@@ -80,7 +82,7 @@ void draw_random(Frame& frame) {
   form.count = std::clamp(form.count, 1, kMaxRandom);
   ImGui::SameLine();
   if (draw_button(frame, "set random", "set", frame.model(), button)) {
-    frame.send(app::command::SetSources{{"random:" + std::to_string(form.count)}});
+    frame.send(app::command::SetSources{{app::RandomVertices{form.count}}});
   }
   draw_tip(frame, "This many sources at random places, and no others.");
 }
@@ -96,16 +98,20 @@ void draw_typed(Frame& frame) {
   const bool enter = ImGui::InputTextWithHint("##ids", "3, 99, 512", &form.ids,
                                               ImGuiInputTextFlags_EnterReturnsTrue);
   frame.mark("ids");
+  if (ImGui::IsItemEdited()) form.error.clear();
   const std::string spec = with_commas(std::string(app::trimmed(form.ids)));
   const bool possible = frame.model() && !spec.empty();
   ImGui::SameLine();
-  if ((draw_button(frame, "set ids", "set", possible, button) || enter) && possible) {
-    frame.send(app::command::SetSources{{spec}});
-  }
+  const bool sets = (draw_button(frame, "set ids", "set", possible, button) || enter) && possible;
   ImGui::SameLine();
-  if (draw_button(frame, "add ids", "add", possible, button)) {
-    frame.send(app::command::AddSources{{spec}});
+  const bool adds = draw_button(frame, "add ids", "add", possible, button);
+  if (sets || adds) {
+    const auto source = app::parse_source(spec);
+    form.error = source ? "" : app::told(source.error());
+    if (source && sets) frame.send(app::command::SetSources{{*source}});
+    if (source && adds) frame.send(app::command::AddSources{{*source}});
   }
+  if (!form.error.empty()) draw_note(form.error, frame.colours().error);
 }
 
 /// A button of the grid below the fields.

@@ -8,23 +8,14 @@
 
 namespace geotherm::ui {
 
-std::string point_text(const SurfacePoint& point) {
-  if (point.is_vertex()) return app::to_text(app::SourceSpec(app::VertexList{{point.vertex}}));
-  return app::to_text(app::SourceSpec(app::FacePoint{point.face, point.weights}));
+app::SourceSpec source_at(const SurfacePoint& point) {
+  if (point.is_vertex()) return app::VertexList{{point.vertex}};
+  return app::FacePoint{point.face, point.weights};
 }
 
-std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces) {
-  const auto spec = app::parse_source(text);
-  if (!spec) return std::nullopt;
-  if (const auto* list = std::get_if<app::VertexList>(&*spec)) {
-    if (list->vertices.size() != 1 || list->vertices[0] < 0 || list->vertices[0] >= vertices) {
-      return std::nullopt;
-    }
-    return SurfacePoint::at_vertex(list->vertices[0]);
-  }
-  const auto* point = std::get_if<app::FacePoint>(&*spec);
-  if (!point || point->face < 0 || point->face >= faces) return std::nullopt;
-  return SurfacePoint::in_face(point->face, point->weights);
+std::optional<SurfacePoint> surface_point(const app::FacePoint& point, Index faces) {
+  if (point.face < 0 || point.face >= faces) return std::nullopt;
+  return SurfacePoint::in_face(point.face, point.weights);
 }
 
 Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
@@ -39,8 +30,9 @@ Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
 
 bool is_movable(const app::Explored& explored, const app::SourcePlace& place) {
   if (place.alone) return true;
-  const std::string& text = explored.sources[place.entry];
-  return text != "boundary" && !text.starts_with("curve");
+  const app::SourceSpec& source = explored.sources[place.entry];
+  return !std::holds_alternative<app::WholeBoundary>(source) &&
+         !std::holds_alternative<app::VertexCurve>(source);
 }
 
 Apart taken_apart(const app::Explored& explored, std::size_t place) {
@@ -54,7 +46,7 @@ Apart taken_apart(const app::Explored& explored, std::size_t place) {
     for (std::size_t k = 0; k < explored.places.size(); ++k) {
       if (explored.places[k].entry != entry) continue;
       if (k == place) apart.entry = static_cast<int>(apart.sources.size());
-      apart.sources.push_back(point_text(explored.places[k].point));
+      apart.sources.push_back(source_at(explored.places[k].point));
     }
   }
   return apart;

@@ -12,12 +12,11 @@
 // What the mouse does to sources, without the mouse.
 namespace geotherm::ui {
 
-/// "17", or "face:ID:b0:b1:b2" with digits that read back exactly.
-std::string point_text(const SurfacePoint& point);
+/// A point as a source.
+app::SourceSpec source_at(const SurfacePoint& point);
 
-/// The point that such a text names, on a model with so many vertices and faces. Nothing for other
-/// texts and what does not lie on it.
-std::optional<SurfacePoint> point_in(const std::string& text, Index vertices, Index faces);
+/// The point of a model with so many faces; none: it does not lie on it.
+std::optional<SurfacePoint> surface_point(const app::FacePoint& point, Index faces);
 
 /// The corner that lies nearest to a point of a face.
 Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);
@@ -27,7 +26,7 @@ bool is_movable(const app::Explored& explored, const app::SourcePlace& place);
 
 /// The sources with the entry of a place taken apart into its single places.
 struct Apart {
-  std::vector<std::string> sources;
+  std::vector<app::SourceSpec> sources;
   int entry = 0;  ///< where the place is among them
 };
 /// Preconditions: `place` is an index into Explored::places; is_movable.

@@ -27,7 +27,7 @@ struct TextEdit {
 };
 
 struct SourcesForm {
-  std::string ids;
+  std::string ids, error;
   int count = 5;
 };
 

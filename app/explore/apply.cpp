@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "app/explore/settings.h"
@@ -15,36 +16,17 @@
 namespace geotherm::app {
 namespace {
 
-constexpr const char* kFirstSource = "random:1";
+const SourceSpec kFirstSource = RandomVertices{};
 constexpr Index kMaxRandom = std::numeric_limits<Index>::max();
 
 Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
-/// Canonical texts of sources.
-Result<std::vector<std::string>> canonical(const std::vector<std::string>& sources) {
-  std::vector<std::string> out;
-  for (const std::string& text : sources) {
-    const auto spec = parse_source(text);
-    if (!spec) return spec.error();
-    out.push_back(to_text(*spec));
-  }
-  return out;
-}
-
-/// The random vertices of an entry of the list, where it is one.
-std::optional<RandomVertices> random_in(const std::string& text) {
-  const auto spec = parse_source(text);
-  if (!spec) return std::nullopt;
-  const auto* random = std::get_if<RandomVertices>(&*spec);
-  return random ? std::optional(*random) : std::nullopt;
-}
-
-std::string random_text(Index count, std::uint64_t seed) {
-  return to_text(SourceSpec(RandomVertices{count, seed}));
-}
+bool is_random(const SourceSpec& source) { return std::holds_alternative<RandomVertices>(source); }
 
 /// Whether a source means something on any model.
-bool fits_any_model(const std::string& text) { return text == "boundary" || random_in(text); }
+bool fits_any_model(const SourceSpec& source) {
+  return std::holds_alternative<WholeBoundary>(source) || is_random(source);
+}
 
 double within(double value, double most) { return std::clamp(value, -most, most); }
 
@@ -59,7 +41,7 @@ class Applier {
     }
     s_.model = c.model;
     s_.reading = {};
-    std::erase_if(s_.sources, [](const std::string& text) { return !fits_any_model(text); });
+    std::erase_if(s_.sources, std::not_fn(fits_any_model));
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
     s_.target.reset();
@@ -86,24 +68,18 @@ class Applier {
   }
 
   Result<void> operator()(const command::SetSources& c) {
-    auto sources = canonical(c.sources);
-    if (!sources) return sources.error();
-    s_.sources = *std::move(sources);
+    s_.sources = c.sources;
     return {};
   }
 
   Result<void> operator()(const command::AddSources& c) {
-    const auto sources = canonical(c.sources);
-    if (!sources) return sources.error();
-    s_.sources.insert(s_.sources.end(), sources->begin(), sources->end());
+    s_.sources.insert(s_.sources.end(), c.sources.begin(), c.sources.end());
     return {};
   }
 
   Result<void> operator()(const command::MoveSource& c) {
     if (auto there = check_index(c.index); !there) return there;
-    const auto sources = canonical({c.source});
-    if (!sources) return sources.error();
-    s_.sources[static_cast<std::size_t>(c.index)] = sources->front();
+    s_.sources[static_cast<std::size_t>(c.index)] = c.source;
     return {};
   }
 
@@ -114,13 +90,11 @@ class Applier {
   }
 
   Result<void> operator()(const command::ExtendCurve& c) {
-    auto spec = s_.sources.empty() ? Result<SourceSpec>(bad("")) : parse_source(s_.sources.back());
-    auto* const curve = spec ? std::get_if<VertexCurve>(&*spec) : nullptr;
+    auto* const curve = s_.sources.empty() ? nullptr : std::get_if<VertexCurve>(&s_.sources.back());
     if (curve == nullptr) {
       return bad("the last source is no curve to extend; begin one with source add curve:V");
     }
     curve->vertices.insert(curve->vertices.end(), c.vertices.begin(), c.vertices.end());
-    s_.sources.back() = to_text(*spec);
     return {};
   }
 
@@ -131,9 +105,9 @@ class Applier {
 
   Result<void> operator()(const command::MoreSources& /*c*/) {
     if (const auto at = last_random(); at != s_.sources.rend()) {
-      const RandomVertices random = *random_in(*at);
+      auto& random = std::get<RandomVertices>(*at);
       if (random.count == kMaxRandom) return bad("there are as many random sources as can be");
-      *at = random_text(random.count + 1, random.seed);
+      ++random.count;
     } else {
       s_.sources.push_back(kFirstSource);
     }
@@ -147,9 +121,8 @@ class Applier {
       s_.sources.pop_back();
       return {};
     }
-    const RandomVertices random = *random_in(*at);
-    if (random.count > 1) {
-      *at = random_text(random.count - 1, random.seed);
+    if (auto& random = std::get<RandomVertices>(*at); random.count > 1) {
+      --random.count;
     } else {
       s_.sources.erase(std::next(at).base());
     }
@@ -159,13 +132,13 @@ class Applier {
   Result<void> operator()(const command::ShuffleSources& /*c*/) {
     Index count = 0;
     std::uint64_t seed = 0;
-    for (const std::string& text : s_.sources) {
-      const auto random = random_in(text);
+    for (const SourceSpec& source : s_.sources) {
+      const auto* const random = std::get_if<RandomVertices>(&source);
       if (random) count = std::min<Index>(kMaxRandom - count, random->count) + count;
       if (random) seed = std::max(seed, random->seed);
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
-    s_.sources = {random_text(count, seed + 1)};
+    s_.sources = {RandomVertices{count, seed + 1}};
     return {};
   }
 
@@ -256,31 +229,16 @@ class Applier {
   }
 
   Result<void> operator()(const command::Pick& c) {
-    if (!c.point) {
-      s_.picked.reset();
-      return {};
-    }
-    const auto spec = parse_source(*c.point);
-    if (!spec) return spec.error();
-    if (!std::holds_alternative<FacePoint>(*spec)) {
-      return bad("'" + one_line(*c.point) + "' is no point to pick; write face:ID:b0:b1:b2");
-    }
-    s_.picked = to_text(*spec);
+    s_.picked = c.point;
     return {};
   }
 
   Result<void> operator()(const command::Target& c) {
-    if (!c.point) {
-      s_.target.reset();
-      return {};
+    if (c.point && !is_single_point(*c.point)) {
+      return bad("'" + one_line(to_text(*c.point)) +
+                 "' is no target; write one vertex, face:ID:b0:b1:b2 or xyz:x:y:z");
     }
-    const auto spec = parse_source(*c.point);
-    if (!spec) return spec.error();
-    if (!is_single_point(*spec)) {
-      return bad("'" + one_line(*c.point) + "' is no target; write one vertex, face:ID:b0:b1:b2 " +
-                 "or xyz:x:y:z");
-    }
-    s_.target = to_text(*spec);
+    s_.target = c.point;
     return {};
   }
 
@@ -299,9 +257,8 @@ class Applier {
  private:
   static Error nothing_kept() { return bad("no settings are kept as B; keep some first: keep"); }
 
-  std::vector<std::string>::reverse_iterator last_random() {
-    return std::find_if(s_.sources.rbegin(), s_.sources.rend(),
-                        [](const std::string& text) { return random_in(text).has_value(); });
+  std::vector<SourceSpec>::reverse_iterator last_random() {
+    return std::find_if(s_.sources.rbegin(), s_.sources.rend(), is_random);
   }
 
   Result<void> check_index(int index) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/explore/viewer_state.h"
+#include "app/source_spec.h"
 #include "solver/core/result.h"
 #include "solver/core/types.h"
 
@@ -40,17 +41,17 @@ struct Set {  // NAME VALUE: backend cg, time-factor 2, view contours, range 0:2
 
 /// Replaces all sources.
 struct SetSources {  // source set SPEC...
-  std::vector<std::string> sources;
+  std::vector<SourceSpec> sources;
   bool operator==(const SetSources&) const = default;
 };
 struct AddSources {  // source add SPEC...
-  std::vector<std::string> sources;
+  std::vector<SourceSpec> sources;
   bool operator==(const AddSources&) const = default;
 };
 /// Replaces entry `index` of ViewerState::sources: a source that is dragged.
 struct MoveSource {  // source move INDEX SPEC
   int index = 0;
-  std::string source;
+  SourceSpec source;
   bool operator==(const MoveSource&) const = default;
 };
 struct RemoveSource {  // source remove INDEX
@@ -133,13 +134,13 @@ struct Flip {  // flip
 
 /// Shows the figures of a point; none: no longer.
 struct Pick {  // pick face:ID:b0:b1:b2, pick none
-  std::optional<std::string> point;
+  std::optional<FacePoint> point;
   bool operator==(const Pick&) const = default;
 };
 
 /// Draws the paths that lead from a point to the sources; none: no longer.
-struct Target {  // target SPEC, target none
-  std::optional<std::string> point;
+struct Target {                     // target SPEC, target none
+  std::optional<SourceSpec> point;  ///< is_single_point()
   bool operator==(const Target&) const = default;
 };
 

@@ -35,8 +35,9 @@ template <class Kind>
 Result<Command> with_list(WordReader& reader) {
   Kind kind;
   while (!reader.at_end()) {
-    if (auto source = reader.source(); !source) return source.error();
-    kind.sources.push_back(reader.last());
+    auto source = reader.source();
+    if (!source) return source.error();
+    kind.sources.push_back(*std::move(source));
   }
   return Command(kind);
 }
@@ -55,8 +56,9 @@ Result<std::vector<double>> all_numbers(WordReader& reader) {
 Result<Command> read_move(WordReader& reader) {
   const auto index = reader.whole();
   if (!index) return index.error();
-  if (auto source = reader.source(); !source) return source.error();
-  return Command(command::MoveSource{*index, reader.last()});
+  const auto source = reader.source();
+  if (!source) return source.error();
+  return Command(command::MoveSource{*index, *source});
 }
 
 Result<Command> read_remove(WordReader& reader) {
@@ -126,14 +128,16 @@ Result<Command> read_show(WordReader& reader) {
 
 Result<Command> read_pick(WordReader& reader) {
   if (reader.peek() == "none") return Command(command::Pick{});
-  if (auto point = reader.face_point(); !point) return point.error();
-  return Command(command::Pick{reader.last()});
+  const auto point = reader.face_point();
+  if (!point) return point.error();
+  return Command(command::Pick{*point});
 }
 
 Result<Command> read_target(WordReader& reader) {
   if (reader.peek() == "none") return Command(command::Target{});
-  if (auto point = reader.single_point(); !point) return point.error();
-  return Command(command::Target{reader.last()});
+  const auto point = reader.single_point();
+  if (!point) return point.error();
+  return Command(command::Target{*point});
 }
 
 Result<Command> read_compare(WordReader& reader) {

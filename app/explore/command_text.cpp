@@ -12,6 +12,11 @@ std::string words(std::string text, const std::vector<std::string>& more) {
   return text;
 }
 
+std::string sources(std::string text, const std::vector<SourceSpec>& more) {
+  for (const SourceSpec& source : more) text += " " + to_text(source);
+  return text;
+}
+
 std::string numbers(std::string text, std::initializer_list<double> more) {
   for (const double number : more) text += " " + number_text(number);
   return text;
@@ -23,13 +28,13 @@ struct Printer {
   std::string operator()(const command::Run& c) const { return words("run", {c.path}); }
   std::string operator()(const command::Set& c) const { return words(c.name, {c.value}); }
   std::string operator()(const command::SetSources& c) const {
-    return words("source set", c.sources);
+    return sources("source set", c.sources);
   }
   std::string operator()(const command::AddSources& c) const {
-    return words("source add", c.sources);
+    return sources("source add", c.sources);
   }
   std::string operator()(const command::MoveSource& c) const {
-    return words("source move", {std::to_string(c.index), c.source});
+    return sources("source move " + std::to_string(c.index), {c.source});
   }
   std::string operator()(const command::RemoveSource& c) const {
     return words("source remove", {std::to_string(c.index)});
@@ -71,10 +76,10 @@ struct Printer {
   }
   std::string operator()(const command::Flip&) const { return "flip"; }
   std::string operator()(const command::Pick& c) const {
-    return words("pick", {c.point.value_or("none")});
+    return "pick " + (c.point ? to_text(SourceSpec(*c.point)) : "none");
   }
   std::string operator()(const command::Target& c) const {
-    return words("target", {c.point.value_or("none")});
+    return "target " + (c.point ? to_text(*c.point) : "none");
   }
   std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
   std::string operator()(const command::SavePicture& c) const {

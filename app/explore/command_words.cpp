@@ -178,31 +178,28 @@ Result<std::vector<Index>> WordReader::vertices() {
   return list->vertices;
 }
 
-Result<void> WordReader::source() {
-  const auto spec = parse_source(next());
+Result<SourceSpec> WordReader::source() {
+  auto spec = parse_source(next());
   if (!spec) return blame_last(told(spec.error()));
-  last_ = to_text(*spec);
-  return {};
+  return spec;
 }
 
-Result<void> WordReader::face_point() {
+Result<FacePoint> WordReader::face_point() {
   const auto spec = parse_source(peek());
   if (!spec || !std::holds_alternative<FacePoint>(*spec)) {
     return fail("a point in a face, face:ID:b0:b1:b2, or none");
   }
   ++next_;
-  last_ = to_text(*spec);
-  return {};
+  return std::get<FacePoint>(*spec);
 }
 
-Result<void> WordReader::single_point() {
-  const auto spec = parse_source(peek());
+Result<SourceSpec> WordReader::single_point() {
+  auto spec = parse_source(peek());
   if (!spec || !is_single_point(*spec)) {
     return fail("a point (a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z) or none");
   }
   ++next_;
-  last_ = to_text(*spec);
-  return {};
+  return spec;
 }
 
 Result<int> WordReader::one_of(std::initializer_list<const char*> names) {

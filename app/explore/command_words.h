@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/source_spec.h"
 #include "solver/core/result.h"
 #include "solver/core/types.h"
 
@@ -32,15 +33,14 @@ class WordReader {
   void skip(std::size_t count) { next_ += count; }
   const std::string& peek() const { return words_[next_].text; }  ///< precondition: !at_end()
   const std::string& next() { return words_[next_++].text; }      ///< precondition: !at_end()
-  const std::string& last() const { return last_; }  ///< canonical text of the last source
 
   // Of the next word; each precondition: !at_end().
   Result<double> number(double least, double most);
   Result<int> whole();  ///< from 0
   Result<std::vector<Index>> vertices();
-  Result<void> source();        ///< its canonical text is last()
-  Result<void> face_point();    ///< the same
-  Result<void> single_point();  ///< the same: one vertex, a point in a face or in space
+  Result<SourceSpec> source();
+  Result<FacePoint> face_point();
+  Result<SourceSpec> single_point();  ///< one vertex, a point in a face or in space
   Result<int> one_of(std::initializer_list<const char*> names);
 
   /// "column N: expected WHAT", of the next word or the end of the line.
@@ -56,7 +56,6 @@ class WordReader {
   std::vector<Word> words_;
   std::size_t next_ = 0;
   std::size_t end_column_ = 1;
-  std::string last_;
 };
 
 }  // namespace geotherm::app

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/machine.h"
-
 namespace geotherm::app {
 namespace {
 
@@ -42,14 +40,6 @@ double diffusion_time(const TimeStep& step, const MeshReport& mesh) {
 
 const Answer* shown_answer(const Explored& explored, Shown shown) {
   return shown == Shown::kB ? explored.b.get() : explored.a.get();
-}
-
-SolveFigures figures_of(const Explored& explored, const Answer& answer) {
-  SolveFigures figures{explored.model->model, explored.model->mesh, answer.method,
-                       answer.options,        explored.set,         answer.result,
-                       answer.distance,       peak_rss_mb(),        answer.warnings};
-  if (answer.error) figures.error = *answer.error;
-  return figures;
 }
 
 PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoint& point) {

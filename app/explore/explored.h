@@ -10,7 +10,7 @@
 #include "app/load_model.h"
 #include "app/picture/picture_data.h"
 #include "app/picture/target_paths.h"
-#include "app/solve_figures.h"
+#include "app/session/answer.h"
 #include "solver/mesh/ray_tree.h"
 
 // What the session has worked out; immutable, shared by threads.
@@ -25,18 +25,6 @@ struct ExploredModel {
   std::shared_ptr<const RayTree> rays;      ///< null: not made yet
 };
 
-/// One answer with the settings it belongs to.
-struct Answer {
-  std::shared_ptr<const DistanceMethod> method;
-  MethodOptions options;
-  DistanceResult result;
-  DistanceSummary distance;
-  SetupTiming setup;    ///< of the work that these settings needed, with what they took over
-  double setup_ms = 0;  ///< the time from a change of settings to the method being ready
-  std::vector<std::string> warnings;
-  std::shared_ptr<const AccuracyReport> error = {};  ///< null: not known, or not asked for
-};
-
 /// A place on the model under one entry of the list of sources.
 struct SourcePlace {
   int entry = 0;  ///< of ViewerState::sources
@@ -48,7 +36,7 @@ struct SourcePlace {
 /// What is shown: answers and the sources and settings they belong to.
 struct Explored {
   std::shared_ptr<const ExploredModel> model;  ///< null: none is open
-  std::vector<std::string> sources;            ///< as in ViewerState
+  std::vector<SourceSpec> sources;             ///< as in ViewerState
   SourceSet set;
   std::vector<SourcePlace> places;
   std::shared_ptr<const Answer> a, b;  ///< null: no source, or nothing kept
@@ -59,7 +47,6 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  std::vector<Index> nearest;     ///< V: group of the nearest source; empty: not asked for
   std::vector<TargetPath> paths;  ///< to ViewerState::target
   std::string path_failure;       ///< why there are none although there is a target; empty: none
   std::string b_failure;          ///< why there is no B although settings are kept; empty: none
@@ -73,9 +60,6 @@ double diffusion_time(const TimeStep& step, const MeshReport& mesh);
 
 /// A or B (for the difference: A); null while there is none.
 const Answer* shown_answer(const Explored& explored, Shown shown);
-
-/// All there is to say about an answer.
-SolveFigures figures_of(const Explored& explored, const Answer& answer);
 
 /// Figures of a point of the surface.
 struct PointFigures {

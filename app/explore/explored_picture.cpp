@@ -57,7 +57,8 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.value_unit = 1;
   data.largest_value = 0;
   data.is_signed = false;
-  data.nearest = explored.nearest;
+  data.nearest.clear();
+  if (explored.a) data.nearest = explored.a->result.nearest_source;
   data.lines.clear();
   const TriangleMesh& mesh = *explored.model->model.mesh;
   if (shown != Shown::kA && !explored.b) shown = Shown::kA;

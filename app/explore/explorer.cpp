@@ -8,10 +8,9 @@
 #include <set>
 
 #include "app/mesh_words.h"
+#include "app/progress_bar.h"
 #include "app/resolve_sources.h"
-#include "app/solve_steps.h"
 #include "app/told.h"
-#include "solver/core/stopwatch.h"
 
 namespace geotherm::app {
 namespace {
@@ -48,6 +47,12 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
   }
 }
 
+/// How messages call a source; a long list is cut.
+std::string source_name(const SourceSpec& source) {
+  constexpr std::size_t kShown = 60;
+  return "source " + to_text(source).substr(0, kShown);
+}
+
 /// Puts sets together: no vertex and no edge twice.
 class SetUnion {
  public:
@@ -81,39 +86,57 @@ class SetUnion {
   std::set<std::array<Index, 2>> edges_;
 };
 
+/// What an answer is held against in a session.
+CheckSettings check_settings(const ExploreRequest& request, const Answer& answer) {
+  CheckSettings settings;
+  settings.quick = !request.quality;
+  if (request.check == Check::kOn) return settings;
+  settings.mode = CheckMode::kThorough;
+  if (request.check == Check::kExact) {
+    settings.against = MethodKind::kExact;
+  } else if (request.check == Check::kWavefrontFine) {
+    settings.against = MethodKind::kWavefrontFine;
+  } else {
+    // While a source is dragged exact distances must take no longer than a frame or two.
+    constexpr Index kMaxFacesDragged = 10'000;
+    const Index faces = answer.model.mesh->face_count();
+    settings.against = settings.quick && faces > kMaxFacesDragged
+                           ? MethodKind::kWavefrontFine
+                           : reference_for(answer.options.method, faces);
+  }
+  return settings;
+}
+
 }  // namespace
 
-/// All entries as one set, and the places of each. What stood in the last request is not placed
-/// anew: a curve is a walk over the mesh.
+/// All entries as one set, and the places of each. A curve, which is a walk over the mesh, is not
+/// placed anew where the last request had it as well.
 Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
                                                          Explored& explored) {
   const TriangleMesh& mesh = *model_->model.mesh;
-  std::map<std::string, ResolvedSources> placed;
+  std::vector<PlacedCurve> curves;
   SetUnion all;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < request.sources.size(); ++i) {
-    const std::string& text = request.sources[i];
-    auto known = placed.find(text);
-    if (known == placed.end()) {
-      auto last = placed_.extract(text);
-      if (last.empty()) {
-        auto spec = parse_source(text);
-        if (!spec) return spec.error();
-        constexpr std::size_t kShown = 60;
-        const Source source{*std::move(spec), "source " + text.substr(0, kShown),
-                            ErrorCode::kBadInput};
-        auto resolved = resolve_sources({&source, 1}, mesh);
-        if (!resolved) return resolved.error();
-        known = placed.emplace(text, *std::move(resolved)).first;
-      } else {
-        known = placed.insert(std::move(last)).position;
-      }
-      warnings.insert(warnings.end(), known->second.warnings.begin(), known->second.warnings.end());
+    const SourceSpec& source = request.sources[i];
+    const auto last = std::ranges::find(curves_, source, &PlacedCurve::curve);
+    ResolvedSources placed;
+    if (last != curves_.end()) {
+      placed = last->placed;
+    } else {
+      const Source named{source, source_name(source), ErrorCode::kBadInput};
+      auto resolved = resolve_sources({&named, 1}, mesh);
+      if (!resolved) return resolved.error();
+      placed = *std::move(resolved);
     }
-    add_places(known->second, static_cast<int>(i), mesh, explored.places);
-    all.add(known->second.set);
+    for (const std::string& warning : placed.warnings) {
+      if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+    }
+    add_places(placed, static_cast<int>(i), mesh, explored.places);
+    all.add(placed.set);
+    if (std::holds_alternative<VertexCurve>(source)) curves.push_back({source, std::move(placed)});
   }
-  placed_ = std::move(placed);
+  curves_ = std::move(curves);
   explored.set = all.take();
   return warnings;
 }
@@ -127,13 +150,8 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto loaded = load_model(request.model, request.reading, progress);
   if (!loaded) return loaded.error();
   // What belonged to the old model goes before the new one needs the room.
-  a_.reset();
-  b_.reset();
-  placed_.clear();
-  waves_.reset();
-  on_waves_.clear();
-  reference_.reset();
-  paths_.reset();
+  solver_.reset();
+  curves_.clear();
   model_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
@@ -155,63 +173,61 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto whole = std::make_shared<ExploredModel>(*model);
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   model_ = std::move(whole);
+  solver_.emplace(model_->model, ModelSolver::Use::kSession);
+  solver_->set_summary(model_->mesh);
   model_text_ = request.model;
   reading_ = request.reading;
   opening_ = request.opening;
   return {};
 }
 
-Result<void> Explorer::prepare(const MethodOptions& options, std::optional<Method>& kept,
-                               const std::optional<Method>& other, const Progress& progress) {
-  if (kept && same_method(kept->options, options)) return {};
-  if (other && same_method(other->options, options)) {
-    if (kept) {
-      std::swap(a_, b_);  // A and B have changed places
-    } else {
-      kept = other;
+Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& request,
+                                                       const MethodOptions& options,
+                                                       const ResolvedSources& sources, bool is_b,
+                                                       const Progress& progress) {
+  const QueryOptions query{
+      .quality = request.quality, .fields = request.fields, .nearest = request.nearest && !is_b};
+  auto answer = solver_->solve(options, sources, {query}, progress);
+  if (!answer) return answer.error();
+  if (request.check != Check::kOff && request.check != Check::kOn) {
+    if (auto done = solver_->check(*answer, check_settings(request, *answer), progress); !done) {
+      return done.error();
     }
-    return {};
   }
-  if (auto pin = check_pin(options.constraint, *model_->model.mesh); !pin) return pin;
-  const std::optional<Method>& near = kept ? kept : other;
-  const Stopwatch watch;
-  auto made = make(options, near ? near->method.get() : nullptr, progress);
-  if (!made) return about_model(model_->model.name, made.error());
-  SetupTiming setup = (*made)->timing();
-  if (near && setup.operators == 0) {  // taken over
-    setup.operators = near->setup.operators;
-    setup.analyze = near->setup.analyze;
+  return std::make_shared<const Answer>(*std::move(answer));
+}
+
+/// Paths that cannot be found are a matter of their own: the distances are good all the same.
+Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
+                                  const Progress& progress) {
+  const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
+  auto found = placed ? solver_->paths_to(placed->set.points.front(), *explored.a, progress)
+                      : Result<TargetPaths>(placed.error());
+  if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
+  if (!found) {
+    explored.path_failure = told(found.error());
+  } else {
+    explored.paths = std::move(found->paths);
   }
-  kept = Method{*std::move(made), options, setup, watch.milliseconds()};
   return {};
 }
 
-Result<std::shared_ptr<const Answer>> Explorer::answer(
-    const ExploreRequest& request, const MethodOptions& options, bool is_b,
-    const Explored& explored, const std::vector<std::string>& source_warnings,
-    const Progress& progress) {
-  std::optional<Method>& mine = is_b ? b_ : a_;
-  if (auto ready = prepare(options, mine, is_b ? a_ : b_, progress); !ready) return ready.error();
-  if (!report(progress, "solve", -1)) return cancelled_error();
-  QueryOptions query;
-  query.fields = request.fields;
-  query.quality = request.quality;
-  query.nearest = request.nearest && !is_b;
-  auto result = mine->method->solve(explored.set, query, progress);
-  if (!result) return about_model(model_->model.name, result.error());
-  Answer out{mine->method, options, *std::move(result), {}, mine->setup, mine->setup_ms, {}};
-  out.distance = summarize(out.result.distances);
-  const auto add = [&out](const std::vector<std::string>& more) {
-    out.warnings.insert(out.warnings.end(), more.begin(), more.end());
-  };
-  add(told(out.method->warnings()));
-  add(source_warnings);
-  add(told(out.result.warnings));
-  add(unreached_notes(model_->mesh, out.distance.unreached));
-  if (request.check != Check::kOff && request.check != Check::kOn) {
-    if (auto done = check(request, explored.set, out, progress); !done) return done.error();
+/// Hands the answers out as they are, and then holds them against better ones.
+Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored& explored,
+                                        const Progress& progress, const Early& early) {
+  if (request.check != Check::kOn) return {};
+  early(explored);
+  explored.checked = true;
+  for (auto* const answer : {&explored.a, &explored.b}) {
+    if (!*answer) continue;
+    auto checked = std::make_shared<Answer>(**answer);
+    auto done = solver_->check(*checked, check_settings(request, *checked),
+                               with_prefix(progress, "checking: "));
+    if (!done) return done;
+    *answer = std::move(checked);
   }
-  return std::make_shared<const Answer>(std::move(out));
+  return {};
 }
 
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
@@ -223,30 +239,23 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   if (request.sources.empty()) return explored;
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();
-  auto a = answer(request, request.options, false, explored, *warnings, progress);
+  const ResolvedSources sources{explored.set, *std::move(warnings)};
+  solver_->keep_methods(request.kept ? 2 : 1);
+  auto a = answer(request, request.options, sources, false, progress);
   if (!a) return a.error();
   explored.a = *std::move(a);
-  if (request.nearest) {
-    if (auto found = find_nearest(explored, progress); !found) return found.error();
-  }
   if (request.target) {
     if (auto found = find_paths(request, explored, progress); !found) return found.error();
   }
-  if (!request.kept) {
-    b_.reset();
-    if (auto done = check_afterwards(request, explored, progress, early); !done) {
-      return done.error();
+  if (request.kept) {
+    auto b = answer(request, *request.kept, sources, true, progress);
+    if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
+    if (!b) {  // A is good all the same
+      explored.b_failure = "B: " + told(b.error());
+    } else {
+      explored.b = *std::move(b);
+      explored.difference = difference_of(*explored.a, *explored.b);
     }
-    return explored;
-  }
-  auto b = answer(request, *request.kept, true, explored, *warnings, progress);
-  if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
-  if (!b) {  // A is good all the same
-    b_.reset();
-    explored.b_failure = "B: " + told(b.error());
-  } else {
-    explored.b = *std::move(b);
-    explored.difference = difference_of(*explored.a, *explored.b);
   }
   if (auto done = check_afterwards(request, explored, progress, early); !done) return done.error();
   return explored;

@@ -9,9 +9,9 @@
 #include "app/explore/session_state.h"
 #include "app/load_model.h"
 #include "app/machine.h"
-#include "app/nearest_sources.h"
 #include "app/outputs.h"
 #include "app/report_json.h"
+#include "app/session/model_solver.h"
 #include "app/text.h"
 #include "solver/mesh/write_distances.h"
 
@@ -64,8 +64,9 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
   const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
   std::vector<Index> nearest;
   if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
+    ModelSolver solver(explored.model->model);
     auto found =
-        nearest_sources(mesh, explored.set, answer->result.distances, answer->options.threads, {});
+        solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);
     if (!found) return found.error();
     nearest = *std::move(found);
   }
@@ -77,8 +78,7 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
   if (answer == nullptr || session.stale()) return not_yet("figures");
-  return write_text(session.state().model, save.path, "save figures",
-                    to_text(solve_json(figures_of(explored, *answer))));
+  return write_text(session.state().model, save.path, "save figures", to_text(solve_json(*answer)));
 }
 
 std::string session_text(const ViewerState& state) {

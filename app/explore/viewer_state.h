@@ -8,6 +8,7 @@
 
 #include "app/model_reading.h"
 #include "app/picture/picture_settings.h"
+#include "app/source_spec.h"
 #include "solver/method/build_method.h"
 
 namespace geotherm::app {
@@ -33,14 +34,14 @@ enum class Check {
 struct ViewerState {
   std::string model;                  ///< a path or a bundled name; empty: none is open
   ModelReading reading;               ///< how the model is read
-  std::vector<std::string> sources;   ///< text forms (source_spec.h), canonical; one set
+  std::vector<SourceSpec> sources;    ///< one set
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
   Shown shown = Shown::kA;            ///< kA unless `kept`
   Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
-  std::optional<std::string> target;  ///< paths lead from here to the sources; as `picked`
+  std::optional<SourceSpec> target;   ///< paths lead from this single point to the sources
   PictureSettings picture;            ///< width and height: of saved pictures
-  std::optional<std::string> picked;  ///< the point whose figures are shown: face:ID:b0:b1:b2
+  std::optional<FacePoint> picked;    ///< the point whose figures are shown
   bool rotating = false;
 
   bool operator==(const ViewerState&) const = default;

@@ -6,7 +6,7 @@
 
 #include "app/report_json.h"
 #include "app/resolve_sources.h"
-#include "app/solve_model.h"
+#include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/text_table.h"
 #include "solver/path/isolines.h"
@@ -73,7 +73,7 @@ Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
   return levels;
 }
 
-Json isolines_json(const SolveFigures& figures, const std::vector<double>& levels,
+Json isolines_json(const Answer& figures, const std::vector<double>& levels,
                    const std::vector<Isoline>& lines) {
   Json json = {{"model", model_json(figures.model.name, figures.mesh)},
                {"method", to_text(figures.method->kind())},
@@ -94,7 +94,7 @@ Json isolines_json(const SolveFigures& figures, const std::vector<double>& level
   return json;
 }
 
-std::string isolines_table(const SolveFigures& figures, const std::vector<double>& levels,
+std::string isolines_table(const Answer& figures, const std::vector<double>& levels,
                            const std::vector<Isoline>& lines) {
   TextTable table({{"value", TextTable::Align::kRight},
                    {"lines", TextTable::Align::kRight},
@@ -119,7 +119,7 @@ std::string isolines_table(const SolveFigures& figures, const std::vector<double
          (figures.error ? "error: " + accuracy_line(*figures.error) + '\n' : "") + table.text();
 }
 
-LinePicture picture_of_lines(const SolveFigures& figures, const std::vector<Isoline>& lines) {
+LinePicture picture_of_lines(const Answer& figures, const std::vector<Isoline>& lines) {
   LinePicture picture;
   picture.mesh = figures.model.mesh;
   for (const Isoline& line : lines) picture.lines.push_back({&line.path, line.value});
@@ -169,7 +169,10 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  auto figures = solve_model(*std::move(model), options, *named, {}, *check, progress);
+  const auto sources = resolve_sources(*named, *model->mesh);
+  if (!sources) return sources.error();
+  ModelSolver solver(*std::move(model));
+  auto figures = solver.solve(options, *sources, {{}, *check}, progress);
   if (!figures) return figures.error();
   note_unused_settings(arguments.settings, options, figures->warnings);
   const auto levels = levels_up_to(figures->distance.max, *wanted);

@@ -7,7 +7,7 @@
 #include "app/load_model.h"
 #include "app/progress_bar.h"
 #include "app/resolve_sources.h"
-#include "app/solve_steps.h"
+#include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/stopwatch.h"
@@ -97,18 +97,18 @@ Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const
 }
 
 /// Holds the distances from the start, which lead the way, against better ones. Errors: kCancelled.
-Result<void> check_way(const PathTask& task, const SurfacePoint& start,
-                       const DistanceMethod& method, CheckMode mode, const Progress& progress,
-                       PathFigures& figures) {
+Result<void> check_way(const PathTask& task, const SurfacePoint& start, ModelSolver& solver,
+                       CheckMode mode, const Progress& progress, PathFigures& figures) {
   if (mode == CheckMode::kNone) return {};
-  SourceSet from;
-  from.points.push_back(start);
-  auto check = check_sample(figures.model.mesh, method, task.method, {&from, 1}, mode, true,
-                            with_prefix(part_of(progress, 0.9, 1.0), "checking: "));
-  if (!check) return check.error();
-  auto warning = accuracy_warning(check->report, accuracy_line(check->report));
-  if (!warning.empty()) figures.warnings.push_back(std::move(warning));
-  figures.error = std::move(check->report);
+  ResolvedSources from;
+  from.set.points.push_back(start);
+  const Progress checking = with_prefix(part_of(progress, 0.9, 1.0), "checking: ");
+  auto answer = solver.solve(task.method, from, {{.quality = false}}, checking);
+  if (!answer) return answer.error();
+  answer->warnings.clear();  // those of the method were said
+  if (auto done = solver.check(*answer, {mode}, checking); !done) return done;
+  figures.warnings.insert(figures.warnings.end(), answer->warnings.begin(), answer->warnings.end());
+  figures.error = *answer->error;
   return {};
 }
 
@@ -118,11 +118,12 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
   auto points = place(task.points, *figures.model.mesh, figures.warnings);
   if (!points) return points.error();
   Stopwatch watch;
-  auto method = build_method(figures.model.mesh, task.method, part_of(progress, 0, 0.5));
-  if (!method) return about_model(figures.model.name, method.error());
-  const auto about_method = told((*method)->warnings());
+  ModelSolver solver(figures.model);
+  const auto ready = solver.prepare(task.method, part_of(progress, 0, 0.5));
+  if (!ready) return ready.error();
+  const auto about_method = told(ready->method->warnings());
   figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
-  const PathFinder finder(figures.model.mesh, *method);
+  const PathFinder finder(figures.model.mesh, ready->method);
   figures.setup_ms = watch.milliseconds();
   const Stopwatch finding;
   const std::size_t shared = points->size() - targets;
@@ -142,7 +143,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
     figures.paths.push_back({std::move(stops), std::move(found->path)});
   }
   figures.path_ms = finding.milliseconds();
-  return check_way(task, points->front(), **method, mode, progress, figures);
+  return check_way(task, points->front(), solver, mode, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
@@ -222,7 +223,6 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!model) return model.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
-  if (auto pin = check_pin(task->method.constraint, *figures.model.mesh); !pin) return pin.error();
   if (auto found = find_paths(*task, arguments.to.size(), check->mode, progress, figures); !found) {
     return found.error();
   }

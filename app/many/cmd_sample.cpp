@@ -9,7 +9,7 @@
 #include "app/many/many_work.h"
 #include "app/many/sample_report.h"
 #include "app/outputs.h"
-#include "app/solve_steps.h"
+#include "app/session/answer.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/stopwatch.h"
@@ -73,25 +73,25 @@ Result<FarthestPoints> take_samples(const DistanceMethod& method, const Triangle
 
 /// Checks the method on some of the samples, and takes them again by the method that answers
 /// instead of a poor one.
-Result<void> check_samples(const SampleTask& task, const Progress& progress,
-                           const Announce& announce, SampleFigures& figures) {
+Result<void> check_samples(const SampleTask& task, ModelSolver& solver, const ReadyMethod& ready,
+                           const Progress& progress, const Announce& announce,
+                           SampleFigures& figures) {
   std::vector<SourceSet> sets;
   for (const FarthestSample& sample : figures.points.samples) {
     sets.push_back(SourceSet::of_vertices({sample.vertex}));
   }
-  auto checked = check_method(figures.model.mesh, figures.method, task.options, sets, task.check,
-                              part_of(progress, 0.0, 0.5));
+  auto checked = solver.check_method(ready, sets, task.check, part_of(progress, 0.0, 0.5));
   if (!checked) return checked.error();
   figures.error = std::move(checked->error);
   figures.warnings = std::move(checked->warnings);
   if (!checked->replaced) return {};
   figures.replaced = std::move(checked->replaced);
-  figures.method = checked->method;
-  figures.options = checked->options;
+  figures.method = checked->by.method;
+  figures.options = checked->by.options;
   const Stopwatch watch;
   auto points = take_samples(*figures.method, *figures.model.mesh, task,
                              part_of(progress, 0.5, 1.0), announce);
-  if (!points) return points.error();
+  if (!points) return about_model(figures.model.name, points.error());
   figures.points = *std::move(points);
   figures.sampling_ms = watch.milliseconds();
   return {};
@@ -101,32 +101,27 @@ Result<void> check_samples(const SampleTask& task, const Progress& progress,
 Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
                              const Progress& progress, const Announce& announce) {
   constexpr double kSampled = 0.9;
-  if (auto pin = check_pin(task.options.constraint, *model.mesh); !pin) return pin.error();
   // What cannot be asked for is said before the set-up.
   if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
     return about(one_line(model.name), fits.error());
   }
-  auto method = build_method(model.mesh, task.options, part_of(progress, 0.0, kSetupShare));
-  if (!method) return about_model(model.name, method.error());
+  ModelSolver solver(model);
+  const auto ready = solver.prepare(task.options, part_of(progress, 0.0, kSetupShare));
+  if (!ready) return ready.error();
   const Stopwatch watch;
   const bool checks = task.check.mode != CheckMode::kNone;
-  auto points = take_samples(**method, *model.mesh, task,
+  auto points = take_samples(*ready->method, *model.mesh, task,
                              part_of(progress, kSetupShare, checks ? kSampled : 1.0), announce);
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
   const double peak = peak_rss_mb();  // of the work, not of its check
   const MeshReport mesh = inspect_mesh(*model.mesh);
-  SampleFigures figures{std::move(model),
-                        mesh,
-                        *std::move(method),
-                        task.options,
-                        *std::move(points),
-                        sampling_ms,
-                        peak,
-                        {}};
+  SampleFigures figures{std::move(model),   mesh,        ready->method, task.options,
+                        *std::move(points), sampling_ms, peak,          {}};
   if (checks) {
-    const auto done = check_samples(task, part_of(progress, kSampled, 1.0), announce, figures);
-    if (!done) return about_model(figures.model.name, done.error());
+    const auto done =
+        check_samples(task, solver, *ready, part_of(progress, kSampled, 1.0), announce, figures);
+    if (!done) return done.error();
   }
   const auto add_warnings = [&figures](const std::vector<std::string>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());

@@ -7,7 +7,7 @@
 
 #include "app/machine.h"
 #include "app/progress_bar.h"
-#include "app/solve_steps.h"
+#include "app/session/answer.h"
 #include "app/text.h"
 #include "app/text_table.h"
 #include "app/told.h"
@@ -90,23 +90,23 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce) {
   constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
-  auto method = build_method(work.model.mesh, work.options, part_of(progress, 0.0, kMethodShare));
-  if (!method) return about_model(work.model.name, method.error());
+  ModelSolver solver(work.model);
+  auto ready = solver.prepare(work.options, part_of(progress, 0.0, kMethodShare));
+  if (!ready) return ready.error();
   keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
-  figures.method = *std::move(method);
-  figures.options = work.options;
   add_warnings(figures.warnings, work.model.notes);
   if (work.check.mode != CheckMode::kNone) {
-    auto checked = check_method(work.model.mesh, figures.method, work.options, work.sources.sets,
-                                work.check, part_of(progress, kMethodShare, kSetupShare));
-    if (!checked) return about_model(work.model.name, checked.error());
-    figures.method = checked->method;
-    figures.options = checked->options;
+    auto checked = solver.check_method(*ready, work.sources.sets, work.check,
+                                       part_of(progress, kMethodShare, kSetupShare));
+    if (!checked) return checked.error();
+    *ready = std::move(checked->by);
     figures.error = std::move(checked->error);
     figures.replaced = std::move(checked->replaced);
     add_warnings(figures.warnings, checked->warnings);
   }
+  figures.method = std::move(ready->method);
+  figures.options = ready->options;
   add_warnings(figures.warnings, told(figures.method->warnings()));
   add_warnings(figures.warnings, work.sources.warnings);
 
@@ -150,52 +150,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   add_warnings(figures.warnings, of_answers);
   note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;
-}
-
-Result<CheckedMethod> check_method(const std::shared_ptr<const TriangleMesh>& mesh,
-                                   std::shared_ptr<const DistanceMethod> method,
-                                   const MethodOptions& options, std::span<const SourceSet> sets,
-                                   const CheckSettings& settings, const Progress& progress) {
-  const Progress checking = with_prefix(progress, "checking: ");
-  const bool replaces = settings.on_poor == OnPoor::kBetter;
-  auto check = check_sample(mesh, *method, options, sets, settings.mode, !replaces, checking);
-  if (!check) return check.error();
-  CheckedMethod out{std::move(method), options, *std::move(check), {}, {}};
-  const std::string line = accuracy_line(out.error);
-  if (settings.on_poor == OnPoor::kFail) {
-    if (auto right = refuse_poor(out.error.report, line); !right) return right.error();
-  }
-  if (!replaces || !out.error.report.is_poor()) {
-    if (auto warning = accuracy_warning(out.error.report, line); !warning.empty()) {
-      out.warnings.push_back(std::move(warning));
-    }
-    return out;
-  }
-  out.replaced = out.error;
-  const std::shared_ptr<const DistanceMethod> poor = out.method;
-  for (const MethodKind kind : better_methods(options.method, settings.mode, mesh->face_count())) {
-    const MethodOptions next = better_options(options, kind);
-    auto better = build_method(mesh, next, checking);
-    if (!better) {
-      if (out.method == poor || better.error().code == ErrorCode::kCancelled) return better.error();
-      break;  // what was poor, too, is better than nothing
-    }
-    auto judged = check_sample_against(mesh, **better, next, sets,
-                                       judge_of_better(kind, settings.mode, mesh->face_count()),
-                                       *poor, checking);
-    if (!judged) {
-      if (out.method == poor || judged.error().code == ErrorCode::kCancelled) return judged.error();
-      break;
-    }
-    out.options = next;
-    out.error = *std::move(judged);
-    out.method = *std::move(better);
-    if (!out.error.report.is_poor()) break;
-  }
-  out.warnings.push_back(replaced_note(options, out.options, line));
-  auto still = still_poor_warning(out.error.report, out.options, accuracy_line(out.error));
-  if (!still.empty()) out.warnings.push_back(std::move(still));
-  return out;
 }
 
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "app/announce.h"
-#include "app/answer_check.h"
 #include "app/cmd_solve.h"
 #include "app/load_model.h"
 #include "app/report_json.h"
 #include "app/resolve_sources.h"
+#include "app/session/model_solver.h"
 #include "solver/geometry/mesh_report.h"
 #include "solver/mesh/npy_rows.h"
 #include "solver/method/stream_answers.h"
@@ -81,23 +81,6 @@ std::string unreached_note(const ManySources& work, std::int64_t unreached);
 
 /// model, options, sources, timing_ms, memory_mb, warnings: what both reports begin with.
 Json many_json(const ManySources& work, const ManyFigures& figures);
-
-/// What was found out about a method on many sources, and the method that takes the work on.
-struct CheckedMethod {
-  std::shared_ptr<const DistanceMethod> method;
-  MethodOptions options;
-  SampleCheck error;
-  std::optional<SampleCheck> replaced;
-  std::vector<std::string> warnings;
-};
-
-/// Checks a method on some of the source sets, and does what is to be done where it is poor.
-/// Precondition: settings.mode is not kNone. Errors: kNumericalFailure (OnPoor::kFail), those of
-/// queries, kCancelled.
-Result<CheckedMethod> check_method(const std::shared_ptr<const TriangleMesh>& mesh,
-                                   std::shared_ptr<const DistanceMethod> method,
-                                   const MethodOptions& options, std::span<const SourceSet> sets,
-                                   const CheckSettings& settings, const Progress& progress);
 
 /// What people see: `first_rows`, then method, set-up and queries.
 std::string many_table(const ManySources& work, const ManyFigures& figures,

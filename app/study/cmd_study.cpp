@@ -6,7 +6,7 @@
 
 #include "app/outputs.h"
 #include "app/resolve_sources.h"
-#include "app/solve_steps.h"
+#include "app/session/answer.h"
 #include "app/study/study_report.h"
 #include "app/text.h"
 #include "solver/mesh/io/file_extension.h"

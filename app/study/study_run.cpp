@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/progress_bar.h"
-#include "app/solve_steps.h"
+#include "app/session/model_solver.h"
 #include "app/told.h"
 #include "solver/heat/heat_method.h"
 #include "solver/method/distance_error.h"
@@ -15,12 +15,12 @@ namespace {
 
 constexpr TimeRule kRules[] = {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea};
 
-/// One method after the other, each made from the last one, so that factors are shared where only
-/// the constraint changes.
+/// One method after the other: the solver makes each from the last one, so that factors are shared
+/// where only the constraint changes.
 class Sweeper {
  public:
   Sweeper(const Model& model, const StudyTask& task, const std::vector<double>& better)
-      : model_(model), task_(task), better_(better) {
+      : solver_({.mesh = model.mesh}), sources_{task.sources, {}}, better_(better) {
     for (const double e : better) {
       if (std::isfinite(e)) range_ = std::max(range_, e);
     }
@@ -34,37 +34,30 @@ class Sweeper {
     row.factor = options.time_step.factor;
     row.boundary = options.boundary;
     row.constraint = options.constraint.mode;
-    auto made = build_method_near(model_.mesh, options, method_.get());
-    if (!made) {
-      row.message = told(made.error());
+    const auto answer = solver_.solve(options, sources_, {{.quality = false}});
+    if (answer) {
+      measure(*answer, row);
     } else {
-      method_ = *std::move(made);
-      row.t = method_->heat()->t();
-      row.unit_t = method_->heat()->relative_t();
-      measure(row);
+      row.message = told(answer.error());
     }
     study.rows.push_back(std::move(row));
   }
 
  private:
-  void measure(StudyRow& row) {
-    const auto result = method_->solve(task_.sources, {.quality = false});
-    if (!result) {
-      row.message = told(result.error());
-      return;
-    }
-    const DistanceError error = distance_error(result->distances, better_);
+  void measure(const Answer& answer, StudyRow& row) const {
+    row.t = answer.method->heat()->t();
+    row.unit_t = answer.method->heat()->relative_t();
+    const DistanceError error = distance_error(answer.result.distances, better_);
     if (error.worst == kNoIndex) return;
     row.mean_error = error.mean_relative;
     row.max_error = error.max_of_range;
-    if (range_ > 0) row.source_distance = result->quality.max_source_distance / range_;
+    if (range_ > 0) row.source_distance = answer.result.quality.max_source_distance / range_;
   }
 
-  const Model& model_;
-  const StudyTask& task_;
+  ModelSolver solver_;
+  ResolvedSources sources_;
   const std::vector<double>& better_;
   double range_ = 0;
-  std::shared_ptr<const DistanceMethod> method_;
 };
 
 }  // namespace
@@ -103,18 +96,13 @@ Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& p
   }
   Study study;
   study.reference = reference_for(MethodKind::kHeat, model.mesh->face_count());
-  MethodOptions better;
-  better.method = study.reference;
-  better.threads = task.options.threads;
-  const auto method =
-      build_method(model.mesh, better, with_prefix(part_of(progress, 0.0, 0.02), "reference: "));
-  if (!method) return about_model(model.name, method.error());
-  const auto reference = (*method)->solve(task.sources, {.quality = false},
-                                          with_prefix(part_of(progress, 0.02, 0.1), "reference: "));
+  const auto reference =
+      solve_reference(model.mesh, study.reference, {&task.sources, 1}, task.options.threads,
+                      nullptr, with_prefix(part_of(progress, 0.0, 0.1), "reference: "));
   if (!reference) return about_model(model.name, reference.error());
 
   study.mean_edge = task.mean_edge;
-  Sweeper sweeper(model, task, reference->distances);
+  Sweeper sweeper(model, task, reference->distances.front());
   study.largest_distance = sweeper.range();
   const std::vector<Constraint> constraints = study_constraints();
   const std::size_t total =

@@ -18,6 +18,7 @@ struct SurfacePoint {
   static SurfacePoint at_vertex(Index v) { return {v, kNoIndex, {}}; }
   static SurfacePoint in_face(Index f, std::array<double, 3> w) { return {kNoIndex, f, w}; }
   bool is_vertex() const { return vertex != kNoIndex; }
+  bool operator==(const SurfacePoint&) const = default;
 };
 
 /// Where distance is 0: points, and mesh edges whose every point is a source (a curve).
@@ -33,6 +34,7 @@ struct SourceSet {
     return set;
   }
   bool empty() const { return points.empty() && edges.empty(); }
+  bool operator==(const SourceSet&) const = default;
 };
 
 /// Numbers the sources for labels: points first, then edges, each as in the set. A point has a

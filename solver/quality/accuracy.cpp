@@ -79,6 +79,12 @@ std::string reach_text(const DistanceError& error) {
          " reached by one method and not by the other";
 }
 
+Error memory_ended(MethodKind kind) {
+  return {ErrorCode::kOutOfMemory,
+          "the memory ended in the check by the method " + to_text(kind),
+          {"take a mesh with fewer faces"}};
+}
+
 }  // namespace
 
 std::string percent_text(double share) {
@@ -109,18 +115,26 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
   }
   const auto method = build_method(mesh, options, part_of(progress, 0.0, kSetUpShare), waves);
   if (!method) return method.error();
-  auto results =
-      (*method)->solve_each(sources, {.quality = false}, part_of(progress, kSetUpShare, 1.0));
+  auto answers = solve_reference(**method, sources, part_of(progress, kSetUpShare, 1.0));
+  if (answers) answers->milliseconds = watch.milliseconds();
+  return answers;
+} catch (const std::bad_alloc&) {
+  return memory_ended(kind);
+}
+
+Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
+                                         std::span<const SourceSet> sources,
+                                         const Progress& progress) try {
+  const Stopwatch watch;
+  auto results = method.solve_each(sources, {.quality = false}, progress);
   if (!results) return results.error();
   ReferenceAnswers answers;
-  answers.method = kind;
+  answers.method = method.kind();
   for (DistanceResult& result : *results) answers.distances.push_back(std::move(result.distances));
   answers.milliseconds = watch.milliseconds();
   return answers;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory,
-               "the memory ended in the check by the method " + to_text(kind),
-               {"take a mesh with fewer faces"}};
+  return memory_ended(method.kind());
 }
 
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,

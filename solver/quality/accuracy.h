@@ -67,6 +67,11 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
                                          int threads, const DistanceMethod* beside = nullptr,
                                          const Progress& progress = {});
 
+/// The same by a method that is ready.
+Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
+                                         std::span<const SourceSet> sources,
+                                         const Progress& progress = {});
+
 /// Holds distances of `checked`, V for each source set, against better ones of the same sets.
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
                             const ReferenceAnswers& better);

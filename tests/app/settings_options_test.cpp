@@ -9,7 +9,7 @@
 
 #include "app/explore/command.h"
 #include "app/report_json.h"
-#include "app/solve_model.h"
+#include "app/session/model_solver.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -63,9 +63,9 @@ TEST(SettingsOptions, OfASettingThatIsAddedToTheTableAreEverywhere) {
   app::Model model;
   model.name = "square";
   model.mesh = finish(plane_grid(3, 3, 1, 1));
-  const auto sources = app::parse_source("0");
-  const auto solved = app::solve_model(model, app::usual_settings().options,
-                                       {{*sources, "-s 0", ErrorCode::kBadInput}}, {}, {}, {});
+  app::ModelSolver solver(model);
+  const auto solved =
+      solver.solve(app::usual_settings().options, {SourceSet::of_vertices({0}), {}}, {});
   ASSERT_TRUE(solved) << solved.error().message;
   EXPECT_EQ(app::solve_json(*solved)["options"]["test_dial"], 2.5);
 }

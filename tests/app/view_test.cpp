@@ -9,6 +9,7 @@
 #include "app/picture/picture_scale.h"
 #include "tests/app/fake_drawing.h"
 #include "tests/mesh/mesh_files.h"
+#include "tests/support/source_texts.h"
 
 namespace geotherm::test {
 namespace {
@@ -48,7 +49,7 @@ class ViewCommand : public testing::Test {
 TEST_F(ViewCommand, AModelAloneOpensTheWindow) {
   EXPECT_EQ(run({"bunny"}), 0) << err;
   EXPECT_EQ(start().model, "bunny");
-  EXPECT_EQ(start().sources, std::vector<std::string>{"random:1"});
+  EXPECT_EQ(test::texts_of(start().sources), std::vector<std::string>{"random:1"});
   EXPECT_EQ(start().picture.camera.fit, app::PictureFit::kSphere);
 }
 
@@ -122,7 +123,8 @@ TEST_F(ViewCommand, EveryOptionOfSolveAndRenderReachesTheWindow) {
             0)
       << err;
   const app::ViewerState state = start();
-  EXPECT_EQ(state.sources, (std::vector<std::string>{"17", "face:3:0.5:0.25:0.25", "3", "4"}));
+  EXPECT_EQ(test::texts_of(state.sources),
+            (std::vector<std::string>{"17", "face:3:0.5:0.25:0.25", "3", "4"}));
   EXPECT_EQ(state.options.backend, "cg");
   EXPECT_EQ(state.options.time_step, (TimeStep{TimeRule::kMeanFaceArea, 2, 0}));
   EXPECT_EQ(state.options.constraint.penalty, 5);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/explore/settings.h"
+#include "tests/support/source_texts.h"
 
 namespace geotherm::app {
 namespace {
@@ -32,7 +33,7 @@ TEST(Apply, OpenKeepsSourcesThatFitAnyModelAndFramesIt) {
       after({"open a.obj", "source set 17 boundary random:3:9", "camera place 1 2 3 0.4 0.5",
              "camera centre 1 2 3", "range 0:5", "spacing 0.1", "pick face:0:1:0:0", "open b.obj"});
   EXPECT_EQ(state.model, "b.obj");
-  EXPECT_EQ(state.sources, (std::vector<std::string>{"boundary", "random:3:9"}));
+  EXPECT_EQ(test::texts_of(state.sources), (std::vector<std::string>{"boundary", "random:3:9"}));
   EXPECT_EQ(state.picture.camera.zoom, 1);
   EXPECT_FALSE(state.picture.camera.centre);
   EXPECT_FALSE(state.picture.range_max);
@@ -42,32 +43,34 @@ TEST(Apply, OpenKeepsSourcesThatFitAnyModelAndFramesIt) {
 }
 
 TEST(Apply, AModelBeginsWithOneRandomSource) {
-  EXPECT_EQ(after({"open bunny"}).sources, std::vector<std::string>{"random:1"});
-  EXPECT_EQ(after({"open a", "source set 5", "open b"}).sources,
+  EXPECT_EQ(test::texts_of(after({"open bunny"}).sources), std::vector<std::string>{"random:1"});
+  EXPECT_EQ(test::texts_of(after({"open a", "source set 5", "open b"}).sources),
             std::vector<std::string>{"random:1"});
 }
 
 TEST(Apply, MoreAndFewerCountTheRandomSources) {
   ViewerState state = after({"open a", "source set 17 random:1:4", "source more", "source more"});
-  EXPECT_EQ(state.sources, (std::vector<std::string>{"17", "random:3:4"}));
+  EXPECT_EQ(test::texts_of(state.sources), (std::vector<std::string>{"17", "random:3:4"}));
   state = after({"source fewer", "source fewer", "source fewer"}, state);
-  EXPECT_EQ(state.sources, std::vector<std::string>{"17"});
-  EXPECT_EQ(after({"source fewer"}, state).sources, std::vector<std::string>{});
+  EXPECT_EQ(test::texts_of(state.sources), std::vector<std::string>{"17"});
+  EXPECT_EQ(test::texts_of(after({"source fewer"}, state).sources), std::vector<std::string>{});
   EXPECT_NE(refusal(after({"source clear"}, state), "source fewer"), "");
-  EXPECT_EQ(after({"source more"}, state).sources, (std::vector<std::string>{"17", "random:1"}));
+  EXPECT_EQ(test::texts_of(after({"source more"}, state).sources),
+            (std::vector<std::string>{"17", "random:1"}));
 }
 
 TEST(Apply, ShuffleKeepsTheNumberAndChangesThePlaces) {
   const ViewerState state = after({"open a", "source set random:5:3"});
-  EXPECT_EQ(after({"source shuffle"}, state).sources, std::vector<std::string>{"random:5:4"});
-  EXPECT_EQ(after({"source set 1 2", "source shuffle"}, state).sources,
+  EXPECT_EQ(test::texts_of(after({"source shuffle"}, state).sources),
+            std::vector<std::string>{"random:5:4"});
+  EXPECT_EQ(test::texts_of(after({"source set 1 2", "source shuffle"}, state).sources),
             std::vector<std::string>{"random:2"});
 }
 
 TEST(Apply, RandomSourcesStopAtTheLargestNumber) {
   const ViewerState state = after({"open a", "source set random:2147483647"});
   EXPECT_NE(refusal(state, "source more"), "");
-  EXPECT_EQ(after({"source add random:5:9", "source shuffle"}, state).sources,
+  EXPECT_EQ(test::texts_of(after({"source add random:5:9", "source shuffle"}, state).sources),
             std::vector<std::string>{"random:2147483647:10"});
 }
 
@@ -81,14 +84,14 @@ TEST(Apply, ResetLeavesTheModelAlone) {
 TEST(Apply, ABrushBeginsACurveAndExtendsIt) {
   const ViewerState state = after(
       {"open a", "source set 9", "source add curve:1", "source extend 2,3", "source extend 4"});
-  EXPECT_EQ(state.sources, (std::vector<std::string>{"9", "curve:1,2,3,4"}));
+  EXPECT_EQ(test::texts_of(state.sources), (std::vector<std::string>{"9", "curve:1,2,3,4"}));
   EXPECT_NE(refusal(after({"open a", "source set 9"}), "source extend 2"), "");
 }
 
 TEST(Apply, MoveAndRemoveNameTheirSource) {
   const ViewerState state =
       after({"open a", "source set 1 2 3", "source move 1 9", "source remove 0"});
-  EXPECT_EQ(state.sources, (std::vector<std::string>{"9", "3"}));
+  EXPECT_EQ(test::texts_of(state.sources), (std::vector<std::string>{"9", "3"}));
   EXPECT_NE(refusal(state, "source remove 2").find("0 to 1"), std::string::npos);
   EXPECT_NE(refusal(state, "source move 7 1").find("source 7"), std::string::npos);
 }

@@ -13,6 +13,7 @@
 #include "app/explore/explored_picture.h"
 #include "solver/heat/heat_method.h"
 #include "tests/explore/session_fixture.h"
+#include "tests/support/source_texts.h"
 
 namespace geotherm::app {
 namespace {
@@ -55,10 +56,10 @@ TEST_F(SessionTest, AModelThatDoesNotOpenLeavesTheOneThatIs) {
   run({"open " + small_model(), "source set 5"});
   ASSERT_FALSE(session.submit(command::Open{folder() + "none.obj"}));
   EXPECT_EQ(session.state().model, small_model());
-  EXPECT_EQ(session.state().sources, std::vector<std::string>{"5"});
+  EXPECT_EQ(test::texts_of(session.state().sources), std::vector<std::string>{"5"});
   EXPECT_FALSE(session.stale());
   run({"source set 6"});
-  EXPECT_EQ(session.explored().sources, std::vector<std::string>{"6"});
+  EXPECT_EQ(test::texts_of(session.explored().sources), std::vector<std::string>{"6"});
 }
 
 TEST_F(SessionTest, OpeningAgainReadsTheFileAnew) {
@@ -133,15 +134,15 @@ TEST_F(SessionTest, SettingsAloneFactorWhatTheyMustAndNoMore) {
 TEST_F(SessionTest, UndoTakesBackADragAsAWhole) {
   run({"open " + small_model(), "source set 5 9", "source move 0 6", "source move 0 7",
        "source move 0 8", "undo"});
-  EXPECT_EQ(session.state().sources, (std::vector<std::string>{"5", "9"}));
+  EXPECT_EQ(test::texts_of(session.state().sources), (std::vector<std::string>{"5", "9"}));
   run({"redo"});
-  EXPECT_EQ(session.state().sources, (std::vector<std::string>{"8", "9"}));
+  EXPECT_EQ(test::texts_of(session.state().sources), (std::vector<std::string>{"8", "9"}));
 }
 
 TEST_F(SessionTest, UndoTakesBackABrushStrokeAsAWhole) {
   run({"open " + small_model(), "source set 5", "source add curve:1", "source extend 2",
        "source extend 3", "undo"});
-  EXPECT_EQ(session.state().sources, std::vector<std::string>{"5"});
+  EXPECT_EQ(test::texts_of(session.state().sources), std::vector<std::string>{"5"});
 }
 
 TEST_F(SessionTest, UndoLeavesTheCameraAlone) {

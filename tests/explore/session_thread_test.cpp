@@ -11,6 +11,7 @@
 
 #include "app/explore/worker.h"
 #include "tests/explore/session_fixture.h"
+#include "tests/support/source_texts.h"
 
 namespace geotherm::app {
 namespace {
@@ -43,24 +44,24 @@ TEST_F(SessionThread, TheLatestOfManyWins) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
   for (int i = 1; i <= 200; ++i) {
     ASSERT_TRUE(threaded.submit(command::Set{"time-factor", std::to_string(i)}));
-    ASSERT_TRUE(threaded.submit(command::SetSources{{std::to_string(i)}}));
+    ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({std::to_string(i)})}));
     threaded.update();
   }
   ASSERT_TRUE(threaded.finish());
   EXPECT_EQ(threaded.explored().a->options.time_step.factor, 200);
-  EXPECT_EQ(threaded.explored().sources, std::vector<std::string>{"200"});
+  EXPECT_EQ(test::texts_of(threaded.explored().sources), std::vector<std::string>{"200"});
   EXPECT_FALSE(threaded.stale());
 }
 
 TEST_F(SessionThread, ThePictureFollowsADrag) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
-  ASSERT_TRUE(threaded.submit(command::SetSources{{"1"}}));
+  ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"1"})}));
   ASSERT_TRUE(threaded.finish());
   threaded.set_dragging(true);
   int pictures = 0;
   std::uint64_t version = threaded.explored().version;
   for (int i = 0; i < 2000 && pictures < 20; ++i) {
-    ASSERT_TRUE(threaded.submit(command::MoveSource{0, std::to_string(1 + i % 300)}));
+    ASSERT_TRUE(threaded.submit(command::MoveSource{0, VertexList{{1 + i % 300}}}));
     std::this_thread::sleep_for(200us);
     threaded.update();
     pictures += threaded.explored().version != version ? 1 : 0;
@@ -76,7 +77,7 @@ TEST_F(SessionThread, ThePictureFollowsADrag) {
 TEST_F(SessionThread, AFailureLeavesTheLastGoodAnswer) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
   ASSERT_TRUE(threaded.finish());
-  ASSERT_TRUE(threaded.submit(command::SetSources{{"99999999"}}));
+  ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"99999999"})}));
   const auto finished = threaded.finish();
   ASSERT_FALSE(finished);
   EXPECT_NE(threaded.failure(), "");
@@ -147,10 +148,10 @@ TEST_F(SessionThread, ComparesBesideTheOtherWork) {
   ASSERT_TRUE(threaded.finish());
   ASSERT_TRUE(threaded.submit(command::Compare{"eigen-ldlt"}));
   EXPECT_TRUE(threaded.compare().running);
-  ASSERT_TRUE(threaded.submit(command::SetSources{{"4"}}));
+  ASSERT_TRUE(threaded.submit(command::SetSources{test::sources_in({"4"})}));
   ASSERT_TRUE(threaded.finish());
   EXPECT_EQ(threaded.compare().rows.size(), 1U);
-  EXPECT_EQ(threaded.explored().sources, std::vector<std::string>{"4"});
+  EXPECT_EQ(test::texts_of(threaded.explored().sources), std::vector<std::string>{"4"});
 }
 
 TEST(WorkerThread, KeepsTheLatestOfWhatWaits) {

@@ -34,9 +34,10 @@ class CanvasMouse : public UiTest {
     for (const std::string& text : texts) EXPECT_EQ(text.rfind(begin, 0), 0U) << text;
   }
 
-  Vec3 position_in(const std::string& source) {
-    const auto point = point_in(source, (kCells + 1) * (kCells + 1), 2 * kCells * kCells);
-    EXPECT_TRUE(point) << source;
+  Vec3 position_in(const app::SourceSpec& source) {
+    const auto* const in_face = std::get_if<app::FacePoint>(&source);
+    const auto point = in_face ? surface_point(*in_face, 2 * kCells * kCells) : std::nullopt;
+    EXPECT_TRUE(point) << app::to_text(source);
     if (!point) return Vec3::Zero();
     return position_at(*session_.explored().model->model.mesh, *point);
   }
@@ -99,10 +100,7 @@ TEST_F(CanvasMouse, ClickSetsASourceExactlyThere) {
   const auto set = only<app::command::SetSources>();
   ASSERT_EQ(set.sources.size(), 1U);
   const auto point = canvas_.surface_at(at.x, at.y);
-  EXPECT_EQ(set.sources[0], point_text(*point));
-  const auto spec = app::parse_source(set.sources[0]);
-  ASSERT_TRUE(spec);
-  const auto& back = std::get<app::FacePoint>(*spec);
+  const auto& back = std::get<app::FacePoint>(set.sources[0]);
   EXPECT_EQ(back.face, point->face);
   EXPECT_EQ(back.weights, point->weights);  // every bit
 }
@@ -175,7 +173,7 @@ TEST_F(CanvasMouse, DragOfASourceMovesItAndNotTheCamera) {
   frame();
   drag(seen(0.5, 0.5), seen(0.75, 0.25));
   expect_all("source move 1 face:");
-  EXPECT_EQ(session_.state().sources[0], "0");
+  EXPECT_EQ(app::to_text(session_.state().sources[0]), "0");
   EXPECT_LT((position_in(session_.state().sources[1]) - Vec3(0.75, 0.25, 0)).norm(), 1e-3);
 }
 

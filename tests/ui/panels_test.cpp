@@ -359,7 +359,7 @@ TEST_F(ErrorPanel, GoesToTheWorstVertex) {
   ASSERT_TRUE(is_drawn("Exact error/plot"));
   click_item("Exact error/worst");
   ASSERT_TRUE(session_.state().picked);
-  const auto point = *point_in(*session_.state().picked, 1 << 20, 1 << 20);
+  const app::FacePoint& point = *session_.state().picked;
   const Index worst = session_.explored().a->error->figures.worst;
   const Face& face = session_.explored().model->model.mesh->faces()[point.face];
   const auto corner = std::ranges::max_element(point.weights) - point.weights.begin();

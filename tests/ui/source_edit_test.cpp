@@ -5,15 +5,15 @@
 
 #include <limits>
 
+#include "tests/support/source_texts.h"
+
 namespace geotherm::ui {
 namespace {
-
-using Texts = std::vector<std::string>;
 
 /// Sources 5, random:2 (on 7 and 9) and a curve over 1 and 2.
 app::Explored three_entries() {
   app::Explored explored;
-  explored.sources = {"5", "random:2", "curve:1,2"};
+  explored.sources = test::sources_in({"5", "random:2", "curve:1,2"});
   const auto place = [](int entry, Index vertex, bool alone) {
     return app::SourcePlace{entry, SurfacePoint::at_vertex(vertex), Vec3(vertex, 0, 0), alone};
   };
@@ -22,24 +22,19 @@ app::Explored three_entries() {
   return explored;
 }
 
-TEST(SourceEdit, WritesPointsThatReadBackExactly) {
+TEST(SourceEdit, MakesSourcesWhoseTextsReadBackExactly) {
   const double third = 1.0 / 3, tiny = std::numeric_limits<double>::denorm_min();
-  const auto point = SurfacePoint::in_face(12, {third, 1 - third - tiny, tiny});
-  const auto back = point_in(point_text(point), 100, 100);
+  const app::SourceSpec point =
+      source_at(SurfacePoint::in_face(12, {third, 1 - third - tiny, tiny}));
+  const auto back = app::parse_source(app::to_text(point));
   ASSERT_TRUE(back);
-  EXPECT_EQ(back->face, 12);
-  EXPECT_EQ(back->weights, point.weights);
-  EXPECT_EQ(point_text(SurfacePoint::at_vertex(7)), "7");
+  EXPECT_EQ(*back, point);
+  EXPECT_EQ(app::to_text(source_at(SurfacePoint::at_vertex(7))), "7");
 }
 
-TEST(SourceEdit, ReadsNoPointThatIsNotOnTheModel) {
-  EXPECT_TRUE(point_in("face:3:1:0:0", 10, 4));
-  EXPECT_FALSE(point_in("face:4:1:0:0", 10, 4));
-  EXPECT_TRUE(point_in("9", 10, 4));
-  EXPECT_FALSE(point_in("10", 10, 4));
-  EXPECT_FALSE(point_in("1,2", 10, 4));
-  EXPECT_FALSE(point_in("random:1", 10, 4));
-  EXPECT_FALSE(point_in("", 10, 4));
+TEST(SourceEdit, PicksNoPointThatIsNotOnTheModel) {
+  EXPECT_TRUE(surface_point({3, {1, 0, 0}}, 4));
+  EXPECT_FALSE(surface_point({4, {1, 0, 0}}, 4));
 }
 
 TEST(SourceEdit, MovesPointsButNoCurves) {
@@ -51,20 +46,21 @@ TEST(SourceEdit, MovesPointsButNoCurves) {
 
 TEST(SourceEdit, TakesApartOneEntryAndLeavesTheOthers) {
   const Apart apart = taken_apart(three_entries(), 2);
-  EXPECT_EQ(apart.sources, (Texts{"5", "7", "9", "curve:1,2"}));
+  EXPECT_EQ(apart.sources, test::sources_in({"5", "7", "9", "curve:1,2"}));
   EXPECT_EQ(apart.entry, 2);
 }
 
 TEST(SourceEdit, RemovesOnePlaceOfAnEntry) {
   const auto explored = three_entries();
   EXPECT_EQ(removal(explored, 0), app::Command(app::command::RemoveSource{0}));
-  EXPECT_EQ(removal(explored, 1), app::Command(app::command::SetSources{{"5", "9", "curve:1,2"}}));
+  EXPECT_EQ(removal(explored, 1),
+            app::Command(app::command::SetSources{test::sources_in({"5", "9", "curve:1,2"})}));
   EXPECT_EQ(removal(explored, 4), app::Command(app::command::RemoveSource{2}));
 }
 
 TEST(SourceEdit, RemovesTheLastPlaceByClearing) {
   app::Explored explored;
-  explored.sources = {"random:1"};
+  explored.sources = test::sources_in({"random:1"});
   explored.places = {{0, SurfacePoint::at_vertex(4), Vec3::Zero(), false}};
   EXPECT_EQ(removal(explored, 0), app::Command(app::command::ClearSources{}));
 }

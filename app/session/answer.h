@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/answer_check.h"
+#include "app/load_model.h"
+#include "solver/geometry/mesh_report.h"
+#include "solver/method/build_method.h"
+
+namespace geotherm::app {
+
+struct DistanceSummary {
+  double min = 0, max = 0, mean = 0;  ///< over the vertices that are reached, model units
+  Index unreached = 0;
+};
+DistanceSummary summarize(std::span<const double> distances);
+
+/// Distances from one source set, and all there is to say about them: what tables, JSON, files,
+/// panels and pictures are made from.
+struct Answer {
+  Model model;
+  MeshSummary mesh;
+  std::shared_ptr<const DistanceMethod> method;
+  MethodOptions options;  ///< of `method`
+  SourceSet sources;
+  DistanceResult result;
+  DistanceSummary distance;
+  SetupTiming setup;       ///< of the work that these settings needed, with what they took over
+  double setup_ms = 0;     ///< from the question to the method being ready
+  double peak_rss_mb = 0;  ///< of set-up and query
+  double report_ms = 0;    ///< of `mesh`, where it was timed
+  std::vector<std::string> warnings;
+  std::shared_ptr<const AccuracyReport> error = {};     ///< null: it was not to be checked
+  std::shared_ptr<const AccuracyReport> replaced = {};  ///< of the poor answer before this one
+};
+
+/// One sentence for each reason why `unreached` vertices have no distance.
+std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached);
+
+/// What the library finds wrong with a mesh is a failure of the work, not of the command line. A
+/// model without a name is not named.
+Error about_model(const std::string& name, const Error& error);
+
+/// One source with the vertices that it is nearest to: a geodesic Voronoi cell.
+struct Region {
+  Index label = 0;                    ///< the group (source_groups())
+  std::optional<SurfacePoint> point;  ///< the first of the group, where it has one
+  Index edges = 0;                    ///< of the group
+  Index vertices = 0;                 ///< that it is nearest to
+};
+
+/// One for each group, ascending.
+std::vector<Region> regions_of(const SourceSet& sources, std::span<const Index> nearest);
+
+}  // namespace geotherm::app

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// How a model's solver holds answers against better ones, and what becomes of poor ones.
+#include <algorithm>
+#include <new>
+
+#include "app/progress_bar.h"
+#include "app/session/model_solver.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Sources of many that are checked.
+constexpr std::size_t kMaxSampled = 8;
+
+CheckedAnswers answers_of(const Answer& answer) {
+  return {*answer.method, answer.options, {&answer.sources, 1}, {&answer.result.distances, 1}};
+}
+
+/// Every source set of a few, a few of many, spread over them evenly.
+std::vector<std::size_t> spread(std::size_t count) {
+  const std::size_t taken = std::min(count, kMaxSampled);
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < taken; ++i) {
+    numbers.push_back(taken == 1 ? 0 : i * (count - 1) / (taken - 1));
+  }
+  return numbers;
+}
+
+bool is_poor(const Answer& answer) { return answer.error->is_poor(); }
+bool is_poor(const CheckedMethod& checked) { return checked.error.report.is_poor(); }
+
+/// What the first method that is not poor gives, else the last one that can answer; none where
+/// there is no better method. `ask`: takes MethodOptions, what its answer is held against and a
+/// progress. Errors: those of the first one, kCancelled.
+template <class Asked, class Ask>
+Result<std::optional<Asked>> ask_better(const MethodOptions& poor, CheckMode mode, Index faces,
+                                        const Progress& progress, Ask&& ask) {
+  const std::vector<MethodKind> kinds = better_methods(poor.method, mode, faces);
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
+  std::optional<Asked> best;
+  double done = 0;
+  for (const MethodKind kind : kinds) {
+    auto next = ask(better_options(poor, kind), reference_of_better(kind, mode, faces),
+                    part_of(progress, done, done + share));
+    if (!next && (!best || next.error().code == ErrorCode::kCancelled)) return next.error();
+    if (!next) break;  // what was poor, too, is better than nothing
+    best = *std::move(next);
+    if (!is_poor(*best)) break;
+    done += share;
+  }
+  return best;
+}
+
+}  // namespace
+
+/// Better distances than those of `answers`, kept in `reference_`.
+Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers& answers,
+                                          const DistanceMethod& beside, const Progress& progress) {
+  const std::vector<SourceSet> sets(answers.sources.begin(), answers.sources.end());
+  if (use_ == Use::kSession && reference_ && reference_->answers.method == kind &&
+      reference_->sets == sets) {
+    return {};
+  }
+  reference_.reset();
+  std::shared_ptr<const DistanceMethod> kept;
+  const Stopwatch watch;
+  if (use_ == Use::kSession) {
+    auto made = make(better_options(answers.options, kind), nullptr, part_of(progress, 0.0, 0.3));
+    if (!made) return made.error();
+    kept = *std::move(made);
+  }
+  auto solved = kept ? geotherm::solve_reference(*kept, sets, part_of(progress, 0.3, 1.0))
+                     : geotherm::solve_reference(model_.mesh, kind, sets, answers.options.threads,
+                                                 &beside, progress);
+  if (!solved) return solved.error();
+  solved->milliseconds = watch.milliseconds();
+  reference_ = Reference{sets, *std::move(solved)};
+  return {};
+}
+
+/// The report on answers, without a search for a cure. Errors: kCancelled.
+Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKind kind,
+                                         CheckMode mode, const DistanceMethod& beside,
+                                         const Progress& progress) {
+  const MethodKind checked = answers.method.kind();
+  if (!is_better(kind, checked)) return unchecked(checked, mode);
+  const auto solved = solve_reference(kind, answers, beside, progress);
+  if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
+  if (!solved) return failed_check(checked, solved.error());
+  try {
+    return hold_against(answers.distances, checked, reference_->answers);
+  } catch (const std::bad_alloc&) {
+    return failed_check(checked, {ErrorCode::kOutOfMemory, "the memory ended"});
+  }
+}
+
+/// What is known of an answer is put into it and said. Errors: kNumericalFailure (OnPoor::kFail),
+/// kCancelled.
+Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
+                                 const CheckSettings& settings, const Progress& progress) {
+  if (!settings.quick) {
+    const CheckMode search = settings.against ? CheckMode::kUsual : settings.mode;
+    if (report.measured) {
+      auto found = find_cure(report, model_.mesh, answers_of(answer), reference_->answers, search,
+                             with_prefix(progress, "finding the cause: "));
+      if (!found) return found;
+    }
+    const std::string line = accuracy_line(report);
+    if (settings.on_poor == OnPoor::kFail) {
+      if (auto right = refuse_poor(report, line); !right) {
+        return about_model(model_.name, right.error());
+      }
+    }
+    auto warning = accuracy_warning(report, line);
+    if (!warning.empty()) answer.warnings.push_back(std::move(warning));
+  }
+  answer.error = std::make_shared<const AccuracyReport>(std::move(report));
+  return {};
+}
+
+Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
+                                const Progress& progress) {
+  const MethodKind kind = settings.against.value_or(
+      reference_in(settings.mode, answer.method->kind(), model_.mesh->face_count()));
+  if (settings.quick && !is_better(kind, answer.method->kind())) return {};
+  auto report =
+      hold(answers_of(answer), kind, settings.mode, *answer.method, part_of(progress, 0.0, 0.6));
+  if (!report) return report.error();
+  return settle(answer, *std::move(report), settings, part_of(progress, 0.6, 1.0));
+}
+
+/// Answers by a better method in place of a poor one. Errors: those of its solve.
+Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources,
+                                  const Wanted& wanted, const Progress& progress) {
+  const CheckMode mode = wanted.check.mode;
+  QueryOptions query = wanted.query;
+  query.fields = false;
+  const auto ask = [&](const MethodOptions& options, MethodKind against,
+                       const Progress& part) -> Result<Answer> {
+    auto next = distances(options, sources, query, part_of(part, 0.0, 0.5));
+    if (!next) return next;
+    auto report = hold(answers_of(*next), against, CheckMode::kUsual, *answer.method,
+                       part_of(part, 0.5, 1.0));
+    if (!report) return report.error();
+    next->error = std::make_shared<const AccuracyReport>(*std::move(report));
+    return next;
+  };
+  auto better = ask_better<Answer>(answer.options, mode, model_.mesh->face_count(), progress, ask);
+  if (!better) return better.error();
+  if (!*better) return {};
+  Answer& next = **better;
+  describe_mesh(next);
+  next.report_ms = answer.report_ms;
+  next.replaced = answer.error;
+  next.warnings.push_back(
+      replaced_note(answer.options, next.options, accuracy_line(*next.replaced)));
+  auto still = still_poor_warning(*next.error, next.options, accuracy_line(*next.error));
+  if (!still.empty()) next.warnings.push_back(std::move(still));
+  answer = std::move(next);
+  return {};
+}
+
+Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
+                                                std::span<const SourceSet> all,
+                                                const CheckSettings& settings,
+                                                const Progress& progress) {
+  const Progress checking = with_prefix(progress, "checking: ");
+  const Index faces = model_.mesh->face_count();
+  const std::vector<std::size_t> numbers = spread(all.size());
+  std::vector<SourceSet> sets;
+  for (const std::size_t i : numbers) sets.push_back(all[i]);
+  /// Asks `by` for the sample and holds that against the method `against`.
+  const auto checked = [&](const ReadyMethod& by, MethodKind against, bool searches,
+                           const Progress& part) -> Result<SampleCheck> {
+    if (!is_better(MethodKind::kWavefront, by.options.method) && searches) {
+      return SampleCheck{unchecked(by.options.method, settings.mode), all.size(), 0};
+    }
+    auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
+    if (!results) return about_model(model_.name, results.error());
+    std::vector<std::vector<double>> distances;
+    for (DistanceResult& result : *results) distances.push_back(std::move(result.distances));
+    const CheckedAnswers answers{*by.method, by.options, sets, distances};
+    auto report = hold(answers, against, settings.mode, *ready.method, part_of(part, 0.2, 0.5));
+    if (!report) return report.error();
+    if (searches && settings.on_poor != OnPoor::kBetter && report->measured) {
+      auto found = find_cure(*report, model_.mesh, answers, reference_->answers, settings.mode,
+                             part_of(part, 0.5, 1.0));
+      if (!found) return found.error();
+    }
+    reference_.reset();
+    const std::size_t worst = numbers[report->worst_set];
+    return SampleCheck{*std::move(report), all.size(), worst};
+  };
+  auto check = checked(ready, reference_in(settings.mode, ready.options.method, faces), true,
+                       part_of(checking, 0.0, 0.5));
+  if (!check) return check.error();
+  CheckedMethod out{ready, *std::move(check), {}, {}};
+  const std::string line = accuracy_line(out.error);
+  if (settings.on_poor == OnPoor::kFail) {
+    if (auto right = refuse_poor(out.error.report, line); !right) {
+      return about_model(model_.name, right.error());
+    }
+  }
+  if (settings.on_poor != OnPoor::kBetter || !out.error.report.is_poor()) {
+    if (auto warning = accuracy_warning(out.error.report, line); !warning.empty()) {
+      out.warnings.push_back(std::move(warning));
+    }
+    return out;
+  }
+  const auto ask = [&](const MethodOptions& options, MethodKind against,
+                       const Progress& part) -> Result<CheckedMethod> {
+    auto by = prepare(options, part_of(part, 0.0, 0.5));
+    if (!by) return by.error();
+    auto error = checked(*by, against, false, part_of(part, 0.5, 1.0));
+    if (!error) return error.error();
+    return CheckedMethod{*by, *std::move(error), {}, {}};
+  };
+  auto better = ask_better<CheckedMethod>(ready.options, settings.mode, faces,
+                                          part_of(checking, 0.5, 1.0), ask);
+  if (!better) return better.error();
+  if (*better) {
+    (*better)->replaced = std::move(out.error);
+    out = **std::move(better);
+  }
+  out.warnings.push_back(replaced_note(ready.options, out.by.options, line));
+  auto still = still_poor_warning(out.error.report, out.by.options, accuracy_line(out.error));
+  if (!still.empty()) out.warnings.push_back(std::move(still));
+  return out;
+}
+
+}  // namespace geotherm::app
