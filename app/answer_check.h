@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/progress.h"
 
 // How commands hold their distances against those of a more accurate method, and what they say and
 // do when these are wrong.

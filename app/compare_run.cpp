@@ -11,9 +11,9 @@
 #include "app/progress_bar.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/backend.h"
 #include "solver/core/stopwatch.h"
-#include "solver/linear/backend.h"
-#include "solver/method/distance_error.h"
 
 namespace geotherm::app {
 namespace {

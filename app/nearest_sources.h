@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 // Which source is the nearest: geodesic Voronoi cells.
 namespace geotherm::app {

@@ -10,8 +10,8 @@
 
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/closest_point.h"
 #include "solver/mesh/edge_path.h"
 
 namespace geotherm::app {

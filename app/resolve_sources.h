@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/source_spec.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
+#include "geotherm/sources.h"
 
 namespace geotherm::app {
 

@@ -5,8 +5,8 @@
 
 #include "app/solve_figures.h"
 #include "app/source_spec.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/result.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/mesh/triangle_mesh.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
 
 // What every solve of a model has to see to, in one command or in a session.
 namespace geotherm::app {

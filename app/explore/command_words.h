@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
 
 namespace geotherm::app {
 

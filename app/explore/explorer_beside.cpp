@@ -4,8 +4,8 @@
 #include "app/progress_bar.h"
 #include "app/solve_steps.h"
 #include "app/told.h"
+#include "geotherm/heat_method.h"
 #include "solver/core/stopwatch.h"
-#include "solver/heat/heat_method.h"
 
 namespace geotherm::app {
 

@@ -13,7 +13,7 @@
 #include "app/outputs.h"
 #include "app/report_json.h"
 #include "app/text.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 namespace geotherm::app {
 namespace {

@@ -12,11 +12,10 @@
 #include "app/solve_steps.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/io.h"
 #include "solver/core/stopwatch.h"
 #include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/npy_rows.h"
-#include "solver/mesh/write_distances.h"
 #include "solver/mesh/write_file.h"
 
 namespace geotherm::app {

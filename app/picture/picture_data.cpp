@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "geotherm/quality_fields.h"
 #include "solver/heat/heat_direction.h"
-#include "solver/quality/quality_fields.h"
 
 namespace geotherm::app {
 namespace {

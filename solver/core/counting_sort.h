@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "geotherm/types.h"
 #include "solver/core/parallel.h"
 #include "solver/core/raw_vector.h"
-#include "solver/core/types.h"
 
 namespace geotherm {
 

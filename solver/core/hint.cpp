@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/hint.h"
-
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geotherm/types.h"
 #include "solver/core/parallel.h"
-#include "solver/core/types.h"
 
 namespace geotherm {
 

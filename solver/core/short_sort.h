@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/exact/exact_method.h"
+#include "geotherm/polyhedral_methods.h"
 
 #include <new>
 #include <string>

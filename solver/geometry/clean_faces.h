@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "geotherm/mesh.h"
 #include "solver/mesh/corner_table.h"
 #include "solver/mesh/edge_table.h"
-#include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
 

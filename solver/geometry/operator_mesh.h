@@ -6,9 +6,9 @@
 #include <ranges>
 #include <vector>
 
+#include "geotherm/backend.h"
 #include "solver/core/raw_vector.h"
 #include "solver/geometry/intrinsic_mesh.h"
-#include "solver/linear/symmetric_operator.h"
 #include "solver/linear/symmetric_pattern.h"
 #include "solver/mesh/corner_table.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_options.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/options.h"
 
 namespace geotherm {
 

@@ -6,9 +6,9 @@
 #include <mutex>
 #include <vector>
 
+#include "geotherm/backend.h"
 #include "solver/core/large_buffer.h"
 #include "solver/core/parallel.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 #include "solver/geometry/per_component.h"
 #include "solver/heat/surface.h"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
-#include "solver/core/result.h"
-#include "solver/heat/heat_options.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
+#include "geotherm/error.h"
+#include "geotherm/options.h"
 
 namespace geotherm {
 

@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/heat_method.h"
 #include "solver/core/thread_crew.h"
 #include "solver/heat/block_pool.h"
 #include "solver/heat/component_times.h"
-#include "solver/heat/heat_method.h"
 #include "solver/heat/heat_step.h"
+#include "solver/linear/fallback.h"
 #include "solver/heat/poisson.h"
 
 namespace geotherm {
@@ -36,6 +37,22 @@ struct HeatMethod::State {
   SetupTiming timing;
   std::vector<Warning> warnings;
   std::vector<Fallback> failed;  ///< before the backend at work
+
+  /// Everything with one backend, `options.backend`.
+  static Trial<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                  const HeatOptions& options, std::span<const Fallback> failed,
+                                  const Progress& progress);
+
+  /// What is still missing for these options, on the surface and with the backend of `from`.
+  static Trial<HeatMethod> factorised(const State& from, const HeatOptions& options,
+                                      std::span<const Fallback> failed, const Progress& progress);
+
+  Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
+                                         const Progress& progress) const;
+
+  /// The method that answers with another backend. Waits for a thread that sets the same one up.
+  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
+                               const Progress& progress) const;
 
   /// The backend that was asked for.
   const std::string& asked() const {

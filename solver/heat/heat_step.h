@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/core/hint.h"
+#include "geotherm/error.h"
 #include "solver/heat/block_pool.h"
 #include "solver/heat/diffuse.h"
 #include "solver/heat/source_anchors.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/core/result.h"
-#include "solver/heat/heat_options.h"
+#include "geotherm/distance_method.h"
+#include "geotherm/error.h"
+#include "geotherm/options.h"
 #include "solver/heat/quality.h"
-#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

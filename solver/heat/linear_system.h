@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "geotherm/backend.h"
 #include "solver/geometry/fem_operator.h"
 #include "solver/heat/block_pool.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/heat/heat_options.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
+#include "geotherm/options.h"
 
 namespace geotherm {
 

@@ -15,6 +15,7 @@
 #include "solver/heat/near_field.h"
 #include "solver/heat/normalize.h"
 #include "solver/heat/quality.h"
+#include "solver/core/shared_progress.h"
 #include "solver/heat/unit_field.h"
 
 namespace geotherm {

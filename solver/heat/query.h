@@ -4,10 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/heat_method.h"
 #include "solver/core/thread_crew.h"
 #include "solver/heat/component_times.h"
-#include "solver/heat/heat_method.h"
 #include "solver/heat/heat_step.h"
+#include "solver/linear/fallback.h"
 #include "solver/heat/poisson.h"
 
 namespace geotherm {

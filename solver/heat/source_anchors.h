@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/sources.h"
 #include "solver/heat/surface.h"
-#include "solver/mesh/surface_point.h"
 
 namespace geotherm {
 

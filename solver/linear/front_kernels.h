@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "geotherm/backend.h"
 #include "solver/core/instruction_set.h"
-#include "solver/linear/backend.h"
 #include "solver/linear/front_tree.h"
 
 namespace geotherm {

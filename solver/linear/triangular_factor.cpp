@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "solver/core/instruction_set.h"
 #include "solver/linear/triangular_factor.h"
 
 #include <algorithm>

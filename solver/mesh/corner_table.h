@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/types.h"
 #include "solver/core/raw_vector.h"
-#include "solver/core/types.h"
 #include "solver/mesh/side.h"
 
 namespace geotherm {

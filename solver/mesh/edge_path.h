@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 #include "solver/mesh/edge_table.h"
 
 namespace geotherm {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "geotherm/types.h"
 #include "solver/core/raw_vector.h"
-#include "solver/core/types.h"
 #include "solver/mesh/corner_table.h"
 #include "solver/mesh/side.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 
 #include <algorithm>
 #include <new>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <unordered_map>
 
+#include "geotherm/sources.h"
 #include "solver/core/disjoint_sets.h"
-#include "solver/mesh/surface_point.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 #include <cmath>
 

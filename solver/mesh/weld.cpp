@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/weld.h"
+#include "geotherm/mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 #include <algorithm>
 #include <new>

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm {
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 #include <new>
 #include <string>
 #include <utility>
 
+#include "geotherm/heat_method.h"
+#include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
-#include "solver/exact/exact_method.h"
-#include "solver/heat/heat_method.h"
+#include "solver/wave/wave_surface.h"
 #include "solver/method/mapped_method.h"
-#include "solver/wave/fast_marching_method.h"
-#include "solver/wave/wavefront_method.h"
 
 namespace geotherm {
 namespace {

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geotherm/distance_method.h"
 #include "solver/geometry/intrinsic_surface.h"
-#include "solver/method/distance_result.h"
-#include "solver/method/method_kind.h"
 
 namespace geotherm {
 

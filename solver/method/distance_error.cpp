@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,6 @@ namespace {
 
 /// Distances below this share of the largest one are sources, up to round-off.
 constexpr double kAtSource = 1e-12;
-
-/// Windows need some seconds there.
-constexpr Index kMaxFacesExact = 200'000;
 
 }  // namespace
 
@@ -119,6 +116,7 @@ ErrorHistogram error_histogram(std::span<const double> signed_error, int bins) {
 }
 
 MethodKind reference_for(MethodKind kind, Index faces) {
+  constexpr Index kMaxFacesOfWindows = 200'000;  // they need some seconds there
   switch (kind) {
     case MethodKind::kExact:
       return MethodKind::kExact;
@@ -128,7 +126,7 @@ MethodKind reference_for(MethodKind kind, Index faces) {
     case MethodKind::kFastMarching:
       break;
   }
-  return faces <= kMaxFacesExact ? MethodKind::kExact : MethodKind::kWavefrontFine;
+  return faces <= kMaxFacesOfWindows ? MethodKind::kExact : MethodKind::kWavefrontFine;
 }
 
 MethodKind usual_reference(MethodKind kind, Index faces) {

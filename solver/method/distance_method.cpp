@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/distance_method.h"
+#include "geotherm/distance_method.h"
 
 #include <utility>
 

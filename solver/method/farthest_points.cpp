@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/farthest_points.h"
+#include "geotherm/many.h"
 
 #include <algorithm>
 #include <cmath>

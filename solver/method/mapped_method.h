@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "solver/method/mesh_mapping.h"
 
 namespace geotherm {

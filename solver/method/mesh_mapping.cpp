@@ -3,9 +3,9 @@
 
 #include <utility>
 
+#include "geotherm/mesh.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/subdivide.h"
 
 namespace geotherm {
 namespace {

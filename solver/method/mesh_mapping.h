@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "geotherm/distance_method.h"
 #include "solver/geometry/intrinsic_surface.h"
-#include "solver/method/distance_method.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/method_kind.h"
+#include "geotherm/distance_method.h"
 
 #include <array>
 #include <utility>

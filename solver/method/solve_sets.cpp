@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/core/shared_progress.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/distance_method.h"
 #include "solver/core/thread_crew.h"
-#include "solver/method/distance_method.h"
 
 namespace geotherm {
 

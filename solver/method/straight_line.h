@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "geotherm/mesh.h"
+#include "geotherm/sources.h"
 #include "solver/mesh/box_tree.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/write_polylines.h"
+#include "geotherm/path.h"
 
 #include <algorithm>
 #include <new>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
 
 #include <array>
 #include <charconv>

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geotherm/backend.h"
+#include "geotherm/options.h"
 #include "solver/core/number_text.h"
 #include "solver/heat/auto_laplacian.h"
-#include "solver/heat/option_text.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm {
 namespace {

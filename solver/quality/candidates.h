@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/geometry/mesh_report.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/mesh_report.h"
 
 namespace geotherm {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/diagnose.h"
+#include "geotherm/accuracy.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "solver/heat/heat_method.h"
-#include "solver/quality/accuracy.h"
+#include "geotherm/heat_method.h"
 #include "solver/quality/candidates.h"
 
 namespace geotherm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/quality_fields.h"
+#include "geotherm/quality_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <functional>
 #include <numbers>
 
+#include "geotherm/mesh_report.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/face_gradient.h"
-#include "solver/geometry/mesh_report.h"
 #include "solver/heat/heat_direction.h"
 
 namespace geotherm {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/method/distance_result.h"
-#include "solver/method/method_kind.h"
+#include "geotherm/distance_method.h"
 #include "solver/wave/wave_surface.h"
 
 namespace geotherm {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/wave/wavefront_method.h"
+#include "geotherm/polyhedral_methods.h"
 
 #include <algorithm>
 #include <mutex>

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/picture/picture_scale.h"
+#include "geotherm/heat_method.h"
 #include "solver/heat/heat_direction.h"
-#include "solver/heat/heat_method.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

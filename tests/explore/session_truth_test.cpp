@@ -10,7 +10,7 @@
 #include "app/explore/apply.h"
 #include "app/explore/explored_picture.h"
 #include "app/explore/session.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "tests/explore/session_fixture.h"
 
 namespace geotherm::app {

@@ -4,12 +4,11 @@
 #include <numeric>
 #include <utility>
 
+#include "geotherm/accuracy.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/quality_fields.h"
 #include "solver/geometry/cracks.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/mesh/weld.h"
-#include "solver/method/distance_error.h"
-#include "solver/quality/accuracy.h"
-#include "solver/quality/quality_fields.h"
 #include "tests/fuzz/fuzz_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <tuple>
 
+#include "geotherm/backend.h"
 #include "solver/heat/judge.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/surface.h"
-#include "solver/linear/added_backend.h"
 #include "tests/heat/faulty_backend.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/npy_rows.h"
+#include "geotherm/io.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "solver/wave/judge_wave.h"
 #include "tests/support/shapes.h"
 

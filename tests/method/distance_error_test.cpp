@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
 
 #include <gtest/gtest.h>
 

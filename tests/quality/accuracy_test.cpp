@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "bench/models/generate.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

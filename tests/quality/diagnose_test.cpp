@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/diagnose.h"
+#include "geotherm/accuracy.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "solver/geometry/mesh_report.h"
-#include "solver/heat/option_text.h"
-#include "solver/mesh/weld.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/options.h"
 #include "solver/quality/candidates.h"
 #include "tests/support/shapes.h"
 

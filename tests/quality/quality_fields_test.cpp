@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "solver/quality/quality_fields.h"
+#include "geotherm/quality_fields.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/mesh_report.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

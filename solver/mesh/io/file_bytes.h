@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "geotherm/error.h"
 #include "solver/core/large_buffer.h"
-#include "solver/core/result.h"
 
 namespace geotherm::io {
 

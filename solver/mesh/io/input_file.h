@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 struct stat;
 

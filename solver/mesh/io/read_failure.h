@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/core/hint.h"
+#include "geotherm/error.h"
 
 namespace geotherm::io {
 
