@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 

@@ -11,7 +11,7 @@
 
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {

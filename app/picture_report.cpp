@@ -11,7 +11,7 @@
 #include "app/text_table.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

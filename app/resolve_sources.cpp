@@ -12,7 +12,7 @@
 #include "app/told.h"
 #include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/edge_path.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm::app {
 namespace {

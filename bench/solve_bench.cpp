@@ -11,7 +11,7 @@
 #include "bench/rates.h"
 #include "geotherm/backend.h"
 #include "geotherm/heat_method.h"
-#include "solver/core/free_memory.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm::bench {

@@ -12,7 +12,7 @@
 #include "geotherm/backend.h"
 #include "geotherm/io.h"
 #include "geotherm/options.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

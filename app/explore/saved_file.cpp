@@ -8,7 +8,7 @@
 #include "app/text.h"
 #include "app/told.h"
 #include "geotherm/io.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

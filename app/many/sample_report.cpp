@@ -7,8 +7,8 @@
 #include "app/text.h"
 #include "app/text_table.h"
 #include "geotherm/heat_method.h"
-#include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "geotherm/quality_fields.h"
-#include "solver/heat/heat_direction.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/exact/propagation.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 
 namespace geotherm {
 namespace {

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "geotherm/mesh.h"
-#include "solver/mesh/corner_table.h"
-#include "solver/mesh/edge_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

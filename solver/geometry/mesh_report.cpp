@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "solver/core/disjoint_sets.h"
+#include "solver/core/sorting.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/face_shape.h"

@@ -4,8 +4,8 @@
 #include <new>
 #include <thread>
 
+#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/core/shared_progress.h"
 #include "solver/heat/heat_state.h"
 
 namespace geotherm {

@@ -7,14 +7,12 @@
 #include <optional>
 
 #include "geotherm/options.h"
-#include "solver/core/number_text.h"
+#include "solver/accuracy/check_heat.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/heat_state.h"
-#include "solver/heat/judge.h"
-#include "solver/heat/precision.h"
-#include "solver/heat/query.h"
 
 namespace geotherm {
 namespace {

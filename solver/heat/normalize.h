@@ -5,7 +5,6 @@
 
 #include "geotherm/distance_method.h"
 #include "solver/heat/diffuse.h"
-#include "solver/heat/near_field.h"
 #include "solver/heat/poisson.h"
 #include "solver/heat/source_anchors.h"
 

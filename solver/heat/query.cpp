@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/query.h"
+#include "solver/heat/heat_state.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,14 +8,12 @@
 #include <new>
 #include <optional>
 
+#include "solver/accuracy/check_heat.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
-#include "solver/heat/judge.h"
-#include "solver/heat/near_field.h"
 #include "solver/heat/normalize.h"
-#include "solver/heat/quality.h"
-#include "solver/core/shared_progress.h"
+#include "solver/heat/source_anchors.h"
 #include "solver/heat/unit_field.h"
 
 namespace geotherm {

@@ -5,7 +5,7 @@
 
 #include "geotherm/backend.h"
 #include "geotherm/error.h"
-#include "solver/core/large_buffer.h"
+#include "solver/core/memory.h"
 #include "solver/linear/front_kernels.h"
 
 namespace geotherm {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "geotherm/backend.h"
-#include "solver/core/instruction_set.h"
+#include "solver/core/processor.h"
 #include "solver/linear/front_tree.h"
 
 namespace geotherm {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "geotherm/types.h"
-#include "solver/core/instruction_set.h"
+#include "solver/core/processor.h"
 
 namespace geotherm {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/instruction_set.h"
 #include "solver/linear/triangular_factor.h"
+#include "solver/core/processor.h"
 
 #include <algorithm>
 

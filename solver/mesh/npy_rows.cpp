@@ -8,11 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "solver/core/number_text.h"
-#include "solver/mesh/growing_file.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"
-#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {

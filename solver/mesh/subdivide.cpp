@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/mesh/edge_table.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

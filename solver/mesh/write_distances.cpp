@@ -5,9 +5,9 @@
 #include <new>
 #include <utility>
 
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {

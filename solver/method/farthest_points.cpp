@@ -6,9 +6,9 @@
 #include <new>
 #include <utility>
 
-#include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/core/text.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "solver/core/shared_progress.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm {

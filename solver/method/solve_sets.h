@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geotherm/distance_method.h"
-#include "solver/core/thread_crew.h"
+#include "solver/core/threads.h"
 
 namespace geotherm {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/path/geodesic_search.h"
 #include "solver/path/shorten.h"
 #include "solver/path/trace.h"

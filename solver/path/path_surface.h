@@ -10,7 +10,7 @@
 #include "geotherm/mesh.h"
 #include "geotherm/sources.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/edge_path.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

@@ -8,8 +8,8 @@
 
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
-#include "solver/core/shared_progress.h"
 #include "geotherm/progress.h"
+#include "solver/core/parallel.h"
 
 namespace geotherm {
 

@@ -6,9 +6,9 @@
 #include <new>
 #include <queue>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 #include "solver/wave/march_supports.h"
 #include "solver/wave/segment_distance.h"
 

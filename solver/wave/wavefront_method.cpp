@@ -6,10 +6,10 @@
 #include <new>
 #include <string>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 #include "solver/wave/wave_front.h"
 
 namespace geotherm {

@@ -7,7 +7,7 @@
 
 #include "app/picture/picture_scale.h"
 #include "geotherm/heat_method.h"
-#include "solver/heat/heat_direction.h"
+#include "geotherm/quality_fields.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/judge.h"
+#include "solver/accuracy/check_heat.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "geotherm/backend.h"
-#include "solver/heat/judge.h"
+#include "solver/accuracy/check_heat.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/surface.h"
 #include "tests/heat/faulty_backend.h"

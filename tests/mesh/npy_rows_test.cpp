@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "solver/mesh/growing_file.h"
+#include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

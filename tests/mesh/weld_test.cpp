@@ -8,7 +8,7 @@
 #include <random>
 
 #include "geotherm/mesh_report.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/geometry/cracks.h"
 #include "solver/mesh/merge_close.h"
 #include "tests/support/shapes.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Answers that are wrong on purpose, and right ones.
-#include "solver/method/distance_bounds.h"
+#include "solver/accuracy/distance_bounds.h"
 
 #include <gtest/gtest.h>
 
 #include "geotherm/build_method.h"
-#include "solver/wave/judge_wave.h"
+#include "solver/accuracy/check_waves.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

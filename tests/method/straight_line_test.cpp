@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/straight_line.h"
+#include "solver/accuracy/distance_bounds.h"
 
 #include <gtest/gtest.h>
 

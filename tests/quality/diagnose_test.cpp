@@ -8,7 +8,7 @@
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
 #include "geotherm/options.h"
-#include "solver/quality/candidates.h"
+#include "solver/accuracy/candidates.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

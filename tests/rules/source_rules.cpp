@@ -50,8 +50,9 @@ const std::vector<Permission>& permissions() {
   const Names method =
       with(geometry, {"solver/method", "geotherm/distance_method.h", "geotherm/many.h"});
   const Names path = with(method, {"solver/path", "geotherm/path.h", "geotherm/isolines.h"});
-  const Names wave = with(method, {"solver/wave", "solver/accuracy/distance_bounds.h",
-                                   "geotherm/polyhedral_methods.h"});
+  const Names wave =
+      with(method, {"solver/wave", "solver/accuracy/distance_bounds.h",
+                    "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
   const Names exact = with(wave, {"solver/exact"});
   const Names heat = with(
       wave, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h", "geotherm/options.h"});

@@ -41,7 +41,12 @@ DataField described(QualityField field);
 DataField quality_field(QualityField field, const TriangleMesh& mesh, const DistanceResult& answer,
                         std::span<const double> error = {});
 
-/// The values of each alone. `distances`: V; `log_heat`: V, ln u.
+/// X = -grad u / |grad u| on every face of the mesh (F), from ln u at its vertices (V; -inf: u is
+/// 0). 0 where u is 0 at all corners or has no slope, and on faces without area. Cost: O(F).
+/// Source: Crane, Weischedel, Wardetzky (2013), section 3.1.
+std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const double> log_heat);
+
+/// The values of each field alone. `distances`: V; `log_heat`: V, ln u.
 std::vector<double> eikonal_errors(const TriangleMesh& mesh, std::span<const double> distances);
 std::vector<double> lost_gradients(const TriangleMesh& mesh, std::span<const double> distances,
                                    std::span<const double> log_heat);
