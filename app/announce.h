@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 // What long work says before and while it runs: how much it will write, need and take.
 namespace geotherm::app {

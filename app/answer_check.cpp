@@ -24,16 +24,16 @@ std::string not_asked(MethodKind kind, CheckMode mode) {
   return to_text(kind) + " is near exact; --check measures how near";
 }
 
-CureSearch search_of(CheckMode mode) {
+RemedySearch search_of(CheckMode mode) {
   switch (mode) {
     case CheckMode::kThorough:
-      return CureSearch::kWhereNotGood;
+      return RemedySearch::kWhereNotGood;
     case CheckMode::kUsual:
-      return CureSearch::kWherePoor;
+      return RemedySearch::kWherePoor;
     case CheckMode::kNone:
       break;
   }
-  return CureSearch::kNever;
+  return RemedySearch::kNever;
 }
 
 }  // namespace
@@ -59,10 +59,10 @@ AccuracyReport failed_check(MethodKind method, const Error& error) {
   return report;
 }
 
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CheckMode mode, const Progress& progress) try {
-  return geotherm::find_cure(report, mesh, answers, better, search_of(mode), progress);
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         CheckMode mode, const Progress& progress) try {
+  return geotherm::find_remedy(report, mesh, answers, better, search_of(mode), progress);
 } catch (const std::bad_alloc&) {
   return {};  // the figures stand without it
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/progress.h"
 
 // How commands hold their distances against those of a more accurate method, and what they say and
 // do when these are wrong.
@@ -48,9 +48,9 @@ AccuracyReport unchecked(MethodKind method, CheckMode mode);
 AccuracyReport failed_check(MethodKind method, const Error& error);
 
 /// Looks for a cure as far as the mode asks for one. Errors: kCancelled.
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CheckMode mode, const Progress& progress);
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         CheckMode mode, const Progress& progress);
 
 /// The methods that answer instead of `poor`, the next where one is poor as well: wavefront,
 /// wavefront-fine and, where these are held against it, exact.

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
 
 namespace geotherm::app {
 

@@ -14,7 +14,7 @@
 #include "app/solver_names.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::app {
 namespace {

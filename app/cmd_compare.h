@@ -6,7 +6,7 @@
 
 #include "app/command_output.h"
 #include "app/options.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -8,8 +8,8 @@
 #include "app/outputs.h"
 #include "app/text.h"
 #include "bench/models/generate.h"
+#include "geotherm/io.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {
 namespace {

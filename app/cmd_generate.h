@@ -5,8 +5,8 @@
 
 #include "app/cli_app.h"
 #include "app/command_output.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

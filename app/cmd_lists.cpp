@@ -8,7 +8,7 @@
 #include "app/report_json.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/cli_app.h"
 #include "app/command_output.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

@@ -16,7 +16,7 @@
 #include "app/text.h"
 #include "app/told.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -9,7 +9,7 @@
 #include "app/drawing.h"
 #include "app/options.h"
 #include "app/picture/picture_options.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -14,9 +14,9 @@
 #include "app/session/model_solver.h"
 #include "app/solve_fields.h"
 #include "app/text.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/io.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/write_distances.h"
 
 namespace geotherm::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/text.h"
 #include "app/told.h"
 #include "app/view_picture.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 #include "app/options.h"
 #include "app/picture/picture_options.h"
 #include "app/viewer_window.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -6,7 +6,7 @@
 
 #include "app/drawing.h"
 #include "app/viewer_window.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

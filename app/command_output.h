@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

@@ -12,9 +12,9 @@
 #include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/backend.h"
 #include "solver/core/stopwatch.h"
-#include "solver/linear/backend.h"
-#include "solver/method/distance_error.h"
 
 namespace geotherm::app {
 namespace {

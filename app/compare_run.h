@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/load_model.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/sources.h"
 
 namespace geotherm::app {
 

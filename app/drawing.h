@@ -8,8 +8,8 @@
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_settings.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -10,9 +10,9 @@
 #include "app/progress_bar.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/io.h"
+#include "geotherm/mesh.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/read_mesh.h"
-#include "solver/mesh/weld.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/model_reading.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -15,7 +15,7 @@
 #include "app/command_line.h"
 #include "app/main_drawing/make_drawing.h"
 #include "app/main_window/make_window.h"
-#include "solver/mesh/unfinished_files.h"
+#include "solver/mesh/output_file.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/markup.h"
 
-#include "solver/core/printable.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 

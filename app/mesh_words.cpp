@@ -2,8 +2,8 @@
 #include "app/mesh_words.h"
 
 #include "app/text.h"
-#include "solver/core/number_text.h"
-#include "solver/heat/auto_laplacian.h"
+#include "geotherm/heat_method.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/mesh_report.h"
+#include "geotherm/options.h"
 #include "solver/geometry/cracks.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/heat/heat_options.h"
 
 namespace geotherm::app {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/text.h"
-#include "solver/heat/option_text.h"
+#include "geotherm/options.h"
 
 namespace geotherm::app {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "solver/heat/heat_method.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/heat_method.h"
 
 namespace geotherm::app {
 

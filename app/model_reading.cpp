@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/text.h"
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 
 namespace geotherm::app {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // How a model is read, beside its name.
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 #include "app/outputs.h"
 #include "app/settings_options.h"
 #include "app/source_spec.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

@@ -11,8 +11,8 @@
 
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/write_file.h"
+#include "solver/core/text.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {

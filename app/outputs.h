@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

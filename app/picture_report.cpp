@@ -9,9 +9,9 @@
 #include "app/picture/turntable.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/core/number_text.h"
-#include "solver/heat/heat_method.h"
-#include "solver/heat/option_text.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/options.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "app/announce.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -12,9 +12,9 @@
 #include "app/session/answer.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/options.h"
 #include "solver/core/parallel.h"
-#include "solver/heat/heat_method.h"
-#include "solver/heat/option_text.h"
 
 namespace geotherm::app {
 namespace {
@@ -274,7 +274,7 @@ Json error_json(const AccuracyReport& report) {
                {"mean_relative", figure(e.mean_relative)},
                {"max_of_range", figure(e.max_of_range)},
                {"verdict", told(report)},
-               {"cure", report.cure ? tried_json(*report.cure) : Json(nullptr)},
+               {"cure", report.remedy ? tried_json(*report.remedy) : Json(nullptr)},
                {"grade", report.measured ? Json(to_text(report.grade)) : Json(nullptr)},
                {"max", figure(e.max)},
                {"mean_signed", figure(e.mean_signed)},

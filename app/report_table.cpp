@@ -7,9 +7,9 @@
 #include "app/resolve_sources.h"
 #include "app/text.h"
 #include "app/text_table.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/options.h"
 #include "solver/core/parallel.h"
-#include "solver/heat/heat_method.h"
-#include "solver/heat/option_text.h"
 
 namespace geotherm::app {
 namespace {

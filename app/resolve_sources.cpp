@@ -10,9 +10,9 @@
 
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/closest_point.h"
-#include "solver/mesh/edge_path.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/source_spec.h"
-#include "solver/heat/heat_options.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
+#include "geotherm/options.h"
+#include "geotherm/sources.h"
 
 namespace geotherm::app {
 

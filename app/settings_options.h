@@ -8,7 +8,7 @@
 
 #include "app/cli_app.h"
 #include "app/explore/settings.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // The table of settings on the command line.
 namespace geotherm::app {

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "solver/core/printable.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 namespace geotherm::app {
 namespace {

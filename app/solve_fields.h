@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/session/answer.h"
-#include "solver/core/result.h"
-#include "solver/quality/quality_fields.h"
+#include "geotherm/error.h"
+#include "geotherm/quality_fields.h"
 
 // The fields that `solve --fields` writes beside the distances.
 namespace geotherm::app {

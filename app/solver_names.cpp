@@ -6,7 +6,7 @@
 #include "app/method_words.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 namespace geotherm::app {
 

@@ -5,7 +5,7 @@
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/mesh/io/file_bytes.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {

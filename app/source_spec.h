@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
 
 namespace geotherm::app {
 

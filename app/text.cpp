@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "solver/core/printable.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // What a person is told of what the library says: settings are options of the command line.
 namespace geotherm {

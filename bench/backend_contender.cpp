@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "bench/contender.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 namespace geotherm::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/core/result.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::bench {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::bench {
 

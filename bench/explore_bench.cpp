@@ -10,8 +10,8 @@
 #include "app/explore/session.h"
 #include "app/main_window/scene_screen.h"
 #include "bench/bench_mesh.h"
+#include "geotherm/io.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/write_distances.h"
 
 namespace geotherm::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/core/instruction_set.h"
+#include "solver/core/processor.h"
 
 namespace geotherm::bench {
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "geotherm/io.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/read_mesh.h"
 
 namespace geotherm::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/measure.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::bench {
 

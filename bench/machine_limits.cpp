@@ -11,7 +11,7 @@
 #include <numeric>
 
 #include "bench/limit_kernels.h"
-#include "solver/core/free_memory.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/linear/blas_threads.h"

@@ -15,10 +15,10 @@
 #include "bench/machine_limits.h"
 #include "bench/report.h"
 #include "bench/solve_bench.h"
-#include "solver/core/keep_freed_memory.h"
+#include "geotherm/backend.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
-#include "solver/linear/backend.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/plain_cholmod.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::bench {
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "geotherm/backend.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/fem_operator.h"
 #include "solver/heat/surface.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm::bench {
 namespace {

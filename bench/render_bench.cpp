@@ -10,8 +10,8 @@
 #include "bench/bench_mesh.h"
 #include "engine/offscreen_target.h"
 #include "engine/renderer.h"
+#include "geotherm/heat_method.h"
 #include "solver/core/stopwatch.h"
-#include "solver/heat/heat_method.h"
 
 namespace geotherm::bench {
 namespace {

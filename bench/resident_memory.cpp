@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "solver/core/keep_freed_memory.h"
+#include "solver/core/memory.h"
 
 namespace geotherm::bench {
 namespace {

@@ -9,10 +9,10 @@
 #include "bench/bench_mesh.h"
 #include "bench/estimates.h"
 #include "bench/rates.h"
-#include "solver/core/free_memory.h"
+#include "geotherm/backend.h"
+#include "geotherm/heat_method.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
-#include "solver/heat/heat_method.h"
-#include "solver/linear/backend.h"
 
 namespace geotherm::bench {
 namespace {

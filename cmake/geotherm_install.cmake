@@ -11,7 +11,7 @@ install(TARGETS geotherm_solver EXPORT geothermTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
-  FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/geotherm")
+  FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(EXPORT geothermTargets NAMESPACE geotherm:: DESTINATION "${package_dir}")
 
 configure_package_config_file(cmake/geothermConfig.cmake.in

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::engine {
 

@@ -10,7 +10,7 @@
 #include "engine/scene/colour_map.h"
 #include "engine/scene/scene.h"
 #include "engine/target.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::engine {
 

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::engine {
 

@@ -11,7 +11,7 @@
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::app {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "app/explore/viewer_state.h"
 #include "app/source_spec.h"
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
 
 // All that can be done to the program: mouse, keys, panels, scripts, the command line and tests
 // make the same values. The text form of each stands behind it; docs/commands.md explains them.

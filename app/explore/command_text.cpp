@@ -2,7 +2,7 @@
 #include "app/explore/command.h"
 #include "app/explore/command_words.h"
 #include "app/text.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

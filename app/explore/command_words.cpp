@@ -7,8 +7,7 @@
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/core/number_text.h"
-#include "solver/core/printable.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/source_spec.h"
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
 
 namespace geotherm::app {
 

@@ -9,7 +9,7 @@
 #include "app/explore/explored.h"
 #include "app/resolve_sources.h"
 #include "app/session/model_solver.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

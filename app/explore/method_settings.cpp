@@ -9,10 +9,10 @@
 #include "app/picture/picture_values.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/core/number_text.h"
-#include "solver/heat/option_text.h"
-#include "solver/linear/backend.h"
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/backend.h"
+#include "geotherm/io.h"
+#include "geotherm/options.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

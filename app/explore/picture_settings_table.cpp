@@ -7,7 +7,7 @@
 #include "app/picture/picture_text.h"
 #include "app/picture/picture_values.h"
 #include "app/text.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

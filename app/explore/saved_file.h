@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/explore/command.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // What commands may write. Scripts come from others: none may reach a file that is not its own.
 namespace geotherm::app {

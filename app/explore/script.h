@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/explore/command.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

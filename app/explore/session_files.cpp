@@ -13,7 +13,7 @@
 #include "app/report_json.h"
 #include "app/session/model_solver.h"
 #include "app/text.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 namespace geotherm::app {
 namespace {

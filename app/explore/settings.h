@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/explore/viewer_state.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // The one table of settings. An entry makes the command-line option, its line of help, the command
 // of scripts and its completion, the row of the panel, and the JSON.

@@ -9,7 +9,7 @@
 #include "app/model_reading.h"
 #include "app/picture/picture_settings.h"
 #include "app/source_spec.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 namespace geotherm::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -9,7 +9,7 @@
 #include "app/session/model_solver.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/path/isolines.h"
+#include "geotherm/isolines.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/picture/picture_options.h"
 #include "app/text.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "app/lines/line_picture.h"
 #include "app/outputs.h"
 #include "app/settings_options.h"
-#include "solver/core/progress.h"
-#include "solver/path/write_polylines.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

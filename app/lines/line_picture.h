@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/picture/picture_settings.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/path/write_polylines.h"
+#include "geotherm/error.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
 
 // Lines on a surface as a vector picture, seen as `render` sees the model.
 namespace geotherm::app {

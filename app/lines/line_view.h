@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "app/picture/picture_settings.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::app {
 

@@ -7,8 +7,8 @@
 
 #include "app/load_model.h"
 #include "app/report_json.h"
-#include "solver/method/build_method.h"
-#include "solver/path/find_path.h"
+#include "geotherm/build_method.h"
+#include "geotherm/path.h"
 
 namespace geotherm::app {
 

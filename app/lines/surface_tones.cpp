@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "solver/path/isolines.h"
+#include "geotherm/isolines.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/lines/line_view.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 #include "solver/mesh/ray_tree.h"
 
 namespace geotherm::app {

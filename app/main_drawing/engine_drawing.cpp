@@ -12,7 +12,7 @@
 #include "engine/device.h"
 #include "engine/picture.h"
 #include "engine/renderer.h"
-#include "solver/core/free_memory.h"
+#include "solver/core/memory.h"
 
 namespace geotherm::app {
 namespace {

@@ -12,12 +12,11 @@
 #include "app/session/answer.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "geotherm/io.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/npy_rows.h"
-#include "solver/mesh/write_distances.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {

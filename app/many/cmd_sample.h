@@ -8,7 +8,7 @@
 #include "app/check_options.h"
 #include "app/command_output.h"
 #include "app/options.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -8,7 +8,7 @@
 #include "app/outputs.h"
 #include "app/text.h"
 #include "app/told.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -11,12 +11,11 @@
 #include "app/text.h"
 #include "app/text_table.h"
 #include "app/told.h"
-#include "solver/core/free_memory.h"
-#include "solver/core/keep_freed_memory.h"
+#include "geotherm/heat_method.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/heat/heat_method.h"
-#include "solver/mesh/growing_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {

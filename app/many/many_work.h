@@ -16,9 +16,9 @@
 #include "app/report_json.h"
 #include "app/resolve_sources.h"
 #include "app/session/model_solver.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/mesh/npy_rows.h"
-#include "solver/method/stream_answers.h"
+#include "geotherm/io.h"
+#include "geotherm/many.h"
+#include "geotherm/mesh_report.h"
 
 // What `solve --each` and `solve --pairs` have in common: many source sets, answers that come in a
 // stream.

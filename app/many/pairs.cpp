@@ -9,10 +9,9 @@
 #include "app/outputs.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/core/free_memory.h"
-#include "solver/core/number_text.h"
-#include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/write_file.h"
+#include "solver/core/memory.h"
+#include "solver/core/text.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {

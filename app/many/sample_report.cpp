@@ -6,9 +6,9 @@
 
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/core/number_text.h"
+#include "geotherm/heat_method.h"
 #include "solver/core/parallel.h"
-#include "solver/heat/heat_method.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "app/load_model.h"
 #include "app/report_json.h"
-#include "solver/method/build_method.h"
-#include "solver/method/farthest_points.h"
+#include "geotherm/build_method.h"
+#include "geotherm/many.h"
 
 namespace geotherm::app {
 

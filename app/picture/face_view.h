@@ -5,7 +5,7 @@
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_settings.h"
-#include "solver/quality/quality_fields.h"
+#include "geotherm/quality_fields.h"
 
 // Views that paint every face in a colour of its own.
 namespace geotherm::app {

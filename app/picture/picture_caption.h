@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "solver/method/distance_method.h"
+#include "geotherm/distance_method.h"
 
 namespace geotherm::app {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "solver/heat/heat_direction.h"
-#include "solver/quality/quality_fields.h"
+#include "geotherm/quality_fields.h"
+#include "solver/geometry/face_gradient.h"
 
 namespace geotherm::app {
 namespace {

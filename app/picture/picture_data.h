@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "app/picture/picture_settings.h"
-#include "solver/core/types.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
-#include "solver/method/distance_result.h"
-#include "solver/path/surface_path.h"
+#include "geotherm/distance_method.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/path.h"
+#include "geotherm/sources.h"
+#include "geotherm/types.h"
 
 namespace geotherm::app {
 

@@ -8,7 +8,7 @@
 #include "app/cli_app.h"
 #include "app/picture/picture_settings.h"
 #include "app/settings_options.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "app/text.h"
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

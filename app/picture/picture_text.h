@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/picture/picture_settings.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::app {
 

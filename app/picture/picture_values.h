@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 // Values of a picture's options from their texts, the same on the command line and in scripts.
 // Errors: kBadInput, with the text and what is expected.

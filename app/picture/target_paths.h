@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/picture/picture_data.h"
-#include "solver/method/build_method.h"
-#include "solver/path/find_path.h"
+#include "geotherm/build_method.h"
+#include "geotherm/path.h"
 
 // Paths from a point to the nearest source, for pictures and the viewer.
 namespace geotherm::app {

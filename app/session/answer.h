@@ -9,8 +9,8 @@
 
 #include "app/answer_check.h"
 #include "app/load_model.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/mesh_report.h"
 
 namespace geotherm::app {
 

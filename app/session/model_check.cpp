@@ -102,8 +102,8 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
   if (!settings.quick) {
     const CheckMode search = settings.against ? CheckMode::kUsual : settings.mode;
     if (report.measured) {
-      auto found = find_cure(report, model_.mesh, answers_of(answer), reference_->answers, search,
-                             with_prefix(progress, "finding the cause: "));
+      auto found = find_remedy(report, model_.mesh, answers_of(answer), reference_->answers, search,
+                               with_prefix(progress, "finding the cause: "));
       if (!found) return found;
     }
     const std::string line = accuracy_line(report);
@@ -184,8 +184,8 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     auto report = hold(answers, against, settings.mode, *ready.method, part_of(part, 0.2, 0.5));
     if (!report) return report.error();
     if (searches && settings.on_poor != OnPoor::kBetter && report->measured) {
-      auto found = find_cure(*report, model_.mesh, answers, reference_->answers, settings.mode,
-                             part_of(part, 0.5, 1.0));
+      auto found = find_remedy(*report, model_.mesh, answers, reference_->answers, settings.mode,
+                               part_of(part, 0.5, 1.0));
       if (!found) return found.error();
     }
     reference_.reset();

@@ -13,7 +13,7 @@
 #include "app/picture/target_paths.h"
 #include "app/resolve_sources.h"
 #include "app/session/answer.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -9,7 +9,7 @@
 #include "app/session/answer.h"
 #include "app/study/study_report.h"
 #include "app/text.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {

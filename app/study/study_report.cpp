@@ -7,7 +7,7 @@
 #include "app/answer_check.h"
 #include "app/text.h"
 #include "app/text_table.h"
-#include "solver/heat/option_text.h"
+#include "geotherm/options.h"
 
 namespace geotherm::app {
 namespace {

@@ -7,8 +7,8 @@
 #include "app/progress_bar.h"
 #include "app/session/model_solver.h"
 #include "app/told.h"
-#include "solver/heat/heat_method.h"
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/heat_method.h"
 
 namespace geotherm::app {
 namespace {

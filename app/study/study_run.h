@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/load_model.h"
-#include "solver/core/progress.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::app {
 

@@ -7,7 +7,7 @@
 #include "app/study/log_plot.h"
 #include "app/study/study_report.h"
 #include "app/text.h"
-#include "solver/heat/option_text.h"
+#include "geotherm/options.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::generate {
 

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
 
 namespace geotherm {
 

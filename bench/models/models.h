@@ -2,8 +2,8 @@
 #pragma once
 
 #include "bench/models/draft_mesh.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::generate {
 

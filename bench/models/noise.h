@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::generate {
 

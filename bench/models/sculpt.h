@@ -5,8 +5,8 @@
 
 #include "bench/models/draft_mesh.h"
 #include "bench/models/sculpture.h"
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::generate {
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::generate {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/models/sculpture.h"
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 
 namespace geotherm::generate {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "engine/vulkan/vulkan.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::engine {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/target.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::engine {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "solver/exact/exact_method.h"
+#include "geotherm/polyhedral_methods.h"
 
 #include <new>
 #include <string>
 #include <utility>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/exact/propagation.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 
 namespace geotherm {
 namespace {
@@ -60,7 +60,7 @@ Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality) judge_wave(MethodKind::kExact, *surface, sources, *seeds, result);
+  if (query.quality) assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
   for (double& distance : result.distances) distance *= surface->base.mean_edge;
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);

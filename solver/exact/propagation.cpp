@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/exact/late_part.h"
 #include "solver/wave/segment_distance.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 #include "solver/exact/trim_window.h"
 #include "solver/exact/window_mesh.h"
 #include "solver/exact/window_queue.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 #include "solver/exact/window.h"
 
 namespace geotherm {

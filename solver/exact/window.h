@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "solver/mesh/edge_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

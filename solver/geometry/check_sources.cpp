@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {

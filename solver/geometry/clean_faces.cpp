@@ -7,7 +7,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/orient_by_shape.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

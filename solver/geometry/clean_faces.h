@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "solver/mesh/corner_table.h"
-#include "solver/mesh/edge_table.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

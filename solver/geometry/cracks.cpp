@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/intrinsic_mesh.h"
-#include "solver/mesh/repeats_corner.h"
-#include "solver/mesh/weld.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm {
 

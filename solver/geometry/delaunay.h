@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
+#include "geotherm/types.h"
 #include "solver/geometry/edit.h"
 #include "solver/geometry/intrinsic_mesh.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/face_components.h"
 
-#include "solver/core/disjoint_sets.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 

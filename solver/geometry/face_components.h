@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

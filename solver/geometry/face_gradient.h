@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/types.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

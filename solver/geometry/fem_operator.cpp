@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "solver/core/flush_denormals.h"
 #include "solver/core/parallel.h"
+#include "solver/core/processor.h"
 
 namespace geotherm {
 namespace {

@@ -5,10 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "geotherm/backend.h"
 #include "solver/geometry/operator_mesh.h"
 #include "solver/geometry/per_component.h"
-#include "solver/linear/backend.h"
-#include "solver/linear/symmetric_operator.h"
 
 namespace geotherm {
 

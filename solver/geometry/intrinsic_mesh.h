@@ -8,7 +8,7 @@
 
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/mollify.h"
-#include "solver/mesh/edge_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

@@ -4,22 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/progress.h"
 #include "solver/geometry/edit.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
-
-/// How much refine_triangulation() had to do, and did.
-struct RefinementCounts {
-  Index large_faces = 0;    ///< faces that were too large for the diffusion
-  Index obtuse_border = 0;  ///< border edges opposite an obtuse angle
-  Index points = 0;         ///< inserted vertices, numbered from the mesh's vertex count on
-  Index border_splits = 0;  ///< those of them that split a border edge
-  bool complete = true;     ///< false: the limit on inserted vertices was reached
-};
 
 /// What refine_triangulation() did.
 struct Refinement : RefinementCounts {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 #include "solver/geometry/face_components.h"
 #include "solver/geometry/tufted_cover.h"
 

@@ -4,14 +4,14 @@
 #include <memory>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
+#include "geotherm/sources.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/intrinsic_refinement.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm {
 

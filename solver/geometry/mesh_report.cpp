@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "solver/geometry/mesh_report.h"
+#include "geotherm/mesh_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "solver/core/disjoint_sets.h"
+#include "solver/core/sorting.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/face_shape.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 
-#include "solver/core/disjoint_sets.h"
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
 #include "solver/geometry/face_shape.h"
 #include "solver/geometry/intrinsic_mesh.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "geotherm/mesh_report.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/geometry/mesh_report.h"
 
 namespace geotherm {
 

@@ -4,17 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "geotherm/mesh_report.h"
 #include "solver/geometry/clean_faces.h"
 
 namespace geotherm {
-
-/// What mollify() did; all 0 where no face needed it.
-struct Mollification {
-  double most = 0;       ///< the largest length added to an edge
-  Index faces = 0;       ///< faces that were degenerate or nearly so
-  Index edges = 0;       ///< edges that were lengthened
-  Index components = 0;  ///< components (through shared vertices) that hold one of them
-};
 
 /// Lengthens edges until every triangle inequality is strict by 1e-5 of the face's longest side
 /// (the condition of Sharp, Crane 2020, section 4.5, where one length is added to all edges). Here

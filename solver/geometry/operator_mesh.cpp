@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "solver/core/counting_sort.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
-#include "solver/core/raw_vector.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {

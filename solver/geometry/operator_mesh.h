@@ -6,11 +6,11 @@
 #include <ranges>
 #include <vector>
 
-#include "solver/core/raw_vector.h"
+#include "geotherm/backend.h"
+#include "solver/core/memory.h"
 #include "solver/geometry/intrinsic_mesh.h"
-#include "solver/linear/symmetric_operator.h"
 #include "solver/linear/symmetric_pattern.h"
-#include "solver/mesh/corner_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

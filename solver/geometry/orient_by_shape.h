@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/mesh/edge_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

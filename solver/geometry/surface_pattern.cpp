@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "solver/core/parallel.h"
-#include "solver/core/row_lists.h"
-#include "solver/core/short_sort.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 

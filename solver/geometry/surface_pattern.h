@@ -5,7 +5,7 @@
 
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/linear/symmetric_pattern.h"
-#include "solver/mesh/corner_table.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/sources.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/face_components.h"
 #include "solver/geometry/intrinsic_mesh.h"
-#include "solver/mesh/surface_point.h"
 
 namespace geotherm {
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/heat/block_pool.h"
 #include "solver/heat/linear_system.h"
 
 namespace geotherm {

@@ -5,9 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "solver/core/free_memory.h"
-#include "solver/core/number_text.h"
-#include "solver/heat/precision.h"
+#include "solver/core/memory.h"
+#include "solver/core/text.h"
 
 namespace geotherm {
 namespace {

@@ -4,11 +4,25 @@
 #include <optional>
 #include <string_view>
 
-#include "solver/core/result.h"
-#include "solver/heat/heat_options.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
+#include "geotherm/error.h"
+#include "geotherm/options.h"
 
 namespace geotherm {
+
+/// How the factor of the heat step is kept: the heat falls by hundreds of decades.
+inline FactorStorage heat_storage(Precision precision) {
+  return precision == Precision::kFull ? FactorStorage::kFull : FactorStorage::kWideExponent;
+}
+
+/// How that of the Poisson step is kept: distances are within a few decades of each other.
+inline FactorStorage poisson_storage(Precision precision) {
+  return precision == Precision::kFull ? FactorStorage::kFull : FactorStorage::kSingle;
+}
+
+inline bool same_factors(Precision a, Precision b) {
+  return heat_storage(a) == heat_storage(b) && poisson_storage(a) == poisson_storage(b);
+}
 
 /// The factors that a method needs.
 struct FactorPlan {

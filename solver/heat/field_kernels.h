@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/core/instruction_set.h"
+#include "solver/core/processor.h"
 #include "solver/geometry/operator_mesh.h"
 
 namespace geotherm {

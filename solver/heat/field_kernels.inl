@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "solver/core/prefetch.h"
+#include "solver/core/processor.h"
 #include "solver/heat/field_kernels.h"
 
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {

@@ -4,6 +4,7 @@
 #include <new>
 #include <thread>
 
+#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_state.h"
 
@@ -30,7 +31,7 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   auto method = first_that_works<HeatMethod>(
       asked, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
-        return set_up(mesh, with_backend(options, backend), before, watched);
+        return State::set_up(mesh, with_backend(options, backend), before, watched);
       });
   shared.rethrow();
   if (!method) return method;
@@ -60,8 +61,8 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
       at_work, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
         const HeatOptions tried = with_backend(options, backend);
-        return backend == at_work ? factorised(tried, before, watched)
-                                  : set_up(state_->surface->mesh, tried, before, watched);
+        return backend == at_work ? State::factorised(*state_, tried, before, watched)
+                                  : State::set_up(state_->surface->mesh, tried, before, watched);
       });
   shared.rethrow();
   return method;
@@ -70,22 +71,20 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
                              backend_name(options));
 }
 
-/// Waits for a thread that sets the same one up.
-Trial<HeatMethod> HeatMethod::substitute(const std::string& backend,
-                                         std::span<const Fallback> failed,
-                                         const Progress& progress) const {
+Trial<HeatMethod> HeatMethod::State::substitute(const std::string& name,
+                                                std::span<const Fallback> failed,
+                                                const Progress& progress) const {
   constexpr std::chrono::milliseconds kBetweenLooks(2);
-  std::unique_lock lock(state_->substitutes->mutex, std::defer_lock);
+  std::unique_lock lock(substitutes->mutex, std::defer_lock);
   while (!lock.try_lock()) {
     if (!report(progress, "analyze", 0.0)) return {cancelled_error()};
     std::this_thread::sleep_for(kBetweenLooks);
   }
-  auto& methods = state_->substitutes->methods;
-  if (const auto known = methods.find(backend); known != methods.end()) return known->second;
-  Trial<HeatMethod> made =
-      set_up(state_->surface->mesh, with_backend(state_->options, backend), failed, progress);
+  auto& methods = substitutes->methods;
+  if (const auto known = methods.find(name); known != methods.end()) return known->second;
+  Trial<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), failed, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
-  if (!cancelled) methods.emplace(backend, made);
+  if (!cancelled) methods.emplace(name, made);
   return made;
 }
 
@@ -102,11 +101,11 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
       at_work, state_->options.strict, failed,
       [&](const std::string& tried, std::span<const Fallback> before) -> Trial<Results> {
         backend = tried;
-        if (tried == at_work) return ask(sets, query, watched);
+        if (tried == at_work) return state_->ask(sets, query, watched);
         constexpr double kSetUpShare = 0.5;
-        const auto other = substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
+        const auto other = state_->substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
         if (!other.outcome) return {other.outcome.error(), other.successor};
-        return other.outcome->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
+        return other.outcome->state_->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
       });
   shared.rethrow();
   if (!results) return results;

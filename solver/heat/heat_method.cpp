@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <optional>
 
-#include "solver/core/number_text.h"
+#include "geotherm/options.h"
+#include "solver/accuracy/check_heat.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/heat_state.h"
-#include "solver/heat/judge.h"
-#include "solver/heat/option_text.h"
-#include "solver/heat/precision.h"
-#include "solver/heat/query.h"
 
 namespace geotherm {
 namespace {
@@ -69,10 +67,10 @@ Error out_of_memory_error(const std::string& stage, Index faces, const std::stri
           backend};
 }
 
-/// Everything with one backend, `options.backend`.
-Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
-                                     const HeatOptions& options, std::span<const Fallback> failed,
-                                     const Progress& progress) try {
+Trial<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                            const HeatOptions& options,
+                                            std::span<const Fallback> failed,
+                                            const Progress& progress) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
   auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
@@ -81,7 +79,7 @@ Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& 
   auto state = std::make_shared<State>();
   state->backend = *backend;
   state->surface = std::move(*surface);
-  auto made = HeatMethod(state).factorised(options, failed, part_of(progress, kSurfaceShare, 1.0));
+  auto made = factorised(*state, options, failed, part_of(progress, kSurfaceShare, 1.0));
   if (!made.outcome) return made;
   auto timed = std::make_shared<State>(*made.outcome->state_);
   timed->timing.operators = timed->surface->timing.operators;
@@ -94,13 +92,12 @@ Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& 
           Successor::kFactorless};
 }
 
-/// What is still missing for these options, on this surface and with this backend.
-Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
-                                         std::span<const Fallback> failed,
-                                         const Progress& progress) const try {
+Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
+                                                std::span<const Fallback> failed,
+                                                const Progress& progress) try {
   if (!report(progress, "factorize", 0.0)) return {cancelled_error()};
   Stopwatch watch;
-  auto next = std::make_shared<State>(*state_);
+  auto next = std::make_shared<State>(from);
   next->options = options;
   next->failed.assign(failed.begin(), failed.end());
   next->substitutes = std::make_shared<State::Substitutes>();
@@ -111,12 +108,12 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   const int threads = setup_threads(options, *next->surface->mesh);
   const bool iterative = next->backend->iterative();
 
-  if (state_->poisson) next->poisson = state_->poisson->with(options.constraint, options.precision);
-  const bool same_heat = state_->heat && state_->times == next->times &&
-                         state_->options.variant == options.variant &&
-                         same_factors(state_->options.precision, options.precision);
+  if (from.poisson) next->poisson = from.poisson->with(options.constraint, options.precision);
+  const bool same_heat = from.heat && from.times == next->times &&
+                         from.options.variant == options.variant &&
+                         same_factors(from.options.precision, options.precision);
   const FactorPlan plan = plan_factors(
-      options.boundary, same_heat ? std::optional(state_->options.boundary) : std::nullopt,
+      options.boundary, same_heat ? std::optional(from.options.boundary) : std::nullopt,
       next->poisson != nullptr, threads);
   if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend,
                                             options.precision, plan, options.memory_limit_mb);
@@ -131,7 +128,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
       [&] {
         auto built = HeatStep::build(next->surface, next->times.t, options.boundary,
                                      consistent_share(options.variant, next->times.relative),
-                                     iterative, options.precision, state_->heat.get(), of_heat,
+                                     iterative, options.precision, from.heat.get(), of_heat,
                                      part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {
           next->heat = std::move(*built);
@@ -152,7 +149,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
       });
   if (!heat_done) {
     const Error error =
-        with_time_cure(heat_done.error(), next->times.extreme, options.time_step.rule);
+        with_time_hint(heat_done.error(), next->times.extreme, options.time_step.rule);
     return {error, is_extreme_time(next->times.extreme) && error.code != ErrorCode::kOutOfMemory
                        ? Successor::kNone
                        : successor_of(error)};
@@ -186,22 +183,19 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   if (!report(progress, "factorize", 1.0)) return {cancelled_error()};
   return {HeatMethod(std::move(next))};
 } catch (const std::bad_alloc&) {
-  return {
-      out_of_memory_error("factorisation", state_->surface->mesh->face_count(), options.backend),
-      Successor::kFactorless};
+  return {out_of_memory_error("factorisation", from.surface->mesh->face_count(), options.backend),
+          Successor::kFactorless};
 }
 
-Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> sets,
-                                                   const QueryOptions& query,
-                                                   const Progress& progress) const try {
-  const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
-                               state_->times,    *state_->pool, *state_->helpers};
+Trial<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const SourceSet> sets,
+                                                          const QueryOptions& query,
+                                                          const Progress& progress) const try {
+  const QueryPipeline pipeline{*surface, *heat, *poisson, options, times, *pool, *helpers};
   return run_queries(pipeline, sets, query, progress);
 } catch (const std::bad_alloc&) {
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
-  return {
-      out_of_memory_error(queries, state_->surface->mesh->face_count(), state_->options.backend),
-      Successor::kFactorless};
+  return {out_of_memory_error(queries, surface->mesh->face_count(), options.backend),
+          Successor::kFactorless};
 }
 
 const HeatOptions& HeatMethod::options() const { return state_->options; }

@@ -4,17 +4,40 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "solver/core/thread_crew.h"
-#include "solver/heat/block_pool.h"
-#include "solver/heat/component_times.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
+#include "solver/core/threads.h"
 #include "solver/heat/heat_step.h"
+#include "solver/heat/linear_system.h"
 #include "solver/heat/poisson.h"
+#include "solver/linear/fallback.h"
 
 namespace geotherm {
+
+/// What a query needs of a HeatMethod.
+struct QueryPipeline {
+  const Surface& surface;
+  const HeatStep& heat;
+  const PoissonSolver& poisson;
+  const HeatOptions& options;
+  const DiffusionTimes& times;
+  BlockPool& pool;
+  HelperPool& helpers;
+};
+
+/// Solves every source set, in blocks of up to sixteen that threads share out: a block streams each
+/// factor once. Where there are fewer blocks than threads, the steps of each share theirs. No more
+/// threads work than there is work for, few faces have one. The cut
+/// into blocks does not depend on the number of threads, nor do the results.
+/// `progress` is called by one thread at a time, with shares that do not fall.
+/// A query that makes a factor of its own is held against the memory limit before; threads that
+/// would have one more each are fewer then. Throws std::bad_alloc.
+Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                               std::span<const SourceSet> sets,
+                                               const QueryOptions& query, const Progress& progress);
 
 /// What a HeatMethod is made of: for its own two files, heat_method.cpp and heat_fallback.cpp.
 struct HeatMethod::State {
@@ -36,6 +59,22 @@ struct HeatMethod::State {
   SetupTiming timing;
   std::vector<Warning> warnings;
   std::vector<Fallback> failed;  ///< before the backend at work
+
+  /// Everything with one backend, `options.backend`.
+  static Trial<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                  const HeatOptions& options, std::span<const Fallback> failed,
+                                  const Progress& progress);
+
+  /// What is still missing for these options, on the surface and with the backend of `from`.
+  static Trial<HeatMethod> factorised(const State& from, const HeatOptions& options,
+                                      std::span<const Fallback> failed, const Progress& progress);
+
+  Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
+                                         const Progress& progress) const;
+
+  /// The method that answers with another backend. Waits for a thread that sets the same one up.
+  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
+                               const Progress& progress) const;
 
   /// The backend that was asked for.
   const std::string& asked() const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/near_field.h"
+#include "solver/heat/source_anchors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "solver/core/large_buffer.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 
 namespace geotherm {

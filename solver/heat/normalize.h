@@ -3,11 +3,10 @@
 
 #include <vector>
 
+#include "geotherm/distance_method.h"
 #include "solver/heat/diffuse.h"
-#include "solver/heat/near_field.h"
 #include "solver/heat/poisson.h"
 #include "solver/heat/source_anchors.h"
-#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

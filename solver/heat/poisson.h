@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "solver/heat/block_pool.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/source_anchors.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/query.h"
+#include "solver/heat/heat_state.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,13 +8,12 @@
 #include <new>
 #include <optional>
 
+#include "solver/accuracy/check_heat.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
-#include "solver/heat/judge.h"
-#include "solver/heat/near_field.h"
 #include "solver/heat/normalize.h"
-#include "solver/heat/quality.h"
+#include "solver/heat/source_anchors.h"
 #include "solver/heat/unit_field.h"
 
 namespace geotherm {
@@ -154,7 +153,7 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
   const auto with_cure = [&](Error error) {
-    return with_time_cure(std::move(error), extreme_time(p.times, anchors),
+    return with_time_hint(std::move(error), extreme_time(p.times, anchors),
                           p.options.time_step.rule);
   };
   if (!heat) return with_cure(heat.error());
@@ -199,7 +198,7 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
                                              SteepSides(tolerance), field, phi, column, anchors[c],
                                              held_at_zero(p), work.threads, result.quality);
       check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
-      const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
+      const auto judged = assess_heat(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
     if (query.fields) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/geometry/edit.h"
 
 namespace geotherm {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/sources.h"
 #include "solver/heat/surface.h"
-#include "solver/mesh/surface_point.h"
 
 namespace geotherm {
 
@@ -46,5 +46,21 @@ Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sou
 /// proportion to u and to the range of phi, while distances, and the slope of u between the
 /// sources, are the smaller the more sources there are.
 bool has_many(std::span<const SourceAnchors> sets);
+
+/// A vertex beside a source, where the near-exact distance stands in for some of heat's.
+struct NearVertex {
+  Index row;
+  double distance;  ///< near-exact, in units of the intrinsic mesh
+  double share;     ///< of heat's distance in the answer: 0 beside the source, below 1
+};
+
+/// What is known around the sources without heat: a wave (docs/numerics.md, "Wavefront") walks over
+/// the faces nearest to them. Its distances count alone up to half as far as it is sure of them, at
+/// most half of eight times the length that the triangulation resolves, and fade into heat's from
+/// there on. Errors: kOutOfMemory.
+/// Cost: that of two waves over some hundreds of faces; for many sources, over those at the sources
+/// or a tenth of all.
+Result<std::vector<NearVertex>> find_near_field(const Surface& surface,
+                                                const SourceAnchors& anchors);
 
 }  // namespace geotherm

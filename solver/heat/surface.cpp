@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 #include "solver/geometry/surface_pattern.h"
 
 namespace geotherm {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/backend.h"
+#include "geotherm/distance_method.h"
+#include "geotherm/error.h"
+#include "geotherm/options.h"
 #include "solver/geometry/intrinsic_surface.h"
 #include "solver/geometry/operator_mesh.h"
-#include "solver/heat/heat_options.h"
-#include "solver/linear/backend.h"
-#include "solver/method/distance_result.h"
 
 namespace geotherm {
 

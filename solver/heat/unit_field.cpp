@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "solver/core/processor.h"
 #include "solver/heat/field_kernels.h"
 
 namespace geotherm {

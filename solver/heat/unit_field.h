@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "solver/heat/block_pool.h"
 #include "solver/heat/diffuse.h"
+#include "solver/heat/linear_system.h"
 #include "solver/heat/source_anchors.h"
 
 namespace geotherm {

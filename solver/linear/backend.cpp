@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 #include <algorithm>
 

@@ -4,8 +4,7 @@
 #include <mutex>
 #include <utility>
 
-#include "solver/linear/added_backend.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "solver/linear/backends.h"
 
 namespace geotherm {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <string>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/linear/backends.h"
 
 namespace geotherm {

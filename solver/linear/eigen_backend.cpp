@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/linear/backends.h"
 #include "solver/linear/column_factor.h"
 #include "solver/linear/counted_factor.h"

@@ -7,15 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm {
-
-/// A backend that could not do the work that was asked of it.
-struct Fallback {
-  std::string backend;
-  Error error;  ///< as it came
-};
 
 /// Which backend may do what another one could not.
 enum class Successor {

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "solver/core/large_buffer.h"
-#include "solver/core/result.h"
+#include "geotherm/backend.h"
+#include "geotherm/error.h"
+#include "solver/core/memory.h"
 #include "solver/linear/front_kernels.h"
-#include "solver/linear/symmetric_operator.h"
 
 namespace geotherm {
 

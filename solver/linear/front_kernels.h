@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "solver/core/instruction_set.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
+#include "solver/core/processor.h"
 #include "solver/linear/front_tree.h"
 
 namespace geotherm {

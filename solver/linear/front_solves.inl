@@ -3,7 +3,7 @@
 // including file sets GEOTHERM_KERNEL_NAMESPACE and its compiler flags. Both read the front's
 // numbers as one stream, forward upwards and backward downwards.
 #include <cstring>
-#include "solver/core/prefetch.h"
+#include "solver/core/processor.h"
 #include "solver/linear/front_kernels.h"
 #include "solver/linear/stored_number.h"
 

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <vector>
 
-#include "solver/core/flush_denormals.h"
 #include "solver/core/parallel.h"
+#include "solver/core/processor.h"
 #include "solver/linear/front_tree.h"
 
 namespace geotherm {

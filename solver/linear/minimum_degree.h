@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

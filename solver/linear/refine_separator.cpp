@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "solver/core/find_bytes.h"
+#include "solver/core/sorting.h"
 #include "solver/linear/separator.h"
 
 namespace geotherm {

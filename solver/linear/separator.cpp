@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "solver/core/find_bytes.h"
 #include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
 #include "solver/linear/plane_cuts.h"
 
 namespace geotherm {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/core/instruction_set.h"
-#include "solver/core/types.h"
+#include "geotherm/types.h"
+#include "solver/core/processor.h"
 
 namespace geotherm {
 

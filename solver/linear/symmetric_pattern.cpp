@@ -3,10 +3,8 @@
 
 #include <algorithm>
 
-#include "solver/core/disjoint_sets.h"
 #include "solver/core/parallel.h"
-#include "solver/core/row_lists.h"
-#include "solver/core/short_sort.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {

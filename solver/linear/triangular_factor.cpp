@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "solver/linear/triangular_factor.h"
+#include "solver/core/processor.h"
 
 #include <algorithm>
 

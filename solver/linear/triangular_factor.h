@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "solver/linear/elimination_tree.h"
 
 namespace geotherm {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/core/types.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
+#include "geotherm/types.h"
 
 namespace geotherm {
 

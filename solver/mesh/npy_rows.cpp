@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/npy_rows.h"
+#include "geotherm/io.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"
-#include "solver/mesh/io/file_extension.h"
 #include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {
@@ -52,39 +52,52 @@ std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType ty
   return header_of(rows, columns, type).size() + rows * columns * size_of(type);
 }
 
+struct NpyRows::State {
+  GrowingFile file;
+  std::string path;
+  std::uint64_t missing;  ///< rows
+  NpyType type;
+  std::string bytes{};  ///< of a row
+};
+
+NpyRows::NpyRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+NpyRows::NpyRows(NpyRows&&) noexcept = default;
+NpyRows& NpyRows::operator=(NpyRows&&) noexcept = default;
+NpyRows::~NpyRows() = default;
+
 Result<NpyRows> NpyRows::open(const std::string& path, std::uint64_t rows, std::uint64_t columns,
                               NpyType type) {
   auto file = GrowingFile::open(path);
   if (!file) return file.error();
-  NpyRows array(*std::move(file), path, rows, type);
-  if (auto written = array.file_.append(header_of(rows, columns, type)); !written) {
+  if (auto written = file->append(header_of(rows, columns, type)); !written) {
     return written.error();
   }
-  return array;
+  return NpyRows(std::make_unique<State>(State{*std::move(file), path, rows, type}));
 }
 
 Result<void> NpyRows::append(std::span<const double> row) {
-  assert(missing_ > 0);
-  bytes_.clear();
-  bytes_.reserve(row.size() * size_of(type_));
-  if (type_ == NpyType::kFloat64) {
-    for (const double value : row) io::append_little(bytes_, value);
+  auto& [file, path, missing, type, bytes] = *state_;
+  assert(missing > 0);
+  bytes.clear();
+  bytes.reserve(row.size() * size_of(type));
+  if (type == NpyType::kFloat64) {
+    for (const double value : row) io::append_little(bytes, value);
   } else {
     if (!fits_float(row)) {
       return Error{
           ErrorCode::kBadInput,
-          io::printable(path_) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
+          io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
           {"write float64"}};
     }
-    for (const double value : row) io::append_little(bytes_, static_cast<float>(value));
+    for (const double value : row) io::append_little(bytes, static_cast<float>(value));
   }
-  --missing_;
-  return file_.append(bytes_);
+  --missing;
+  return file.append(bytes);
 }
 
 Result<void> NpyRows::finish() {
-  assert(missing_ == 0);
-  return file_.finish();
+  assert(state_->missing == 0);
+  return state_->file.finish();
 }
 
 }  // namespace geotherm

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "solver/mesh/box_tree.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

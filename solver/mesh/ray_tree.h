@@ -4,10 +4,10 @@
 #include <memory>
 #include <optional>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
+#include "geotherm/sources.h"
 
 namespace geotherm {
 

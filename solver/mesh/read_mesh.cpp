@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 
 #include <algorithm>
 #include <new>
@@ -7,13 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "solver/core/number_text.h"
-#include "solver/mesh/io/file_bytes.h"
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
-#include "solver/mesh/io/read_failure.h"
-#include "solver/mesh/io/readers.h"
-#include "solver/mesh/io/stream_bytes.h"
+#include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/subdivide.h"
+#include "geotherm/mesh.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/mesh/edge_table.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

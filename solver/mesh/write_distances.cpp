@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 #include <algorithm>
 #include <new>
 #include <utility>
 
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {

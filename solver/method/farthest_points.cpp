@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/farthest_points.h"
+#include "geotherm/many.h"
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <utility>
 
-#include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/repeats_corner.h"
+#include "solver/core/text.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {

@@ -4,7 +4,120 @@
 #include <new>
 #include <utility>
 
+#include "geotherm/mesh.h"
+#include "solver/core/stopwatch.h"
+#include "solver/geometry/clean_faces.h"
+
 namespace geotherm {
+namespace {
+
+/// Numbers out of range stay, for whoever checks them.
+Index standing_for(const TriangleMesh& mesh, Index v) {
+  return v >= 0 && v < mesh.vertex_count() ? mesh.standing_for(v) : v;
+}
+
+SourceSet with_standing(const TriangleMesh& mesh, SourceSet sources) {
+  if (mesh.same_as().empty()) return sources;
+  for (SurfacePoint& point : sources.points) {
+    if (point.is_vertex()) point.vertex = standing_for(mesh, point.vertex);
+  }
+  for (auto& edge : sources.edges) {
+    for (Index& end : edge) end = standing_for(mesh, end);
+  }
+  return sources;
+}
+
+template <class Value>
+void keep_own_vertices(const TriangleMesh& mesh, std::vector<Value>& values) {
+  if (values.empty()) return;
+  values.resize(static_cast<std::size_t>(mesh.vertex_count()));
+  const auto same_as = mesh.same_as();
+  for (std::size_t v = 0; v < same_as.size(); ++v) {
+    values[v] = values[static_cast<std::size_t>(same_as[v])];
+  }
+}
+
+}  // namespace
+
+Result<MeshMapping> MeshMapping::build(std::shared_ptr<const TriangleMesh> mesh, int refine) {
+  const Stopwatch watch;
+  MeshMapping out;
+  out.mesh_ = out.inner_ = std::move(mesh);
+  if (refine == 0) return out;
+  // Faces that are left out anyway are left out at once: they would be counted in small parts.
+  CleanFaces clean = clean_faces(*out.mesh_);
+  if (clean.faces.empty()) return out;  // no method can be built, and each says why
+  const auto positions = out.mesh_->positions();
+  const auto usable = TriangleMesh::build({positions.begin(), positions.end()}, clean.faces);
+  if (!usable) return usable.error();
+  auto refined = subdivide(*usable, refine);
+  if (!refined) return refined.error();
+  out.inner_ = std::make_shared<const TriangleMesh>(*std::move(refined));
+  out.refine_ = refine;
+  out.warnings_ = cleaning_notes(clean);
+  out.surface_.mesh = out.mesh_;
+  out.surface_.mean_edge = mean_edge_length(positions, clean.edges);
+  keep_clean_faces(std::move(clean), out.surface_);
+  out.milliseconds_ = watch.milliseconds();
+  return out;
+}
+
+Result<SourceSet> MeshMapping::inner_sources(const SourceSet& sources) const {
+  SourceSet set = with_standing(*mesh_, sources);
+  if (refine_ == 0) return set;
+  if (auto valid = check_sources(surface_, set); !valid) return valid.error();
+  for (SurfacePoint& point : set.points) {
+    point = subdivided_point(clean_point(surface_, point), refine_);
+  }
+  std::vector<std::array<Index, 2>> edges;
+  for (const auto& edge : set.edges) add_edge(edge, edges);
+  set.edges = std::move(edges);
+  return set;
+}
+
+void MeshMapping::add_edge(const std::array<Index, 2>& edge,
+                           std::vector<std::array<Index, 2>>& edges) const {
+  if (edge[0] == edge[1]) {
+    edges.push_back(edge);
+    return;
+  }
+  const Index number = find_clean_edge(surface_, edge[0], edge[1]);
+  const Side side = surface_.clean_edges.sides(number).front();
+  const auto line = subdivided_side(inner_->faces(), face_of(side), corner_of(side), refine_);
+  for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({line[i - 1], line[i]});
+}
+
+/// The first group of the sources in each of their groups on the inner mesh. More of them touch
+/// there: vertices are one, and points very near a vertex are that. Cutting edges changes none.
+std::vector<Index> MeshMapping::outer_groups(const SourceSet& sources) const {
+  SourceSet set = with_standing(*mesh_, sources);
+  if (refine_ > 0) {
+    for (SurfacePoint& point : set.points) point = clean_point(surface_, point);
+  }
+  const SourceGroups outer = source_groups(sources), inner = source_groups(set);
+  std::vector<Index> first(static_cast<std::size_t>(inner.count), kNoIndex);
+  const auto note = [&first](const std::vector<Index>& in, const std::vector<Index>& out) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      if (first[in[i]] == kNoIndex) first[in[i]] = out[i];
+    }
+  };
+  note(inner.of_point, outer.of_point);
+  note(inner.of_edge, outer.of_edge);
+  return first;
+}
+
+void MeshMapping::take_back(const SourceSet& sources, DistanceResult& result) const {
+  if (!result.nearest_source.empty()) {
+    const std::vector<Index> outer = outer_groups(sources);
+    for (Index& group : result.nearest_source) {
+      if (group != kNoIndex) group = outer[group];
+    }
+  }
+  keep_own_vertices(*mesh_, result.distances);
+  keep_own_vertices(*mesh_, result.nearest_source);
+  keep_own_vertices(*mesh_, result.heat);
+  keep_own_vertices(*mesh_, result.log_heat);
+}
 
 MappedMethod::MappedMethod(std::shared_ptr<const MeshMapping> mapping,
                            std::shared_ptr<const DistanceMethod> inner)

@@ -4,10 +4,44 @@
 #include <memory>
 #include <vector>
 
-#include "solver/method/build_method.h"
-#include "solver/method/mesh_mapping.h"
+#include "geotherm/distance_method.h"
+#include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {
+
+/// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
+/// vertices that are one (TriangleMesh::same_as()). Immutable.
+class MeshMapping {
+ public:
+  /// `refine`: how often faces are cut; at 0 the mesh is solved on as it is, and only vertices that
+  /// are one count. Errors: those of subdivide(). Cost: that, and O(F).
+  static Result<MeshMapping> build(std::shared_ptr<const TriangleMesh> mesh, int refine);
+
+  const TriangleMesh& mesh() const { return *mesh_; }
+  const std::shared_ptr<const TriangleMesh>& inner() const { return inner_; }  ///< solved on
+  int refine() const { return refine_; }
+  double milliseconds() const { return milliseconds_; }
+  const std::vector<Warning>& warnings() const { return warnings_; }
+
+  /// The same sources on the inner mesh. Errors: those of check_sources(), with the numbers of the
+  /// outer mesh.
+  Result<SourceSet> inner_sources(const SourceSet& sources) const;
+
+  /// Values of the inner mesh's vertices become those of the outer mesh's, and groups those of the
+  /// outer sources; of such as touch on the inner mesh alone, the first stands for all.
+  void take_back(const SourceSet& sources, DistanceResult& result) const;
+
+ private:
+  MeshMapping() = default;
+  std::vector<Index> outer_groups(const SourceSet& sources) const;
+  void add_edge(const std::array<Index, 2>& edge, std::vector<std::array<Index, 2>>& edges) const;
+
+  std::shared_ptr<const TriangleMesh> mesh_, inner_;
+  int refine_ = 0;
+  IntrinsicSurface surface_;  ///< of the outer mesh, without lengths; only where it is refined
+  double milliseconds_ = 0;
+  std::vector<Warning> warnings_;
+};
 
 /// Distances on a mesh from a method on another one: the same surface cut finer, or the same mesh
 /// with vertices that are one. Sources and answers are those of the outer mesh; the quality

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/thread_crew.h"
-#include "solver/method/distance_method.h"
+#include "geotherm/distance_method.h"
+#include "solver/core/threads.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/stream_answers.h"
+#include "geotherm/many.h"
 
 #include <algorithm>
 #include <atomic>

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "geotherm/path.h"
 #include "solver/path/geodesic_ends.h"
 #include "solver/path/path_surface.h"
-#include "solver/path/surface_path.h"
 
 namespace geotherm {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/find_path.h"
+#include "geotherm/path.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/path/geodesic_search.h"
 #include "solver/path/shorten.h"
 #include "solver/path/trace.h"

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "solver/mesh/surface_point.h"
+#include "geotherm/sources.h"
 
 namespace geotherm {
 

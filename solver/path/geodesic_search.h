@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
 #include "solver/path/geodesic_ends.h"
 #include "solver/path/path_surface.h"
-#include "solver/path/surface_path.h"
 
 namespace geotherm {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 
 namespace geotherm {
 namespace {

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/sources.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/mesh/edge_path.h"
-#include "solver/mesh/surface_point.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 

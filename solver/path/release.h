@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
 #include "solver/path/leg.h"
-#include "solver/path/surface_path.h"
 
 namespace geotherm {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
 #include "solver/path/path_surface.h"
-#include "solver/path/surface_path.h"
 
 namespace geotherm {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/surface_path.h"
+#include "geotherm/path.h"
 
 #include <algorithm>
 

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "solver/core/progress.h"
-#include "solver/core/result.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
+#include "solver/core/parallel.h"
 
 namespace geotherm {
 

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/write_polylines.h"
+#include "geotherm/path.h"
 
 #include <algorithm>
 #include <new>
 #include <utility>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"
-#include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm {
 namespace {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "solver/wave/fast_marching_method.h"
+#include "geotherm/polyhedral_methods.h"
 
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <queue>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 #include "solver/wave/march_supports.h"
 #include "solver/wave/segment_distance.h"
 
@@ -116,7 +116,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
   for (double& distance : result.distances) distance += march.base;
   if (query.nearest) result.nearest_source = std::move(march.label);
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(MethodKind::kFastMarching, surface, sources, *seeds, result);
+  if (query.quality) assess_waves(MethodKind::kFastMarching, surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface.base.mean_edge;
   result.timing.query += watch.lap();

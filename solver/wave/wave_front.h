@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
 #include "solver/wave/bucket_ring.h"
 #include "solver/wave/wave_tables.h"
 

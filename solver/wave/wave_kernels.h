@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/core/instruction_set.h"
+#include "solver/core/processor.h"
 #include "solver/wave/wave_tables.h"
 
 namespace geotherm {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geotherm/polyhedral_methods.h"
 #include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {
@@ -33,11 +34,7 @@ struct WaveSurface {
   Index face_count() const { return base.intrinsic.face_count(); }
 };
 
-/// Errors: those of build_intrinsic_surface(), kOutOfMemory. Cost: O(F + flips).
-Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
-
-/// The same on a triangulation that is there. Precondition: it is Delaunay. What is to be held
+/// build_wave_surface() on a triangulation that is there. Precondition: it is Delaunay. What is to be held
 /// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors:
 /// kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(

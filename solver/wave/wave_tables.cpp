@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "solver/core/counting_sort.h"
+#include "solver/core/memory.h"
 #include "solver/core/parallel.h"
-#include "solver/core/raw_vector.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/core/raw_vector.h"
+#include "solver/core/memory.h"
 #include "solver/wave/wave_surface.h"
 
 namespace geotherm {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "solver/wave/wavefront_method.h"
+#include "geotherm/polyhedral_methods.h"
 
 #include <algorithm>
 #include <mutex>
 #include <new>
 #include <string>
 
+#include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
-#include "solver/wave/judge_wave.h"
 #include "solver/wave/wave_front.h"
 
 namespace geotherm {
@@ -88,7 +88,7 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                  {"use ", SettingHint{"method", {"exact", "heat"}}}};
   }
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
+  if (query.quality) assess_waves(kind(), *surface, sources, *seeds, result);
   watch.lap();
   const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
   result.distances.resize(own);

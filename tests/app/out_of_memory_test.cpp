@@ -10,7 +10,7 @@
 
 #include "app/compare_run.h"
 #include "bench/models/generate.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 
 namespace geotherm::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <functional>
 
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "solver/mesh/write_distances.h"
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/io.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"

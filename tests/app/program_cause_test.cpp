@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "bench/models/generate.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/shapes.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {

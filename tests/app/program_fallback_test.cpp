@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "solver/core/printable.h"
+#include "solver/core/text.h"
 #include "tests/app/program.h"
 
 namespace geotherm::test {

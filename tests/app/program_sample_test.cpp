@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/linear/backend.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/backend.h"
+#include "geotherm/io.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/shapes.h"

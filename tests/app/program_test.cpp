@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "app/bundled_models.h"
-#include "solver/linear/backend.h"
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/backend.h"
+#include "geotherm/io.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {

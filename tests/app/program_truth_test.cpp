@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "app/study/study_run.h"
-#include "solver/linear/backend.h"
-#include "solver/method/method_kind.h"
+#include "geotherm/backend.h"
+#include "geotherm/distance_method.h"
 #include "tests/app/program_fixture.h"
 
 namespace geotherm::test {

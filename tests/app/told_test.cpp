@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/quality/accuracy.h"
+#include "geotherm/accuracy.h"
 
 namespace geotherm::app {
 namespace {

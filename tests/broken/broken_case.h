@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/mesh/surface_point.h"
+#include "geotherm/sources.h"
 #include "tests/support/broken_mesh.h"
 #include "tests/support/dice.h"
 

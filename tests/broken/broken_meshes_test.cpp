@@ -9,8 +9,8 @@
 #include <cmath>
 #include <map>
 
-#include "solver/linear/backend.h"
-#include "solver/method/build_method.h"
+#include "geotherm/backend.h"
+#include "geotherm/build_method.h"
 #include "tests/broken/broken_case.h"
 #include "tests/broken/way_lengths.h"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/broken/broken_case.h"
 #include "tests/support/broken_mesh.h"
 #include "tests/support/dice.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/mesh/surface_point.h"
+#include "geotherm/sources.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -21,6 +21,13 @@ foreach(file ${files})
   endforeach()
 endforeach()
 
+# The front door is narrow: what is in it is promised to users.
+file(GLOB_RECURSE headers "${prefix}/include/*")
+list(LENGTH headers count)
+if(count EQUAL 0 OR count GREATER 20)
+  message(FATAL_ERROR "${count} headers are installed; 1 to 20 are meant to be")
+endif()
+
 run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK_DIR}/build"
     -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_PREFIX_PATH=${prefix}"
     -DCMAKE_BUILD_TYPE=Release)

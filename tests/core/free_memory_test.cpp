@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/free_memory.h"
+#include "solver/core/memory.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/helper_threads.h"
+#include "solver/core/threads.h"
 
 #include <gtest/gtest.h>
 #include <pthread.h>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/hint.h"
+#include "geotherm/error.h"
 
 #include <gtest/gtest.h>
-
-#include "solver/core/result.h"
 
 namespace geotherm::test {
 namespace {

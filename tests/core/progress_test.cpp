@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/progress.h"
+#include "geotherm/progress.h"
+#include "solver/core/parallel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "solver/core/counting_sort.h"
-#include "solver/core/find_bytes.h"
-#include "solver/core/row_lists.h"
-#include "solver/core/short_sort.h"
+#include "solver/core/sorting.h"
 
 namespace geotherm::test {
 namespace {

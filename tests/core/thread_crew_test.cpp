@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/core/thread_crew.h"
+#include "solver/core/threads.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include "bench/models/generate.h"
 #include "engine/scene/region_colours.h"
+#include "geotherm/heat_method.h"
 #include "solver/geometry/face_gradient.h"
-#include "solver/heat/heat_method.h"
 #include "tests/engine/stage.h"
 
 namespace geotherm::test {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/device.h"
-#include "solver/core/result.h"
+#include "geotherm/error.h"
 
 namespace geotherm::test {
 

@@ -4,7 +4,7 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "engine/scene/colour_map.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::test {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/exact/exact_method.h"
+#include "geotherm/polyhedral_methods.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

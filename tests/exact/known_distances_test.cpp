@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "tests/exact/exact_fixture.h"
 #include "tests/support/compare.h"
 #include "tests/support/exact_distances.h"

@@ -10,7 +10,7 @@
 
 #include "app/explore/session.h"
 #include "bench/models/generate.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 namespace geotherm::app {
 

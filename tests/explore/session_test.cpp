@@ -11,7 +11,7 @@
 
 #include "app/explore/apply.h"
 #include "app/explore/explored_picture.h"
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 #include "tests/explore/session_fixture.h"
 #include "tests/support/source_texts.h"
 

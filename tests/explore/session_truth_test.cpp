@@ -10,7 +10,7 @@
 #include "app/explore/apply.h"
 #include "app/explore/explored_picture.h"
 #include "app/explore/session.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "tests/explore/session_fixture.h"
 
 namespace geotherm::app {
@@ -84,7 +84,7 @@ TEST_F(SessionTruth, APoorAnswerNamesASettingThatIsRight) {
   run({"open " + small_model(), "source set 5", "time-factor 3000"});
   const auto& error = session.explored().a->error;
   ASSERT_TRUE(error && error->is_poor());
-  EXPECT_TRUE(error->cure) << error->verdict;
+  EXPECT_TRUE(error->remedy) << error->verdict;
 }
 
 TEST_F(SessionTruth, TheErrorBelongsToTheSources) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::test {
 namespace {

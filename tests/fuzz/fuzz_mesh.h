@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "solver/mesh/surface_point.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/sources.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace geotherm::test {

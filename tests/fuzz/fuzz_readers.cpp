@@ -4,10 +4,9 @@
 #include <new>
 #include <stdexcept>
 
-#include "solver/mesh/io/file_bytes.h"
-#include "solver/mesh/io/read_failure.h"
-#include "solver/mesh/io/readers.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
+#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/raw_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace geotherm::test {

@@ -4,12 +4,11 @@
 #include <numeric>
 #include <utility>
 
+#include "geotherm/accuracy.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/quality_fields.h"
 #include "solver/geometry/cracks.h"
-#include "solver/geometry/mesh_report.h"
-#include "solver/mesh/weld.h"
-#include "solver/method/distance_error.h"
-#include "solver/quality/accuracy.h"
-#include "solver/quality/quality_fields.h"
 #include "tests/fuzz/fuzz_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"
 
@@ -123,10 +122,10 @@ std::string accuracy_fault(const FuzzCase& given, const std::vector<double>& hea
   if (!method) return message_fault(sentence(method.error()));
   const CheckedAnswers answers{**method, given.options, {&given.sources, 1}, {&heat, 1}};
   const auto report =
-      check_accuracy(given.mesh, answers, {.search = CureSearch::kWhereNotGood, .threads = 1});
+      check_accuracy(given.mesh, answers, {.search = RemedySearch::kWhereNotGood, .threads = 1});
   if (!report) return message_fault(sentence(report.error()));
   if (const std::string fault = message_fault(sentence(*report)); !fault.empty()) return fault;
-  if (report->cure && !(report->cure->mean_relative <= kGoodError))
+  if (report->remedy && !(report->remedy->mean_relative <= kGoodError))
     return "a cure that is not good";
   if (!report->cause) return "";
   const ErrorCause& cause = *report->cause;

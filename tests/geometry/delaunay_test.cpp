@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "solver/mesh/surface_point.h"
+#include "geotherm/sources.h"
 #include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/operators.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/geometry/mesh_report.h"
+#include "geotherm/mesh_report.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <random>
 #include <ranges>
 
+#include "geotherm/mesh_report.h"
 #include "solver/geometry/intrinsic_surface.h"
-#include "solver/geometry/mesh_report.h"
 #include "solver/geometry/surface_pattern.h"
 #include "tests/support/mesh_defects.h"
 #include "tests/support/mesh_zoo.h"

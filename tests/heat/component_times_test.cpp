@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Components share a file and nothing else: not the time, not what is wrong with another one.
-#include "solver/heat/component_times.h"
+#include "solver/heat/heat_step.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "solver/linear/added_backend.h"
+#include "geotherm/backend.h"
 #include "tests/heat/faulty_backend.h"
 #include "tests/support/solve.h"
 

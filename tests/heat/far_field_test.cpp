@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/heat/option_text.h"
+#include "geotherm/options.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::test {
 

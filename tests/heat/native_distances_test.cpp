@@ -3,7 +3,7 @@
 // backend that keeps doubles.
 #include <gtest/gtest.h>
 
-#include "solver/heat/heat_method.h"
+#include "geotherm/heat_method.h"
 #include "tests/support/compare.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solve.h"

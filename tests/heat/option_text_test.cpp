@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/heat/option_text.h"
+#include "geotherm/options.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/linear/added_backend.h"
+#include "geotherm/backend.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solve.h"
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <string>
 
-#include "solver/mesh/read_mesh.h"
-#include "solver/method/build_method.h"
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/build_method.h"
+#include "geotherm/io.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/support/compare.h"
 #include "tests/support/solve.h"
 

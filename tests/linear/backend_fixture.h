@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 #include "tests/support/compare.h"
 #include "tests/support/operators.h"
 #include "tests/support/solve.h"

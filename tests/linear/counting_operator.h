@@ -4,7 +4,7 @@
 #include <atomic>
 #include <memory>
 
-#include "solver/linear/symmetric_operator.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::test {
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

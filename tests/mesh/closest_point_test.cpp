@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/closest_point.h"
+#include "geotherm/mesh.h"
 
 #include <gtest/gtest.h>
 

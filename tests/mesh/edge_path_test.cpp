@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/edge_path.h"
+#include "solver/mesh/connectivity.h"
 
 #include <gtest/gtest.h>
 

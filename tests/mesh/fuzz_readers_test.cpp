@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

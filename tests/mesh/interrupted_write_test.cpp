@@ -8,8 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "solver/mesh/unfinished_files.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

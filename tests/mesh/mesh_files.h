@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 
 namespace geotherm::test {
 

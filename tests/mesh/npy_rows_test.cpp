@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/npy_rows.h"
+#include "geotherm/io.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "solver/mesh/growing_file.h"
+#include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

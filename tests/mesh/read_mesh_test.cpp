@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <charconv>
 #include <random>
 
-#include "solver/mesh/write_distances.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "solver/mesh/io/file_extension.h"
+#include "solver/core/text.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

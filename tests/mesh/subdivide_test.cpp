@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/subdivide.h"
+#include "geotherm/mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/geometry/mesh_report.h"
+#include "geotherm/mesh_report.h"
 #include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {

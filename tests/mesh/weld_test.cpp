@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/weld.h"
+#include "geotherm/mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "solver/core/number_text.h"
+#include "geotherm/mesh_report.h"
+#include "solver/core/text.h"
 #include "solver/geometry/cracks.h"
-#include "solver/geometry/mesh_report.h"
 #include "solver/mesh/merge_close.h"
 #include "tests/support/shapes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,8 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "solver/mesh/read_mesh.h"
-#include "solver/mesh/write_file.h"
+#include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/farthest_points.h"
+#include "geotherm/many.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <set>
 
-#include "solver/mesh/weld.h"
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
+#include "geotherm/mesh.h"
 #include "tests/support/broken_mesh.h"
 #include "tests/support/shapes.h"
 

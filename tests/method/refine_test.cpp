@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/mesh/weld.h"
-#include "solver/method/build_method.h"
-#include "solver/method/distance_error.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/build_method.h"
+#include "geotherm/mesh.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/support/compare.h"
 #include "tests/support/mesh_zoo.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "solver/method/stream_answers.h"
+#include "geotherm/many.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/support/compare.h"
 #include "tests/support/no_threads.h"
 #include "tests/support/shapes.h"

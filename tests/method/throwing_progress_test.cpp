@@ -8,12 +8,11 @@
 #include <tuple>
 
 #include "bench/models/generate.h"
+#include "geotherm/accuracy.h"
+#include "geotherm/build_method.h"
+#include "geotherm/many.h"
+#include "geotherm/path.h"
 #include "solver/mesh/ray_tree.h"
-#include "solver/method/build_method.h"
-#include "solver/method/farthest_points.h"
-#include "solver/method/stream_answers.h"
-#include "solver/path/find_path.h"
-#include "solver/quality/diagnose.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

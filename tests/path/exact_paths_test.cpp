@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "solver/path/trace.h"
 #include "tests/path/path_support.h"
 #include "tests/support/exact_distances.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Geodesics where the shortest path is known, and on every mesh of the zoo.
-#include "solver/path/find_path.h"
+#include "geotherm/path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/isolines.h"
+#include "geotherm/isolines.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 
 namespace geotherm::test {
 namespace {

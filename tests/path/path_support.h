@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "solver/path/find_path.h"
+#include "geotherm/path.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

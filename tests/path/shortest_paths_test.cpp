@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/path/path_support.h"
 #include "tests/support/mesh_zoo.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/write_polylines.h"
+#include "geotherm/path.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "solver/path/isolines.h"
+#include "geotherm/isolines.h"
 #include "tests/path/path_support.h"
 
 namespace geotherm::test {

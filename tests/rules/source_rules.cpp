@@ -14,10 +14,10 @@ namespace geotherm::rules {
 namespace {
 
 constexpr int kLongestFile = 400;
-constexpr std::array kHouse = {"solver", "engine", "shaders", "app",    "ui",
-                               "tests",  "bench",  "cmake",   "scripts"};
+constexpr std::array kHouse = {"solver", "engine", "shaders", "app",      "ui",           "tests",
+                               "bench",  "cmake",  "scripts", "geotherm", "docs/examples"};
 
-/// Headers that one backend keeps to itself; they are not installed (solver/CMakeLists.txt).
+/// Headers that one backend keeps to itself.
 constexpr std::string_view kOwnHeaders = "solver/linear/cholmod_";
 
 /// What a condition on a backend has in it, in lower case.
@@ -27,7 +27,8 @@ constexpr const char* kBackendWords[] = {"geotherm_with_", "geotherm_has_", "geo
 
 using Names = std::set<std::string, std::less<>>;
 
-/// What a folder may include. "any" among the libraries stands for every library.
+/// What a folder may include. "any" among the libraries stands for every library; "geotherm" are
+/// the public headers, of which a folder of the library sees what lies below it.
 struct Permission {
   std::string_view folder;  ///< of the including file, or the file itself
   Names house;              ///< folders of the project
@@ -37,29 +38,57 @@ struct Permission {
 
 /// The first entry that fits a path counts.
 const std::vector<Permission>& permissions() {
+  const auto with = [](Names names, const Names& more) {
+    names.insert(more.begin(), more.end());
+    return names;
+  };
+  const Names base = {"solver/core", "geotherm/types.h", "geotherm/error.h", "geotherm/progress.h"};
+  const Names mesh =
+      with(base, {"solver/mesh", "geotherm/mesh.h", "geotherm/io.h", "geotherm/sources.h"});
+  const Names linear = with(base, {"solver/linear", "geotherm/backend.h"});
+  const Names geometry = with(with(mesh, linear), {"solver/geometry", "geotherm/mesh_report.h"});
+  const Names method =
+      with(geometry, {"solver/method", "geotherm/distance_method.h", "geotherm/many.h"});
+  const Names path = with(method, {"solver/path", "geotherm/path.h", "geotherm/isolines.h"});
+  const Names wave =
+      with(method, {"solver/wave", "solver/accuracy/distance_bounds.h",
+                    "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
+  const Names exact = with(wave, {"solver/exact"});
+  const Names heat = with(
+      wave, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h", "geotherm/options.h"});
   static const std::vector<Permission> kPermissions = {
-      {"app/main.cpp", {"solver", "engine", "shaders", "app", "ui"}, {"any"}, {}},
-      {"app/main_drawing", {"solver", "engine", "app"}, {"std", "glm"}, {}},
-      {"app/main_window", {"solver", "engine", "app", "ui"}, {"std", "glm", "imgui"}, {}},
-      {"solver/core", {"solver/core"}, {"std", "eigen"}, {"posix"}},
-      {"solver/mesh", {"solver/core", "solver/mesh"}, {"std", "eigen"}, {"posix"}},
-      {"solver/linear", {"solver/core", "solver/linear"}, {"std", "eigen"}, {"posix", "algebra"}},
-      {"solver/geometry",
-       {"solver/core", "solver/mesh", "solver/linear", "solver/geometry"},
-       {"std", "eigen"},
+      {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
+      {"solver/core", base, {"std", "eigen"}, {"posix"}},
+      {"solver/mesh", mesh, {"std", "eigen"}, {"posix"}},
+      {"solver/linear", linear, {"std", "eigen"}, {"posix", "algebra"}},
+      {"solver/geometry", geometry, {"std", "eigen"}, {}},
+      {"solver/method", method, {"std", "eigen"}, {}},
+      {"solver/path", path, {"std", "eigen"}, {}},
+      {"solver/wave", wave, {"std", "eigen"}, {}},
+      {"solver/exact", exact, {"std", "eigen"}, {}},
+      {"solver/heat", heat, {"std", "eigen"}, {}},
+      {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
+      {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
+      {"app/main.cpp", {"solver", "geotherm", "engine", "shaders", "app", "ui"}, {"any"}, {}},
+      {"app/main_drawing", {"solver", "geotherm", "engine", "app"}, {"std", "glm"}, {}},
+      {"app/main_window",
+       {"solver", "geotherm", "engine", "app", "ui"},
+       {"std", "glm", "imgui"},
        {}},
-      {"solver", {"solver"}, {"std", "eigen"}, {}},
       {"engine",
-       {"engine", "shaders", "solver/core"},
+       with(base, {"engine", "shaders"}),
        {"std", "vulkan", "glm"},
        {"posix", "stb", "embedded", "glfw", "imgui", "imgui end"}},
       {"shaders", {"shaders"}, {"std", "glm"}, {}},
-      {"app/cmd_generate.cpp", {"app", "solver", "bench/models"}, {"std", "cli11"}, {}},
-      {"app", {"app", "solver"}, {"std", "cli11", "json", "eigen"}, {"posix", "png"}},
+      {"app/cmd_generate.cpp", {"app", "solver", "geotherm", "bench/models"}, {"std", "cli11"}, {}},
+      {"app", {"app", "solver", "geotherm"}, {"std", "cli11", "json", "eigen"}, {"posix", "png"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
-      {"bench/models", {"solver/core", "solver/mesh", "bench/models"}, {"std", "eigen"}, {}},
-      {"bench", {"solver", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
-      {"tests", {"solver", "engine", "shaders", "app", "ui", "tests", "bench"}, {"any"}, {}},
+      {"bench/models", with(mesh, {"bench/models"}), {"std", "eigen"}, {}},
+      {"bench", {"solver", "geotherm", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
+      {"tests",
+       {"solver", "geotherm", "engine", "shaders", "app", "ui", "tests", "bench"},
+       {"any"},
+       {}},
   };
   return kPermissions;
 }
@@ -235,11 +264,12 @@ std::vector<Violation> check_includes(const SourceFile& file) {
   const Permission* permission = permission_of(file.path);
   if (!permission) return {{file.path, 0, "lies in a folder that has no rule"}};
   for_each_include(file.text, [&](int line, const std::string& header, bool quoted) {
-    // GLSL compilers look beside the including file, not at the root.
-    const bool beside =
-        quoted && starts_with_folder(file.path, "shaders") && header.find('/') == std::string::npos;
-    std::string why =
-        refusal(file.path, *permission, beside ? "shaders/" + header : header, quoted);
+    // GLSL compilers look beside the including file, not at the root; examples are no part of it.
+    const std::string_view folder = permission->folder;
+    const bool beside = quoted && (folder == "shaders" || folder == "docs/examples") &&
+                        header.find('/') == std::string::npos;
+    std::string why = refusal(file.path, *permission,
+                              beside ? std::string(folder) + "/" + header : header, quoted);
     if (!why.empty()) found.push_back({file.path, line, std::move(why)});
   });
   return found;
@@ -325,12 +355,14 @@ std::vector<SourceFile> read_tree(const std::filesystem::path& root) {
   }
   std::sort(paths.begin(), paths.end());
   std::vector<SourceFile> files;
-  for (const fs::path& path : paths) {
-    std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();
-    files.push_back({fs::relative(path, root).generic_string(), text.str()});
-  }
+  for (const fs::path& path : paths) files.push_back(read_file(root, path));
   return files;
+}
+
+SourceFile read_file(const std::filesystem::path& root, const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return {std::filesystem::relative(path, root).generic_string(), text.str()};
 }
 
 }  // namespace geotherm::rules

@@ -39,8 +39,18 @@ std::vector<Violation> check_backend_conditions(const SourceFile& file);
 /// No string of `solver/` names an option of the command line: hints name settings.
 std::vector<Violation> check_option_names(const SourceFile& file);
 
+/// Every paragraph of a ```cpp block of the page stands, but for its indentation, in one of the
+/// examples among `files`, which are compiled and run.
+std::vector<Violation> check_snippets(const SourceFile& page, std::span<const SourceFile> files);
+
+/// README.md and the pages of docs/.
+std::vector<SourceFile> read_pages(const std::filesystem::path& root);
+
 /// C++ sources and shaders, as opposed to scripts and CMake files.
 bool is_code(std::string_view path);
+
+/// A file below `root`.
+SourceFile read_file(const std::filesystem::path& root, const std::filesystem::path& path);
 
 /// All sources, shaders, scripts and CMake files below `root`, in the order of their paths.
 std::vector<SourceFile> read_tree(const std::filesystem::path& root);

@@ -48,11 +48,18 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"BackendUsesVulkan", "solver/linear/a.cpp", "<vulkan/vulkan_raii.hpp>"},
         IncludeCase{"SolverUsesUnknownLibrary", "solver/linear/a.cpp", "<boost/graph/graph.hpp>"},
         IncludeCase{"PublicHeaderShowsPosix", "solver/mesh/a.h", "<sys/mman.h>"},
-        IncludeCase{"MeshReachesForward", "solver/mesh/a.cpp", "\"solver/heat/heat_method.h\""},
-        IncludeCase{"LinearReachesBack", "solver/linear/a.cpp", "\"solver/mesh/triangle_mesh.h\""},
+        IncludeCase{"MethodKnowsTheHeatMethod", "solver/method/a.cpp",
+                    "\"geotherm/heat_method.h\""},
+        IncludeCase{"MethodKnowsItsOptions", "solver/method/a.cpp", "\"geotherm/options.h\""},
+        IncludeCase{"MethodReachesForward", "solver/method/a.cpp", "\"solver/wave/a.h\""},
+        IncludeCase{"PublicHeaderShowsInternals", "solver/include/geotherm/a.h",
+                    "\"solver/core/parallel.h\""},
+        IncludeCase{"ExampleUsesInternals", "docs/examples/a.cpp", "\"solver/core/parallel.h\""},
+        IncludeCase{"MeshReachesForward", "solver/mesh/a.cpp", "\"geotherm/heat_method.h\""},
+        IncludeCase{"LinearReachesBack", "solver/linear/a.cpp", "\"geotherm/mesh.h\""},
         IncludeCase{"LinearReachesForward", "solver/linear/a.cpp", "\"solver/heat/a.h\""},
         IncludeCase{"CoreReachesForward", "solver/core/a.h", "\"solver/mesh/a.h\""},
-        IncludeCase{"EngineUsesSolver", "engine/a.cpp", "\"solver/mesh/triangle_mesh.h\""},
+        IncludeCase{"EngineUsesSolver", "engine/a.cpp", "\"geotherm/mesh.h\""},
         IncludeCase{"EngineUsesApp", "engine/a.h", "\"app/state.h\""},
         IncludeCase{"EngineHeaderShowsGlfw", "engine/a.h", "<GLFW/glfw3.h>"},
         IncludeCase{"EngineUsesEigen", "engine/a.cpp", "<Eigen/Core>"},
@@ -69,14 +76,14 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"AppUsesImGui", "app/commands/main.cpp", "\"imgui.h\""},
         IncludeCase{"UiUsesVulkan", "ui/panel.cpp", "<vulkan/vulkan.h>"},
         IncludeCase{"UiUsesEngine", "ui/panel.cpp", "\"engine/device.h\""},
-        IncludeCase{"UiUsesBackends", "ui/panel.cpp", "\"solver/linear/backend.h\""},
+        IncludeCase{"UiUsesBackends", "ui/panel.cpp", "\"geotherm/backend.h\""},
         IncludeCase{"UiUsesImGuiBackend", "ui/panel.cpp", "<imgui_impl_vulkan.h>"},
         IncludeCase{"ShaderUsesEngine", "shaders/a.vert", "\"engine/device.h\""},
         IncludeCase{"SolverUsesTests", "solver/heat/a.cpp", "\"tests/zoo.h\""},
         IncludeCase{"AppUsesBench", "app/a.cpp", "\"bench/baseline.h\""},
         IncludeCase{"AppSculptsModels", "app/load_model.cpp", "\"bench/models/generate.h\""},
         IncludeCase{"ModelsUseBench", "bench/models/a.cpp", "\"bench/bench_mesh.h\""},
-        IncludeCase{"ModelsUseMethods", "bench/models/a.cpp", "\"solver/heat/heat_method.h\""},
+        IncludeCase{"ModelsUseMethods", "bench/models/a.cpp", "\"geotherm/heat_method.h\""},
         IncludeCase{"MainUsesTests", "app/main.cpp", "\"tests/zoo.h\""},
         IncludeCase{"BenchUsesTests", "bench/a.cpp", "\"tests/zoo.h\""},
         IncludeCase{"AngleBracketsHideAFolder", "solver/heat/a.cpp", "<app/session.h>"},
@@ -93,14 +100,16 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         IncludeCase{"SolverUsesStandard", "solver/heat/a.h", "<vector>"},
         IncludeCase{"SolverUsesEigen", "solver/heat/a.h", "<Eigen/Core>"},
-        IncludeCase{"HeatUsesAllBefore", "solver/heat/a.cpp", "\"solver/linear/backend.h\""},
+        IncludeCase{"ExampleUsesTheFrontDoor", "docs/examples/a.cpp", "<geotherm/geotherm.h>"},
+        IncludeCase{"ExampleUsesItsNeighbour", "docs/examples/a.cpp", "\"require.h\""},
+        IncludeCase{"HeatUsesAllBefore", "solver/heat/a.cpp", "\"geotherm/backend.h\""},
         IncludeCase{"BackendUsesCholmod", "solver/linear/a.cpp", "<cholmod.h>"},
         IncludeCase{"BackendHasItsOwnHeader", "solver/linear/cholmod_api.h", "<cholmod.h>"},
         IncludeCase{"ReaderMapsFiles", "solver/mesh/io/a.cpp", "<sys/mman.h>"},
         IncludeCase{"EngineUsesVulkan", "engine/a.h", "<vulkan/vulkan_raii.hpp>"},
         IncludeCase{"EngineSharesStructs", "engine/a.h", "\"shaders/structs.h\""},
         IncludeCase{"ShaderUsesItsNeighbour", "shaders/a.vert", "\"frame.glsl\""},
-        IncludeCase{"AppUsesSolver", "app/a.cpp", "\"solver/heat/heat_method.h\""},
+        IncludeCase{"AppUsesSolver", "app/a.cpp", "\"geotherm/heat_method.h\""},
         IncludeCase{"GenerateSculptsModels", "app/cmd_generate.cpp", "\"bench/models/generate.h\""},
         IncludeCase{"AppUsesCli11", "app/a.cpp", "<CLI/CLI.hpp>"},
         IncludeCase{"AppUsesJson", "app/a.h", "<nlohmann/json.hpp>"},
@@ -108,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"MainWindowMeetsUi", "app/main_window/a.cpp", "\"ui/interface.h\""},
         IncludeCase{"MainWindowMeetsEngine", "app/main_window/a.cpp", "\"engine/window/window.h\""},
         IncludeCase{"MainDrawingMeetsEngine", "app/main_drawing/a.cpp", "\"engine/device.h\""},
-        IncludeCase{"EngineUsesResult", "engine/a.h", "\"solver/core/result.h\""},
+        IncludeCase{"EngineUsesResult", "engine/a.h", "\"geotherm/error.h\""},
         IncludeCase{"EngineUsesStb", "engine/a.cpp", "<stb/stb_truetype.h>"},
         IncludeCase{"UiUsesImGui", "ui/panel.cpp", "<imgui.h>"},
         IncludeCase{"UiUsesApp", "ui/panel.cpp", "\"app/state.h\""},
@@ -171,6 +180,21 @@ TEST(Rules, AnOptionInAStringOfTheSolverIsFound) {
   }
 }
 
+TEST(Rules, ASnippetThatIsInNoExampleIsFound) {
+  const std::vector<SourceFile> files = {{"docs/examples/a.cpp", "int main() {\n  f(1);\n}\n"},
+                                         {"solver/a.cpp", "g(2);\n"}};
+  const auto lines_found = [&](const std::string& page) {
+    std::vector<int> lines;
+    for (const Violation& found : check_snippets({"README.md", page}, files)) {
+      lines.push_back(found.line);
+    }
+    return lines;
+  };
+  EXPECT_EQ(lines_found("```cpp\nf(1);\n```\n```\nany(3);\n```\n"), std::vector<int>{});
+  EXPECT_EQ(lines_found("```cpp\nf(1);\n\ng(2);\n```\n"), std::vector{4});
+  EXPECT_EQ(lines_found("```cpp\nf(1\n```\n"), std::vector{2});
+}
+
 class RulesTree : public testing::Test {
  protected:
   static const std::vector<SourceFile>& files() {
@@ -199,7 +223,7 @@ TEST_F(RulesTree, IsReadAtAll) {
     return std::any_of(files().begin(), files().end(),
                        [&](const SourceFile& file) { return file.path == path; });
   };
-  EXPECT_TRUE(holds("solver/heat/heat_method.h"));
+  EXPECT_TRUE(holds("solver/include/geotherm/heat_method.h"));
   EXPECT_TRUE(holds("tests/rules/source_rules_test.cpp"));
   EXPECT_TRUE(holds("cmake/FindCHOLMOD.cmake"));
   EXPECT_TRUE(holds("scripts/test.sh"));
@@ -216,6 +240,14 @@ TEST_F(RulesTree, NoFileIsLong) { EXPECT_EQ(violations(check_length), ""); }
 
 TEST_F(RulesTree, NoStringOfTheSolverNamesAnOption) {
   EXPECT_EQ(violations(check_option_names), "");
+}
+
+TEST_F(RulesTree, EverySnippetIsPartOfAnExample) {
+  std::string text;
+  for (const SourceFile& page : read_pages(GEOTHERM_SOURCE_DIR)) {
+    text += text_of(check_snippets(page, files()));
+  }
+  EXPECT_EQ(text, "");
 }
 
 TEST_F(RulesTree, OnlyTheRegistryHasConditionsOnBackends) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/linear/symmetric_operator.h"
+#include "geotherm/backend.h"
 
 namespace geotherm::test {
 

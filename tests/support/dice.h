@@ -6,7 +6,7 @@
 #include <iterator>
 #include <random>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::test {
 

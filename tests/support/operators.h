@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "geotherm/backend.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/fem_operator.h"
-#include "solver/linear/backend.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

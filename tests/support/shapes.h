@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::test {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/heat/heat_method.h"
-#include "solver/linear/backend.h"
+#include "geotherm/backend.h"
+#include "geotherm/heat_method.h"
 #include "tests/support/compare.h"
 #include "tests/support/shapes.h"
 

@@ -4,7 +4,7 @@
 #include "app/bundled_models.h"
 #include "app/explore/settings.h"
 #include "bench/models/generate.h"
-#include "solver/mesh/write_distances.h"
+#include "geotherm/io.h"
 #include "tests/ui/driver.h"
 #include "ui/bundled.h"
 #include "ui/key_codes.h"

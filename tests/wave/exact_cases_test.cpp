@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "solver/mesh/read_mesh.h"
+#include "geotherm/io.h"
 #include "tests/support/exact_distances.h"
 #include "tests/wave/wave_fixture.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/method/build_method.h"
+#include "geotherm/build_method.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

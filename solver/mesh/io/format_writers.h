@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "solver/core/result.h"
-#include "solver/mesh/data_field.h"
-#include "solver/mesh/triangle_mesh.h"
+#include "geotherm/error.h"
+#include "geotherm/io.h"
+#include "geotherm/mesh.h"
 
 // The bytes of a file, one function per format. Numbers in text have the fewest digits that read
 // back as the same double.

@@ -5,14 +5,47 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "solver/mesh/io/file_extension.h"
-#include "solver/mesh/io/read_failure.h"
+#include "solver/core/memory.h"
+#include "solver/core/text.h"
+#include "solver/mesh/io/parallel.h"
 
 namespace geotherm::io {
+
+void fail_at_line(std::string_view text, const char* where, const std::string& cause, Hint hint) {
+  const auto line = static_cast<std::size_t>(1 + std::count(text.data(), where, '\n'));
+  throw ReadFailure{"line " + std::to_string(line) + ": " + cause, line, cause, std::move(hint)};
+}
+
+void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause, Hint hint) {
+  throw ReadFailure{
+      "byte " + std::to_string(where - bytes.data()) + ": " + cause, 0, {}, std::move(hint)};
+}
+
+std::string quoted(std::string_view text, const char* where) {
+  constexpr std::size_t kMax = 24;
+  std::string word = "\"";
+  for (const char* end = text.data() + text.size(); where < end; ++where) {
+    const auto c = static_cast<unsigned char>(*where);
+    if (c == ' ' || (c >= '\t' && c <= '\r')) break;
+    if (word.size() > kMax) {
+      word += "...";
+      break;
+    }
+    word += c > ' ' && c < 0x7f ? *where : '?';
+  }
+  return word + "\"";
+}
+
 namespace {
 
 std::string open_cause(int code) {
@@ -95,6 +128,98 @@ Result<void> InputFile::check_unchanged() const {
                shown_ + ": was changed while it was read (it had " + std::to_string(size()) +
                    " bytes and now has " + std::to_string(now.st_size) + ")",
                {"read it again once it is complete"}};
+}
+
+namespace {
+
+LargeBuffer room_for(std::size_t bytes) {
+  const auto free = free_memory();
+  if (free && static_cast<std::int64_t>(bytes) > *free) throw std::bad_alloc();
+  return LargeBuffer(bytes);
+}
+
+}  // namespace
+
+FileBytes::FileBytes(const InputFile& file) : buffer_(room_for(file.size() + kPadding)) {
+  constexpr std::size_t kPiece = std::size_t{4} << 20;
+  char* const bytes = reinterpret_cast<char*>(buffer_.data());
+  const std::size_t size = file.size();
+  std::memset(bytes + size, 0, kPadding);
+  for_each_parallel((size + kPiece - 1) / kPiece, [&](std::size_t i) {
+    const std::size_t place = i * kPiece;
+    file.read(bytes + place, std::min(kPiece, size - place), place);
+  });
+}
+
+Result<FileBytes> FileBytes::read(const std::string& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return file.error();
+  try {
+    FileBytes read(*file);
+    if (auto same = file->check_unchanged(); !same) return same.error();
+    return read;
+  } catch (const ReadFailure& failure) {
+    return Error{ErrorCode::kBadFile, printable(path) + ": " + failure.message, failure.hint};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, printable(path) + ": not enough memory to read it"};
+  }
+}
+
+namespace {
+
+constexpr std::size_t kStep = std::size_t{1} << 20;
+
+/// Bytes that may be taken: while a buffer grows the old one is there as well.
+std::size_t most_bytes() {
+  const auto free = free_memory();
+  if (!free) return std::numeric_limits<std::size_t>::max() / 4;
+  return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
+}
+
+Error too_large(const std::string& name, std::size_t most) {
+  return {ErrorCode::kOutOfMemory,
+          name + ": a model from a stream may have at most " + std::to_string(most) +
+              " bytes, half of the memory that is free",
+          {"write it to a file and name that"}};
+}
+
+Error ended(const std::string& name, std::size_t size) {
+  return {
+      ErrorCode::kOutOfMemory,
+      name + ": the memory ended after " + std::to_string(size) + " bytes of a model from a stream",
+      {"write it to a file and name that"}};
+}
+
+}  // namespace
+
+Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
+  StreamBytes out;
+  try {
+    const std::size_t most = most_bytes();
+    for (;;) {
+      if (out.buffer_.size() <= out.size_ + FileBytes::kPadding) {
+        if (out.size_ >= most) return too_large(name, most);
+        const std::size_t step = std::min(std::max(kStep, out.size_ / 2), most - out.size_);
+        out.buffer_.resize(out.size_ + step + FileBytes::kPadding);
+      }
+      const std::size_t room = out.buffer_.size() - FileBytes::kPadding - out.size_;
+      const ssize_t got = ::read(descriptor, out.buffer_.data() + out.size_, room);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) {
+        return Error{ErrorCode::kBadFile,
+                     name + ": cannot be read: " + std::generic_category().message(errno)};
+      }
+      if (got == 0) break;
+      out.size_ += static_cast<std::size_t>(got);
+    }
+  } catch (const std::bad_alloc&) {
+    return ended(name, out.size_);
+  } catch (const std::length_error&) {
+    return ended(name, out.size_);
+  }
+  if (out.size_ == 0) return Error{ErrorCode::kBadFile, name + ": there was nothing to read"};
+  std::fill(out.buffer_.begin() + static_cast<std::ptrdiff_t>(out.size_), out.buffer_.end(), '\0');
+  return out;
 }
 
 }  // namespace geotherm::io

@@ -4,12 +4,34 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
-#include "solver/core/result.h"
+#include "geotherm/error.h"
+#include "solver/core/memory.h"
 
 struct stat;
 
 namespace geotherm::io {
+
+/// Thrown and caught inside the readers only; read_mesh() makes an Error of it, with the path.
+struct ReadFailure {
+  std::string message;   ///< "line N: cause", "byte N: cause", or the cause alone
+  std::size_t line = 0;  ///< N where it is a line
+  std::string cause = {};
+  Hint hint = {};
+};
+
+/// Throws "line N: cause" for the place `where` inside `text`.
+[[noreturn]] void fail_at_line(std::string_view text, const char* where, const std::string& cause,
+                               Hint hint = {});
+
+/// Throws "byte N: cause", N counted from 0.
+[[noreturn]] void fail_at_byte(std::string_view bytes, const char* where, const std::string& cause,
+                               Hint hint = {});
+
+/// The word at `where` in quotes, shortened, only printable characters: fit for a message.
+std::string quoted(std::string_view text, const char* where);
 
 /// A regular file that is open for reading, by copies of its bytes: a mapping of a file that others
 /// shorten would end the program with a signal.
@@ -48,6 +70,44 @@ class InputFile {
   std::string shown_;  ///< the path, for messages
   int descriptor_ = -1;
   Version before_;
+};
+
+/// A file as a whole in memory.
+///
+/// Behind the last byte at least kPadding zero bytes can be read, so a scanner needs no end test
+/// inside a number or a word.
+class FileBytes {
+ public:
+  static constexpr std::size_t kPadding = 64;
+
+  /// A copy, made by all cores. Throws ReadFailure and std::bad_alloc, the latter also where the
+  /// file is larger than what is free.
+  explicit FileBytes(const InputFile& file);
+
+  /// The same of a small file that is opened for it. Errors: those of InputFile, kOutOfMemory.
+  static Result<FileBytes> read(const std::string& path);
+
+  std::string_view bytes() const {
+    return {reinterpret_cast<const char*>(buffer_.data()), buffer_.size() - kPadding};
+  }
+
+ private:
+  LargeBuffer buffer_;  ///< with the padding
+};
+
+/// All that a stream (a pipe, a terminal, a file) held, with the padding that FileBytes has.
+class StreamBytes {
+ public:
+  /// Reads the open descriptor to its end; it stays open. `name`: of the stream, in messages.
+  /// Errors: kBadFile (it cannot be read, it holds nothing), kOutOfMemory (it holds more than half
+  /// of the memory that is free, for the mesh needs as much again), each "NAME: cause".
+  static Result<StreamBytes> read(int descriptor, const std::string& name);
+
+  std::string_view bytes() const { return {buffer_.data(), size_}; }
+
+ private:
+  std::vector<char> buffer_;  ///< with the padding
+  std::size_t size_ = 0;
 };
 
 }  // namespace geotherm::io

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "solver/mesh/io/parse_number.h"
-#include "solver/mesh/io/read_failure.h"
+#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
 namespace {

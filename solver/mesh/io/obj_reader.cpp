@@ -7,13 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "solver/core/raw_vector.h"
-#include "solver/mesh/io/file_bytes.h"
+#include "solver/core/memory.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/obj_chunk.h"
 #include "solver/mesh/io/parallel.h"
-#include "solver/mesh/io/read_failure.h"
-#include "solver/mesh/io/readers.h"
+#include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm::io {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <string>
 
-#include "solver/core/number_text.h"
-#include "solver/mesh/io/read_failure.h"
-#include "solver/mesh/io/readers.h"
+#include "solver/core/text.h"
+#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/raw_mesh.h"
 #include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {

@@ -8,8 +8,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "solver/mesh/io/parse_number.h"
-#include "solver/mesh/io/read_failure.h"
+#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
 namespace {

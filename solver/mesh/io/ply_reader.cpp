@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "solver/core/number_text.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/ply_header.h"
-#include "solver/mesh/io/read_failure.h"
-#include "solver/mesh/io/readers.h"
+#include "solver/mesh/io/raw_mesh.h"
 #include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {

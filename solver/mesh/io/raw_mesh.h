@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
+// One reader per format. Each takes the bytes of FileBytes (with its padding) and throws
+// ReadFailure or std::bad_alloc.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "solver/core/types.h"
+#include "geotherm/types.h"
 
 namespace geotherm::io {
 
@@ -80,5 +83,14 @@ class PolygonCutter {
   std::int64_t most_tests_;
   std::int64_t tests_ = most_tests_;  ///< points that may still be tested
 };
+
+class InputFile;
+
+RawMesh read_obj(std::string_view text);
+/// The same, and faster than by way of FileBytes.
+RawMesh read_obj(const InputFile& file);
+RawMesh read_off(std::string_view text);
+RawMesh read_ply(std::string_view bytes);
+RawMesh read_stl(std::string_view bytes);
 
 }  // namespace geotherm::io

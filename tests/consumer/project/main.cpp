@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Distance over a unit square of two triangles, through the first backend there is.
-#include <solver/heat/heat_method.h>
-#include <solver/linear/backend.h>
+#include <geotherm/geotherm.h>
 
 #include <cmath>
 #include <cstdio>

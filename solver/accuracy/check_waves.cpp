@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "solver/accuracy/check_waves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace geotherm {
+namespace {
+
+/// Mean of | |grad d| - 1 | by area, over the faces whose corners are all reached; 0 where there is
+/// none; edges that are too steep are counted. `distances`: V, in the units of the mesh. Cost:
+/// O(F).
+double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances,
+                          SteepSides& steep) {
+  double sum = 0, area = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto [a, b, c] = mesh.faces[f];
+    const double da = distances[a], db = distances[b] - da, dc = distances[c] - da;
+    if (!std::isfinite(db) || !std::isfinite(dc)) continue;
+    const FaceLayout layout = lay_out(mesh.lengths[f]);
+    const double slope_x = db / layout.base;
+    const double slope_y = (dc - slope_x * layout.x) / layout.height;
+    const double twice_area = layout.base * layout.height;
+    const double slope = std::hypot(slope_x, slope_y);
+    sum += twice_area * std::abs(slope - 1);
+    area += twice_area;
+    if (!steep.may_be_steep(slope)) continue;
+    const double differences[3] = {db, dc - db, dc};
+    for (int k = 0; k < 3; ++k) {
+      const double length = mesh.lengths[f][k];
+      if (!steep.is_steep(differences[k], length)) continue;
+      const bool alone = mesh.twin[3 * static_cast<Side>(f) + k] == kNoSide;
+      steep.add(differences[k], length, alone ? 1.0 : 0.5);
+    }
+  }
+  return area > 0 ? sum / area : 0;
+}
+
+}  // namespace
+
+void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
+                  const SourceSeeds& seeds, DistanceResult& result) {
+  double above = 0;
+  for (const auto& vertex : seeds.vertices) {
+    above = std::max(above, result.distances[vertex.vertex] - vertex.offset);
+  }
+  result.quality.max_source_distance = above * surface.base.mean_edge;
+  const BoundTolerance tolerance = bound_tolerance(method);
+  SteepSides steep(tolerance);
+  result.quality.eikonal_error_mean =
+      eikonal_error_mean(surface.base.intrinsic, result.distances, steep);
+  steep.write_to(result.quality);
+  check_straight_lines(surface.base, sources, surface.base.mean_edge, tolerance, 1, result);
+  add_bound_warnings(method, result);
+}
+
+}  // namespace geotherm

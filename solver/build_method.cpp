@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "geotherm/build_method.h"
+
+#include <new>
+#include <string>
+#include <utility>
+
+#include "geotherm/heat_method.h"
+#include "geotherm/polyhedral_methods.h"
+#include "solver/core/parallel.h"
+#include "solver/method/mapped_method.h"
+#include "solver/wave/wave_surface.h"
+
+namespace geotherm {
+namespace {
+
+using Built = Result<std::shared_ptr<const DistanceMethod>>;
+
+template <class Method>
+Built as_method(Result<std::shared_ptr<const Method>> built) {
+  if (!built) return built.error();
+  return std::shared_ptr<const DistanceMethod>(*std::move(built));
+}
+
+Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& options,
+               const Progress& progress) {
+  using Samples = WavefrontMethod::Samples;
+  switch (options.method) {
+    case MethodKind::kWavefront:
+    case MethodKind::kHeat:
+      break;
+    case MethodKind::kWavefrontFine:
+      return as_method(
+          WavefrontMethod::build(std::move(waves), Samples::kQuarters, options.threads, progress));
+    case MethodKind::kFastMarching:
+      return as_method(FastMarchingMethod::build(std::move(waves), options.threads, progress));
+    case MethodKind::kExact:
+      return as_method(ExactMethod::build(std::move(waves), options.threads, progress));
+  }
+  return as_method(
+      WavefrontMethod::build(std::move(waves), Samples::kMidpoint, options.threads, progress));
+}
+
+/// On the mesh as it is.
+Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                  const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
+  if (options.method == MethodKind::kHeat) {
+    auto built = HeatMethod::build(std::move(mesh), options, progress);
+    if (!built) return built.error();
+    return std::shared_ptr<const DistanceMethod>(
+        std::make_shared<const HeatMethod>(*std::move(built)));
+  }
+  const bool walks_on_inserted =
+      options.method == MethodKind::kWavefront || options.method == MethodKind::kWavefrontFine;
+  if (!waves || (waves->base.refinement.points > 0 && !walks_on_inserted)) {
+    auto made =
+        build_wave_surface(mesh, part_of(progress, 0.0, 0.5), thread_count(options.threads));
+    if (!made) return made.error();
+    waves = *std::move(made);
+  }
+  return on_waves(std::move(waves), options, part_of(progress, 0.5, 1.0));
+}
+
+using Mapping = std::shared_ptr<const MeshMapping>;
+
+bool needs_mapping(const TriangleMesh& mesh, const MethodOptions& options) {
+  return options.refine != 0 || !mesh.same_as().empty();
+}
+
+Result<Mapping> mapping_of(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                           const Progress& progress) {
+  if (options.refine > 0 && !report(progress, "refine", 0.0)) return cancelled_error();
+  auto mapping = MeshMapping::build(std::move(mesh), options.refine);
+  if (!mapping) return mapping.error();
+  return std::make_shared<const MeshMapping>(*std::move(mapping));
+}
+
+/// The options for the inner mesh. Errors: kBadInput, a vertex that the outer one has not.
+Result<MethodOptions> inner_options(const MeshMapping& mapping, MethodOptions options) {
+  options.refine = 0;
+  Index& pin = options.constraint.pin_vertex;
+  if (options.constraint.mode != ConstraintMode::kPinVertex || pin == kNoIndex) return options;
+  const Index count = mapping.mesh().vertex_count();
+  if (pin < 0 || pin >= count) {
+    return Error{ErrorCode::kBadInput, "vertex " + std::to_string(pin) +
+                                           " cannot be pinned: it is not on the surface (0 to " +
+                                           std::to_string(count - 1) + ")"};
+  }
+  pin = mapping.mesh().standing_for(pin);
+  return options;
+}
+
+Built mapped(Mapping mapping, Built inner) {
+  if (!inner) return inner;
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const MappedMethod>(std::move(mapping), *std::move(inner)));
+}
+
+Built build_mapped(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
+  constexpr double kShare = 0.1;  // of the set-up, where all is refined
+  auto mapping = mapping_of(mesh, options, progress);
+  if (!mapping) return mapping.error();
+  const auto inner = inner_options(**mapping, options);
+  if (!inner) return inner.error();
+  const bool other = (*mapping)->inner() != mesh;
+  if (other) waves.reset();
+  return mapped(*mapping,
+                build_plain((*mapping)->inner(), *inner,
+                            part_of(progress, other ? kShare : 0.0, 1.0), std::move(waves)));
+}
+
+Error memory_ended(const MethodOptions& options) {
+  return {ErrorCode::kOutOfMemory,
+          "the memory ended while the method " + to_text(options.method) + " was set up",
+          {options.refine > 0 ? "refine the mesh less often" : "take a mesh with fewer faces"}};
+}
+
+/// A heat method with other options beside one that there is.
+Built beside(const HeatMethod& near, const MethodOptions& options, const Progress& progress) {
+  auto made = near.with(options, progress);
+  if (!made) return made.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(made)));
+}
+
+}  // namespace
+
+bool same_method(const MethodOptions& a, const MethodOptions& b) {
+  if (a.method != b.method || a.threads != b.threads || a.refine != b.refine) return false;
+  return a.method != MethodKind::kHeat || a == b;
+}
+
+Built build_method(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) try {
+  if (needs_mapping(*mesh, options)) {
+    return build_mapped(std::move(mesh), options, progress, std::move(waves));
+  }
+  return build_plain(std::move(mesh), options, progress, std::move(waves));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
+}
+
+Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+                        const DistanceMethod* near, const Progress& progress) try {
+  const HeatMethod* const heat = near ? near->heat() : nullptr;
+  const auto* const outer = dynamic_cast<const MappedMethod*>(near);
+  if (heat == nullptr || options.method != MethodKind::kHeat ||
+      (outer ? outer->mapping()->refine() : 0) != options.refine) {
+    return build_method(std::move(mesh), options, progress);
+  }
+  if (outer == nullptr) return beside(*heat, options, progress);
+  const auto inner = inner_options(*outer->mapping(), options);
+  if (!inner) return inner.error();
+  return mapped(outer->mapping(), beside(*heat, *inner, progress));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
+}
+
+Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
+                                                        const Progress& progress) {
+  const HeatMethod* const heat = method.heat();
+  if (heat == nullptr || heat != &method) return std::shared_ptr<const WaveSurface>();
+  auto triangulation = heat->delaunay_triangulation();
+  if (!triangulation) return std::shared_ptr<const WaveSurface>();
+  return build_wave_surface(std::move(triangulation), progress);
+}
+
+}  // namespace geotherm

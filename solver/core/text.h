@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Numbers, names of files and what is found in files, as text that people are shown.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace geotherm {
+
+/// The shortest text that reads back as the same number; independent of the locale.
+inline std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+/// "1 byte", "2 bytes".
+inline std::string counted_text(std::size_t number, const char* one, const char* many) {
+  return std::to_string(number) + ' ' + (number == 1 ? one : many);
+}
+
+/// The number to three significant digits, for messages.
+inline std::string rounded_text(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::general, 3)
+                       .ptr;
+  return {buffer.data(), end};
+}
+
+/// Bytes of the character at the front of a text in UTF-8 where it can be shown on a line; 0 where
+/// it cannot: a control character (U+0000-U+001F, U+007F-U+009F), one that ends lines or turns
+/// their direction (U+2028-U+202E, U+2066-U+2069), a noncharacter (U+FFFE, U+FFFF), or bytes that
+/// are no UTF-8.
+std::size_t printable_length(std::string_view text);
+
+/// The text with '?' for each byte that cannot be shown: one line of UTF-8, whatever it was.
+std::string printable(std::string_view text);
+
+}  // namespace geotherm
+
+namespace geotherm::io {
+
+/// The extension in lower case with its point (".obj"), or nothing; of the last part of the path.
+inline std::string file_extension(std::string_view path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash != path.npos) path.remove_prefix(slash + 1);
+  const std::size_t point = path.rfind('.');
+  std::string extension(point == path.npos ? "" : path.substr(point));
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+/// The path fit for a message of one line.
+using geotherm::printable;
+
+}  // namespace geotherm::io

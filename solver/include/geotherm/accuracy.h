@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geotherm/build_method.h"
+
+// How wrong distances are, by a more accurate method, and what would make them better.
+namespace geotherm {
+
+/// How far distances d are from better ones e, over the vertices where both are finite.
+struct DistanceError {
+  double mean_relative = 0;       ///< mean of |d - e| / e where e > 0
+  double max_of_range = 0;        ///< largest |d - e|, divided by the largest e
+  double mean_signed = 0;         ///< mean of d - e, model units
+  double max = 0;                 ///< largest |d - e|, model units
+  Index worst = kNoIndex;         ///< the vertex of that; kNoIndex: there is no such vertex
+  Index differently_reached = 0;  ///< vertices that one of both reaches and the other does not
+};
+
+/// Precondition: the same size. Cost: O(V).
+DistanceError distance_error(std::span<const double> d, std::span<const double> e);
+
+/// The same over several source sets: the mean of the mean errors, the largest of the largest.
+struct JointError {
+  DistanceError figures;
+  std::size_t worst_set = 0;  ///< of DistanceError::worst
+};
+/// Preconditions: as many of both, the same size in each pair.
+JointError joint_error(std::span<const std::vector<double>> d,
+                       std::span<const std::vector<double>> e);
+
+/// How right an answer is, in a word.
+enum class Grade { kNearExact, kGood, kFair, kPoor };
+
+/// Bounds of the mean relative error up to which an answer is near exact, good and fair, and of the
+/// largest error, as a share of the largest distance, above which it is poor whatever its mean: a
+/// few grossly wrong vertices do not show in that. An error of 5 % is poor even where the reference
+/// hides half a per cent of it.
+inline constexpr double kNearExactError = 1e-3, kGoodError = 0.02, kFairError = 0.05;
+inline constexpr double kMaxOfRange = 0.045;
+
+/// kPoor as well where one of both reaches vertices that the other does not.
+Grade grade_of(const DistanceError& error);
+
+/// How far an answer is from being good: at most 1 where it is. The larger of the mean error over
+/// kGoodError and the largest over kMaxOfRange.
+double badness(const DistanceError& error);
+
+/// near exact | good | fair | poor
+std::string to_text(Grade grade);
+
+/// V: d - e, infinite where either is.
+std::vector<double> signed_error(std::span<const double> d, std::span<const double> e);
+
+/// How many values of a signed error lie in each of `bins` equal parts of [low, high].
+struct ErrorHistogram {
+  double low = 0, high = 0;
+  std::vector<Index> count;
+};
+ErrorHistogram error_histogram(std::span<const double> signed_error, int bins);
+
+/// The more accurate method that a mesh of so many faces can be held against within a few seconds:
+/// the exact one, or wavefront-fine. `kind` itself, where there is none.
+MethodKind reference_for(MethodKind kind, Index faces);
+
+/// What distances are held against where nobody chose: those of heat and fast marching against
+/// waves, which take about as long as one heat query; on up to 1,000 faces, where waves may be as
+/// wrong, against exact ones, which take a few milliseconds there. `kind` itself, where it is near
+/// exact.
+MethodKind usual_reference(MethodKind kind, Index faces);
+
+/// Whether a is by its kind more accurate than b: heat and fast marching, wavefront,
+/// wavefront-fine, exact.
+bool is_better(MethodKind a, MethodKind b);
+
+/// The one option of the heat method to which most of an error is due.
+struct ErrorCause {
+  std::string option;   ///< the name of a setting: "time-factor"
+  std::string value;    ///< what lowers the error: "1"
+  std::string because;  ///< "t is too large (m = 100, sqrt(t) = 10 mean edges)"; empty: the value
+                        ///< is none that is recommended everywhere
+  double mean_relative_before = 0, mean_relative_after = 0;  ///< DistanceError::mean_relative
+};
+
+/// A setting that was solved with, and what it gave.
+struct TriedSetting {
+  std::string option, value;                    ///< of a setting: "method", "wavefront"
+  double mean_relative = 0, max_of_range = 0;   ///< of DistanceError
+  MethodKind against = MethodKind::kWavefront;  ///< what it was held against
+};
+/// One whose answer is good.
+using Remedy = TriedSetting;
+
+/// What to set.
+SettingHint setting_of(const TriedSetting& tried);
+
+struct Diagnosis {
+  std::optional<ErrorCause> cause;  ///< absent: no option of the heat method lowers the error much
+  std::optional<Remedy> remedy;     ///< absent: all that could be tried failed
+  std::vector<TriedSetting> tried;  ///< in order
+};
+
+/// Answers of a method, and what it was asked.
+struct CheckedAnswers {
+  const DistanceMethod& method;
+  const MethodOptions& options;  ///< that the method was made with
+  std::span<const SourceSet> sources;
+  std::span<const std::vector<double>> distances;  ///< one for each source set, V each
+};
+
+/// How much work a search for a cure takes on, as faces that are set up for one setting: a setting
+/// that shares all but one factor counts for a third of the mesh, a cover for two, a refined mesh
+/// for four. The first where it was asked for, the second where it was not.
+inline constexpr Index kMaxFacesDiagnosed = 300'000;
+inline constexpr Index kMaxFacesBesides = 100'000;
+
+/// Exact distances take some tenths of a second up to here, so that other methods are held against
+/// them, and they are offered where no other method is good.
+inline constexpr Index kMaxFacesExact = 20'000;
+
+/// What makes wrong answers right, by trying: solves again with one setting at a time changed, and
+/// takes the first whose answer is good. In this order, and the cheapest of each kind first:
+/// options of the heat method that are not what is recommended, set to that; other values of its
+/// options (time factors 2 and 4, the variant classic, other rules where there is a border, tufted
+/// covers, a finer mesh); the methods wavefront, wavefront-fine and, on up to kMaxFacesExact faces
+/// or where it is the reference, exact. Where no option of the heat method makes it good, the one
+/// that lowers the error most is the cause if it takes more than a fifth away, more faces only if
+/// they leave less than half of what another one leaves. What fails is passed over. `better`:
+/// distances of `reference` for the same sources. The method wavefront is held against exact
+/// distances on small meshes, else against wavefront-fine, where it is itself the reference.
+/// `most_faces`: kMaxFacesDiagnosed or kMaxFacesBesides. Errors: kCancelled. Cost: a set-up and
+/// queries for each setting tried, at most 16.
+Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
+                           const CheckedAnswers& answers, MethodKind reference,
+                           std::span<const std::vector<double>> better, Index most_faces,
+                           const Progress& progress = {});
+
+/// When other settings are tried (diagnose()).
+enum class RemedySearch {
+  kNever,
+  kWherePoor,     ///< on meshes of up to kMaxFacesBesides faces
+  kWhereNotGood,  ///< also where the answer is fair, and on larger meshes (kMaxFacesDiagnosed)
+};
+
+struct AccuracyOptions {
+  /// What the distances are held against: reference_for() is the most accurate method that fits the
+  /// mesh. None: usual_reference().
+  std::optional<MethodKind> reference = std::nullopt;
+  RemedySearch search = RemedySearch::kWherePoor;
+  int threads = 0;  ///< 0: all cores
+};
+
+/// Distances of a more accurate method from some source sets.
+struct ReferenceAnswers {
+  MethodKind method = MethodKind::kWavefront;
+  std::vector<std::vector<double>> distances;  ///< of each set: V, model units
+  double milliseconds = 0;                     ///< set-up and queries
+};
+
+/// How wrong distances are. Over several source sets the mean error is the mean of theirs, and the
+/// largest is the largest of any.
+struct AccuracyReport {
+  MethodKind reference = MethodKind::kExact;  ///< the method itself: there is nothing better
+  bool measured = false;                      ///< else only `reference` and `verdict` mean anything
+  bool failed = false;                        ///< the check itself failed; the verdict says why
+  DistanceError figures;
+  Grade grade = Grade::kPoor;
+  std::size_t worst_set = 0;   ///< the source set of DistanceError::worst
+  std::size_t sets = 1;        ///< source sets that were solved for
+  std::vector<double> values;  ///< of one set, V: d - d_reference; infinite where either is
+  ErrorHistogram histogram;    ///< of the values
+  std::string verdict;         ///< the grade and the figure that decides it, or why there is none
+  Hint advice;                 ///< what follows it in a sentence: why, what helps
+  double milliseconds = 0;     ///< that the reference took, set-up and queries
+  std::optional<ErrorCause> cause;  ///< the one option to which most of the error is due
+  std::optional<Remedy> remedy;     ///< a setting that was tried and is right
+  std::vector<TriedSetting> tried;  ///< all that was tried, in order
+
+  /// A grossly wrong answer, known to be one.
+  bool is_poor() const { return measured && grade == Grade::kPoor; }
+};
+
+/// Solves by `kind`. `beside`: a method on the same mesh whose triangulation is shared where it can
+/// be; may be null. Errors: those of build_method() and its queries.
+Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMesh>& mesh,
+                                         MethodKind kind, std::span<const SourceSet> sources,
+                                         int threads, const DistanceMethod* beside = nullptr,
+                                         const Progress& progress = {});
+
+/// The same by a method that is ready.
+Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
+                                         std::span<const SourceSet> sources,
+                                         const Progress& progress = {});
+
+/// Holds distances of `checked`, V for each source set, against better ones of the same sets.
+AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
+                            const ReferenceAnswers& better);
+
+/// The verdict and the advice, settings as in hint_text().
+std::string sentence(const AccuracyReport& report, std::string_view before_name = {});
+
+/// What is to be said where nothing better fits the mesh, or nothing was asked.
+AccuracyReport unmeasured(MethodKind method, std::string verdict);
+
+/// Looks for a setting that is right (diagnose()) as far as `search` allows, and puts it into the
+/// report and its advice. Preconditions: hold_against() made the report from answer.distances and
+/// `better`. Errors: kCancelled. Cost: that of diagnose().
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         RemedySearch search, const Progress& progress = {});
+
+/// All of the above: how wrong the answers of a method are. `answers`: what it gave for which
+/// sources; the method and its options serve the search and are shared by it where they can be.
+/// Where `options.reference` is no better than the method, nothing is measured. Errors: those of
+/// the reference; the distances themselves are untouched. Cost: a set-up of the reference without
+/// its triangulation, and its queries; the search, where one is made.
+///
+///     auto method = build_method(mesh, options);
+///     auto answer = (*method)->solve(sources);
+///     auto report = check_accuracy(mesh, {**method, options, {&sources, 1},
+///                                         {&answer->distances, 1}});
+///     if (report && report->is_poor()) warn(sentence(*report));
+Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>& mesh,
+                                      const CheckedAnswers& answers,
+                                      const AccuracyOptions& options = {},
+                                      const Progress& progress = {});
+
+/// "0.81 %".
+std::string percent_text(double share);
+
+}  // namespace geotherm

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "geotherm/distance_method.h"
+#include "geotherm/mesh.h"
+#include "geotherm/options.h"
+#include "geotherm/progress.h"
+
+// Any method by its options: what most programs need.
+namespace geotherm {
+
+/// What the methods of polyhedral_methods.h walk over; build_wave_surface() makes it.
+struct WaveSurface;
+
+/// A method with its options: those of the heat method, of which the others use `threads` alone.
+struct MethodOptions : HeatOptions {
+  MethodKind method = MethodKind::kHeat;
+  int refine = 0;  ///< how often every face is cut into four before anything is solved; >= 0
+
+  bool operator==(const MethodOptions&) const = default;
+};
+
+/// Whether one serves instead of the other: options that a method does not use do not count.
+bool same_method(const MethodOptions& a, const MethodOptions& b);
+
+/// Makes a mesh ready for a method. `waves`: the mesh's, where it is there already; made otherwise
+/// by the methods that walk over it. Vertices that are one (TriangleMesh::same_as()) have one
+/// distance, and are one as sources. With MethodOptions::refine the faces are subdivided (errors of
+/// subdivide()) and that is solved on; sources, answers and numbers stay those of the mesh, while
+/// the quality figures are of the fine one. Cost and errors: those of HeatMethod::build(),
+/// WavefrontMethod::build(), ...
+Result<std::shared_ptr<const DistanceMethod>> build_method(
+    std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options = {},
+    const Progress& progress = {}, std::shared_ptr<const WaveSurface> waves = nullptr);
+
+/// The same beside a method on the same mesh, null where there is none: a heat method shares with
+/// another one what stays the same (HeatMethod::with()).
+Result<std::shared_ptr<const DistanceMethod>> build_method_near(
+    std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
+    const DistanceMethod* near, const Progress& progress = {});
+
+/// What waves walk over, on the triangulation that a heat method has made. Null where `method` is
+/// none, or has another triangulation or mesh. Errors: those of build_wave_surface().
+Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
+                                                        const Progress& progress = {});
+
+}  // namespace geotherm

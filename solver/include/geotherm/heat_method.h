@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geotherm/distance_method.h"
+#include "geotherm/mesh.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/options.h"
+
+namespace geotherm {
+
+/// A triangulation of the surface that may have other edges than the mesh; internal.
+struct IntrinsicSurface;
+
+/// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013): solve
+/// (A + t L) u = u0, take X = -grad u / |grad u| on each face, solve L phi = div-form of X.
+///
+/// build() does everything that does not depend on the sources; solve() then costs two pairs of
+/// triangular solves and one pass over the faces. Immutable: solve() may be called from several
+/// threads at once. with() gives a method with other options that shares whatever stays the same:
+/// the symbolic analysis always (unless backend or Laplacian change), a factor where its matrix is
+/// the same.
+///
+/// A backend that fails (a matrix that it cannot factor, iterations or memory that end, a forecast
+/// of the factors above HeatOptions::memory_limit_mb) is replaced by the others in the order of
+/// backend_names(), unless HeatOptions::strict: warnings() says so, fallbacks() holds the reasons.
+/// A query that fails is answered by a method with another backend, which is set up then and kept;
+/// its result says so (DistanceResult::backend). Where t is extreme none of this helps, and where
+/// memory ended only what needs no factor does.
+///
+/// Progress: set-up asks between operators, flips, analysis and factorisations, but a numeric
+/// factorisation (the backend's library) cannot be interrupted: up to some seconds at a million
+/// faces. A query asks between its steps, and within an iterative backend every few milliseconds.
+/// Calls come from any thread of the work, one at a time, and none after the first that returned
+/// false. What was cancelled leaves no trace: the method answers as before.
+class HeatMethod final : public DistanceMethod {
+ public:
+  /// Errors: kNotAvailable (backend), kBadInput (options, a mesh without area), kNumericalFailure
+  /// (with the column or residual), kOutOfMemory, kCancelled.
+  static Result<HeatMethod> build(std::shared_ptr<const TriangleMesh> mesh,
+                                  const HeatOptions& options = {}, const Progress& progress = {});
+
+  /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake. The
+  /// backend that took over stays where the same one is asked for again.
+  Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
+
+  MethodKind kind() const override { return MethodKind::kHeat; }
+
+  /// As one blocked solve. Quality costs two matrix products and a pass over the faces. Offsets of
+  /// sources are refused (kBadInput).
+  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
+                                                 const QueryOptions& query = {},
+                                                 const Progress& progress = {}) const override;
+
+  const HeatOptions& options() const;              ///< with the backend at work
+  const std::vector<Fallback>& fallbacks() const;  ///< backends that failed before it
+  /// Diffusion time, model units squared. Rules that follow h or A/F follow those of each
+  /// component, times its Refinement::grading; then this is the time of the component with most
+  /// faces (of several, the first).
+  double t() const;
+  double relative_t() const;  ///< the same in squares of that component's mean edge
+  /// Of that component, Refinement::grading: with m = 1 what relative_t() is.
+  double grading() const;
+  /// The least and the largest time of a component, model units squared.
+  std::array<double, 2> t_range() const;
+  LaplacianKind laplacian() const;  ///< what kAuto became
+  Index flips() const;              ///< Delaunay edge flips made
+  /// What was inserted into the triangulation, never into the mesh. The same for every time step:
+  /// with() keeps it.
+  const RefinementCounts& refinement() const;
+  const SetupTiming& timing() const override;  ///< of build() or of the with() that made this
+  double memory_mb() const override;           ///< of all factors
+  double forecast_mb() const;                  ///< the same, as it was foreseen
+  const std::vector<Warning>& warnings() const override;
+  const HeatMethod* heat() const override { return this; }
+
+  /// The triangulation of the operators, where it is Delaunay and no cover, inserted vertices
+  /// included: what waves on the same mesh may share. Null otherwise.
+  std::shared_ptr<const IntrinsicSurface> delaunay_triangulation() const;
+
+ private:
+  struct State;
+  explicit HeatMethod(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+  std::shared_ptr<const State> state_;
+};
+
+/// What LaplacianKind::kAuto becomes on a mesh.
+inline LaplacianKind auto_kind(const MeshReport& mesh) {
+  if (mesh.refinement.points > 0) return LaplacianKind::kRefined;
+  if (mesh.tufted_components > 0) return LaplacianKind::kTufted;
+  return mesh.non_delaunay_edges > 0 ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
+}
+
+}  // namespace geotherm

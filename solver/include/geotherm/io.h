@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+
+// Models from files, and distances, meshes and arrays to files.
+namespace geotherm {
+
+/// A model as read from a file: the mesh and what the reader had to do to get it.
+struct MeshFile {
+  TriangleMesh mesh;
+  Index polygons = 0;              ///< faces with more than three corners that were triangulated
+  Index welded = 0;                ///< STL: corners that were merged into shared vertices
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
+
+/// Reads `.obj`, `.ply` (ASCII, little and big endian), `.off`, `.stl` (ASCII, binary); the
+/// extension decides, in any case. Vertex numbers are 0-based and in the order of the file;
+/// an STL has none: equal corners are welded, numbered by first appearance.
+/// Coordinates are the doubles nearest to what is written. A face of more than three corners
+/// becomes a fan from its first corner, or, where that would fold over, triangles that cover it
+/// once. Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause
+/// (kBadFile); an unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file
+/// announces is held against its size before memory is asked for. A file that others change while
+/// it is read is an error (kBadFile). Independent of the locale. Cost: a copy of the file in
+/// memory, and one pass over it; OBJ on all cores.
+Result<MeshFile> read_mesh(const std::string& path);
+
+/// The names of the formats: obj, ply, off, stl.
+std::vector<std::string> mesh_formats();
+
+/// Errors: kNotAvailable (no such format), with those that there are.
+Result<void> check_mesh_format(std::string_view name);
+
+/// The same in a format that is named, whatever the extension. Errors: those and those of
+/// check_mesh_format().
+Result<MeshFile> read_mesh(const std::string& path, std::string_view format);
+
+/// From an open stream, such as standard input (0), to its end. `name`: in place of the path. The
+/// bytes are held in memory while they are parsed: at most half of what is free. Errors: the same.
+Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name);
+
+/// Numbers on the vertices or faces of a mesh, as files hold them beside the distances.
+struct DataField {
+  enum class Place { kVertices, kFaces };
+  enum class Type {
+    kFloat64,
+    kUint8,  ///< whole numbers, 0 to 255
+  };
+
+  std::string name;  ///< of a property or column: letters, digits, _
+  Place place = Place::kVertices;
+  Type type = Type::kFloat64;
+  std::vector<double> values;  ///< V or F, in the order of the file; infinite: no value
+};
+
+/// True when write_distances() knows the extension of `path`; otherwise the error says which
+/// extensions there are (and for .obj that the format holds no values).
+Result<void> check_distance_path(const std::string& path);
+
+/// Writes one distance per vertex, in the order of the file, model units, `inf` where unreached.
+/// The format is the extension's: `.csv` (`vertex,distance`, the fewest digits that read back
+/// equal),
+/// `.npy` (float64, shape V), `.ply` (binary little endian mesh with the vertex property
+/// `double distance`), `.vtp` (ParaView PolyData, point data `distance`). `path` "-" writes CSV to
+/// standard output. The file is written beside its place and renamed: it is there whole or not at
+/// all.
+///
+/// With `nearest`, a number per vertex (DistanceResult::nearest_source), they have a third column
+/// `nearest_source`, shape V x 2, a property `int nearest_source` and point data of that name.
+/// `fields` follow under their names: as columns (.csv, those of vertices), properties `double` or
+/// `uchar` of vertices and faces (.ply), point and cell data (.vtp).
+///
+/// Preconditions: distances.size() == mesh.vertex_count(), and nearest.size() unless it is empty;
+/// every field has as many values as its place has elements. Errors: those of check_field();
+/// kBadFile, with the path and the system's reason.
+Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
+                             std::span<const double> distances, std::span<const Index> nearest = {},
+                             std::span<const DataField> fields = {});
+
+/// Whether the file of this path holds the field beside the distances. Errors: kNotAvailable, with
+/// the extensions that do.
+Result<void> check_field(const std::string& path, const DataField& field);
+
+/// The same for write_mesh().
+Result<void> check_mesh_path(const std::string& path);
+
+/// Writes the mesh alone: `.obj`, `.ply` (binary), `.off` or `.stl` (binary), by extension.
+/// Positions read back exactly, except from .stl: 32-bit numbers, no vertex without a face, and
+/// vertices numbered by first use. `path` "-" writes OBJ to standard output.
+Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh);
+
+/// The numbers of a .npy array, little endian.
+enum class NpyType { kFloat64, kFloat32 };
+
+/// float64 | float32
+std::string to_text(NpyType type);
+
+/// Inverse of to_text(). Errors: kNotAvailable, with the names there are.
+Result<NpyType> parse_npy_type(std::string_view text);
+
+/// Bytes of a file of rows x columns numbers, header included.
+std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type);
+
+/// A .npy array of two dimensions that is written row by row, so that no more than one row need be
+/// in memory: whole or not at all, as with write_distances(). kFloat32 rounds to nearest; infinity
+/// stays what it is.
+class NpyRows {
+ public:
+  /// `path` "-" is standard output. Errors (kBadFile) carry the path and the system's reason.
+  static Result<NpyRows> open(const std::string& path, std::uint64_t rows, std::uint64_t columns,
+                              NpyType type);
+  NpyRows(NpyRows&&) noexcept;
+  NpyRows& operator=(NpyRows&&) noexcept;
+  ~NpyRows();
+
+  /// Precondition: as many values as columns; at most `rows` calls. Errors: kBadFile; kBadInput
+  /// where the values do not fit into kFloat32: one above 3.4e38, or all below 1.2e-38.
+  Result<void> append(std::span<const double> row);
+
+  /// Makes it the file of its path. Precondition: every row was appended.
+  Result<void> finish();
+
+ private:
+  struct State;
+  explicit NpyRows(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace geotherm

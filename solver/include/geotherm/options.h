@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geotherm/error.h"
+#include "geotherm/types.h"
+
+// The options of the heat method, and their text. docs/numerics.md says what each does and what it
+// is worth. The other methods have no option but the number of threads.
+namespace geotherm {
+
+/// How the diffusion time t (model units squared) is chosen.
+enum class TimeRule {
+  kMeanEdge,      ///< t = m h^2, h the mean edge length (Crane et al. 2013, section 3.2.4)
+  kMeanFaceArea,  ///< t = m A / F, total area over number of faces
+  kAbsolute,      ///< t = the given number
+};
+
+struct TimeStep {
+  TimeRule rule = TimeRule::kMeanEdge;
+  double factor = 1.0;    ///< m of the two first rules, > 0
+  double absolute = 0.0;  ///< t of kAbsolute, > 0
+
+  bool operator==(const TimeStep&) const = default;
+};
+
+/// What makes the singular Poisson system solvable (docs/numerics.md, "Constraint modes").
+enum class ConstraintMode {
+  kPinSources,      ///< phi = 0 held on every source
+  kPinVertex,       ///< phi = 0 held on one vertex of each component
+  kPenalty,         ///< last row and column replaced by `penalty` on the diagonal
+  kConserveEnergy,  ///< bordered with the masses: the total of phi is fixed
+  kPseudoInverse,   ///< the minimum-norm solution
+};
+
+struct Constraint {
+  ConstraintMode mode = ConstraintMode::kPinSources;
+  Index pin_vertex = kNoIndex;  ///< kPinVertex: this vertex in its component; otherwise chosen
+  double penalty = 10.0;        ///< kPenalty: the number on the diagonal, > 0
+
+  bool operator==(const Constraint&) const = default;
+};
+
+/// What the heat step diffuses.
+enum class HeatMode {
+  kUnit,     ///< right side 1 on every source
+  kDiffuse,  ///< right side A u0: the source's mass (Crane et al. 2013, equation 3)
+  kHold,     ///< u = 1 held on the sources
+};
+
+/// The condition on u along the border; phi's is always Neumann.
+enum class BoundaryRule {
+  kNeumann,    ///< no heat leaves
+  kDirichlet,  ///< u = 0 on the border
+  kAverage,    ///< the mean of both solutions
+};
+
+/// How the method is discretised (docs/numerics.md, "What is corrected").
+enum class Variant {
+  kCorrected,  ///< half-lumped mass, |X| < 1 where fronts meet, exact field in the source's
+               ///< faces; where vertices were inserted, near-exact distances around sources
+  kClassic,    ///< as published: lumped mass, |X| = 1 on every face
+};
+
+/// Which triangulation of the surface carries the operators.
+enum class LaplacianKind {
+  kAuto,               ///< kRefined where that inserts vertices, else kTufted where the surface is
+                       ///< no oriented manifold, else kIntrinsicDelaunay where an edge has a
+                       ///< negative weight, else kCotan
+  kCotan,              ///< the mesh as it is
+  kIntrinsicDelaunay,  ///< after intrinsic edge flips (Bobenko, Springborn 2007)
+  kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
+  kRefined,            ///< Delaunay flips, on the cover where needed, and inserted vertices where
+                       ///< faces are too large for t or the border is obtuse
+};
+
+/// How accurately systems are solved (docs/numerics.md, "Precision"). Iterative backends, which
+/// hold no factor and have a tolerance of their own, ignore it.
+enum class Precision {
+  kCompact,  ///< factors at half the size, where the backend can: distances to 1e-6 of the largest
+  kRefined,  ///< the same factors, and a step of iterative refinement in double a solve
+  kFull,     ///< factors in double
+};
+
+/// All options of the heat method. The defaults are the recommended ones.
+struct HeatOptions {
+  std::string backend;  ///< a name from backend_names(); empty: the first of them
+  TimeStep time_step;
+  Constraint constraint;
+  HeatMode heat = HeatMode::kUnit;
+  BoundaryRule boundary = BoundaryRule::kNeumann;
+  LaplacianKind laplacian = LaplacianKind::kAuto;
+  Variant variant = Variant::kCorrected;
+  Precision precision = Precision::kCompact;
+  int threads = 0;             ///< 0: all cores
+  bool strict = false;         ///< a backend that fails is not replaced by the next one
+  double memory_limit_mb = 0;  ///< most that factors may take, those being made with their
+                               ///< working space, in 2^20 bytes; 0: what is free
+
+  bool operator==(const HeatOptions&) const = default;
+};
+
+/// The text form of each option, as programs read and show it.
+/// parse(to_text(x)) == x for every x. Errors list the values there are.
+std::string to_text(const TimeStep& step);          // mean-edge | mean-face-area | absolute:T
+std::string to_text(const Constraint& constraint);  // pin-sources | pin-vertex[:V] | penalty:C ...
+std::string to_text(HeatMode mode);
+std::string to_text(BoundaryRule rule);
+std::string to_text(LaplacianKind kind);
+std::string to_text(Variant variant);
+std::string to_text(Precision precision);
+
+/// Every name of a kind, the default first.
+std::vector<std::string> heat_mode_names();
+std::vector<std::string> boundary_rule_names();
+std::vector<std::string> laplacian_names();
+std::vector<std::string> variant_names();
+std::vector<std::string> precision_names();
+
+/// `factor` (m) is no part of the time step's text; it is kept from the argument.
+Result<TimeStep> parse_time_step(std::string_view text, double factor = 1.0);
+Result<Constraint> parse_constraint(std::string_view text);
+Result<HeatMode> parse_heat_mode(std::string_view text);
+Result<BoundaryRule> parse_boundary_rule(std::string_view text);
+Result<LaplacianKind> parse_laplacian(std::string_view text);
+Result<Variant> parse_variant(std::string_view text);
+Result<Precision> parse_precision(std::string_view text);
+
+}  // namespace geotherm

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geotherm/distance_method.h"
+#include "geotherm/mesh.h"
+
+// Paths on the surface: polylines, the shortest ones, and files of them.
+namespace geotherm {
+
+/// A polyline on the surface. Two points that follow each other lie in a common face.
+struct SurfacePath {
+  std::vector<SurfacePoint>
+      points;                ///< n, of the mesh of the file; a closed path repeats its first
+  std::vector<Index> faces;  ///< n - 1: the face (of the file) that holds each piece
+  double length = 0;         ///< model units
+  bool closed = false;
+};
+
+/// Where a point of the mesh lies, model units. Precondition: it lies on the mesh.
+Vec3 position_at(const TriangleMesh& mesh, const SurfacePoint& point);
+
+/// The points as weights in a face each: that of the piece that begins there, the last one in that
+/// of the last piece. A path of one vertex takes the first face that has it; one of a vertex in no
+/// face stays bare.
+std::vector<SurfacePoint> points_in_faces(const TriangleMesh& mesh, const SurfacePath& path);
+
+/// Positions of the points, model units.
+std::vector<Vec3> positions_of(const TriangleMesh& mesh, const SurfacePath& path);
+
+/// Sum of the lengths of the pieces, model units.
+double length_of(const TriangleMesh& mesh, const std::vector<SurfacePoint>& points);
+
+/// The same path from its end to its start.
+SurfacePath reversed(SurfacePath path);
+
+/// Appends a path that begins where the other ends, if that has points.
+void append(SurfacePath& path, const SurfacePath& next);
+
+class PathSurface;
+
+/// What a path follows.
+enum class PathField {
+  kGeodesic,  ///< nothing: it is the shortest that is found, and straight wherever it can be
+  kDistance,  ///< -grad phi, the distance from its start, backwards from its end
+  kHeat,      ///< X = -grad u / |grad u| of the heat method, likewise
+};
+
+/// geodesic | distance | heat. Errors: kNotAvailable, with the names there are.
+std::string to_text(PathField field);
+Result<PathField> parse_path_field(std::string_view text);
+std::vector<std::string> path_field_names();
+
+struct PathOptions {
+  PathField field = PathField::kGeodesic;
+  bool closed = false;  ///< goes on from the last point to the first
+  /// A closed geodesic is held by its points; else these only say where it runs at first, and it
+  /// is shortened all round (to one point, where it can be).
+  bool hold_points = false;
+};
+
+struct FoundPath {
+  SurfacePath path;
+  std::vector<std::string> warnings;
+};
+
+/// Finds paths on one mesh. Immutable; several threads may ask at once.
+class PathFinder {
+ public:
+  /// `method`: of the same mesh. The better it is, the surer a geodesic is the shortest of all
+  /// (search_geodesic()): those of MethodKind::kWavefront will do. Cost: O(F).
+  PathFinder(std::shared_ptr<const TriangleMesh> mesh,
+             std::shared_ptr<const DistanceMethod> method);
+
+  /// The path through two points or more, in order. The geodesic from a to b is that from b to a.
+  /// Errors: kBadInput (fewer points, one that is not on the mesh, no way from one to the next, a
+  /// heat field without the heat method), kOutOfMemory, those of DistanceMethod::solve() and
+  /// shorten(). Shares of the progress do not fall.
+  /// Cost: a query of the method for each piece, or two for a geodesic, and milliseconds.
+  Result<FoundPath> find(std::span<const SurfacePoint> points, const PathOptions& options = {},
+                         const Progress& progress = {}) const;
+
+  /// The mesh as paths see it; internal.
+  const PathSurface& surface() const { return *surface_; }
+
+ private:
+  Result<FoundPath> through(std::span<const SurfacePoint> points, const PathOptions& options,
+                            const Progress& progress) const;
+  Result<FoundPath> piece(const SurfacePoint& from, const SurfacePoint& to, PathField field,
+                          const Progress& progress) const;
+  Result<FoundPath> streamline(const SurfacePoint& from, const SurfacePoint& to, PathField field,
+                               const Progress& progress) const;
+  Result<DistanceResult> distances(const SurfacePoint& source, bool heat,
+                                   const Progress& progress) const;
+  Result<FoundPath> geodesic(const SurfacePoint& from, const SurfacePoint& to,
+                             const Progress& progress) const;
+
+  std::shared_ptr<const PathSurface> surface_;
+  std::shared_ptr<const DistanceMethod> method_;
+};
+
+/// A line for a file, with its number there in the order given.
+struct Polyline {
+  const SurfacePath* path = nullptr;
+  std::optional<double> value;  ///< of an isoline; all lines of a file have one or none has
+};
+
+/// Errors: kNotAvailable, with the formats there are, unless write_polylines() knows the ending.
+Result<void> check_polyline_path(const std::string& path);
+
+/// Writes lines by the ending of `path`:
+/// - .obj: `v` and one `l` a line (`p` for a single point); a closed line ends where it begins.
+/// - .csv: polyline_csv().
+/// - .vtp: VTK PolyData with the cell data `length`, `closed` and, where there are any, `value`.
+/// Errors: kNotAvailable (another ending), kBadFile.
+Result<void> write_polylines(const std::string& path, const TriangleMesh& mesh,
+                             std::span<const Polyline> lines);
+
+/// One row a point: line,point,x,y,z,face,b0,b1,b2 and, where there are any, value. Faces and
+/// weights are those of points_in_faces(). A closed line repeats its first point.
+std::string polyline_csv(const TriangleMesh& mesh, std::span<const Polyline> lines);
+
+}  // namespace geotherm

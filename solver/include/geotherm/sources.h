@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "geotherm/mesh.h"
+
+// Where distance is 0.
+namespace geotherm {
+
+/// Where distance is 0: points, and mesh edges whose every point is a source (a curve).
+/// The ends of each edge are sources as well, whether or not they stand among the points.
+struct SourceSet {
+  std::vector<SurfacePoint> points;
+  std::vector<std::array<Index, 2>> edges;
+  std::vector<double> offsets{};  ///< of the points: distance there, >= 0, model units; none: all 0
+
+  static SourceSet of_vertices(const std::vector<Index>& vertices) {
+    SourceSet set;
+    for (const Index v : vertices) set.points.push_back(SurfacePoint::at_vertex(v));
+    return set;
+  }
+  bool empty() const { return points.empty() && edges.empty(); }
+  bool operator==(const SourceSet&) const = default;
+};
+
+/// Numbers the sources for labels: points first, then edges, each as in the set. A point has a
+/// group of its own; edges that touch, and points that are their ends, are one group. Groups are
+/// numbered 0, 1, ... in the order in which they first stand.
+struct SourceGroups {
+  std::vector<Index> of_point, of_edge;
+  Index count = 0;
+};
+SourceGroups source_groups(const SourceSet& sources);
+
+}  // namespace geotherm

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "solver/mesh/io/format_writers.h"
+
+#include <Eigen/Geometry>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+
+#include "solver/mesh/io/byte_order.h"
+
+namespace geotherm::io {
+namespace {
+
+template <class T>
+requires std::integral<T> || std::floating_point<T>
+void append(std::string& text, T value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+void append(std::string& text, const Vec3& p) {
+  append(text, p.x());
+  text += ' ';
+  append(text, p.y());
+  text += ' ';
+  append(text, p.z());
+  text += '\n';
+}
+
+}  // namespace
+
+std::string csv_bytes(std::span<const double> distances, std::span<const Index> nearest,
+                      std::span<const DataField> fields) {
+  std::string text = nearest.empty() ? "vertex,distance" : "vertex,distance,nearest_source";
+  for (const DataField& field : fields) text += ',' + field.name;
+  text += '\n';
+  text.reserve((28 + 20 * fields.size()) * distances.size() + text.size());
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    append(text, v);
+    text += ',';
+    append(text, distances[v]);
+    if (!nearest.empty()) {
+      text += ',';
+      append(text, nearest[v]);
+    }
+    for (const DataField& field : fields) {
+      text += ',';
+      append(text, field.values[v]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string obj_bytes(const TriangleMesh& mesh) {
+  std::string text;
+  text.reserve(64 * mesh.positions().size() + 24 * mesh.faces().size());
+  for (const Vec3& p : mesh.positions()) {
+    text += "v ";
+    append(text, p);
+  }
+  for (const Face& face : mesh.faces()) {
+    text += 'f';
+    for (const Index corner : face) {
+      text += ' ';
+      append(text, std::int64_t{corner} + 1);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string off_bytes(const TriangleMesh& mesh) {
+  std::string text = "OFF\n";
+  text.reserve(64 * mesh.positions().size() + 24 * mesh.faces().size());
+  append(text, mesh.vertex_count());
+  text += ' ';
+  append(text, mesh.face_count());
+  text += " 0\n";
+  for (const Vec3& p : mesh.positions()) append(text, p);
+  for (const Face& face : mesh.faces()) {
+    text += '3';
+    for (const Index corner : face) {
+      text += ' ';
+      append(text, corner);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+namespace {
+
+void append_little(std::string& bytes, const Vec3& p) {
+  for (int axis = 0; axis < 3; ++axis) io::append_little(bytes, p[axis]);
+}
+
+void append_faces(std::string& bytes, const Face& face) {
+  for (const Index corner : face) io::append_little(bytes, corner);
+}
+
+constexpr auto kOnVertices = DataField::Place::kVertices;
+constexpr auto kOnFaces = DataField::Place::kFaces;
+
+bool is_small(const DataField& field) { return field.type == DataField::Type::kUint8; }
+
+/// The value of one element in every field that has one there.
+void append_fields(std::string& bytes, std::span<const DataField> fields, DataField::Place place,
+                   std::size_t i) {
+  for (const DataField& field : fields) {
+    if (field.place != place) continue;
+    if (is_small(field)) {
+      io::append_little(bytes, static_cast<std::uint8_t>(field.values[i]));
+    } else {
+      io::append_little(bytes, field.values[i]);
+    }
+  }
+}
+
+std::string ply_properties(std::span<const DataField> fields, DataField::Place place) {
+  std::string text;
+  for (const DataField& field : fields) {
+    if (field.place != place) continue;
+    text += (is_small(field) ? "property uchar " : "property double ") + field.name + '\n';
+  }
+  return text;
+}
+
+/// Bytes of all values.
+std::uint64_t length_of(const DataField& field) {
+  return field.values.size() * (is_small(field) ? 1 : sizeof(double));
+}
+
+void append_array(std::string& bytes, const DataField& field) {
+  io::append_little(bytes, length_of(field));
+  for (std::size_t i = 0; i < field.values.size(); ++i) {
+    append_fields(bytes, {&field, 1}, field.place, i);
+  }
+}
+
+}  // namespace
+
+std::string npy_header(const std::string& type, std::span<const std::uint64_t> shape) {
+  constexpr std::size_t kPreamble = 10;  // magic, version, length of the header
+  constexpr std::size_t kAlignment = 64;
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (";
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    header += (i > 0 ? ", " : "") + std::to_string(shape[i]);
+  }
+  header += shape.size() == 1 ? ",), }" : "), }";
+  while ((kPreamble + header.size() + 1) % kAlignment != 0) header += ' ';
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  append_little(bytes, static_cast<std::uint16_t>(header.size()));
+  return bytes + header;
+}
+
+std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest) {
+  const std::uint64_t shape[] = {distances.size(), 2};
+  std::string bytes = npy_header("<f8", std::span(shape).first(nearest.empty() ? 1 : 2));
+  bytes.reserve(bytes.size() + sizeof(double) * (distances.size() + nearest.size()));
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    append_little(bytes, distances[v]);
+    if (!nearest.empty()) append_little(bytes, static_cast<double>(nearest[v]));
+  }
+  return bytes;
+}
+
+std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
+                      std::span<const Index> nearest, std::span<const DataField> fields) {
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.vertex_count()) +
+                      "\nproperty double x\nproperty double y\nproperty double z\n";
+  if (!distances.empty()) bytes += "property double distance\n";
+  if (!nearest.empty()) bytes += "property int nearest_source\n";
+  bytes += ply_properties(fields, kOnVertices);
+  bytes += "element face " + std::to_string(mesh.face_count()) +
+           "\nproperty list uchar int vertex_indices\n";
+  bytes += ply_properties(fields, kOnFaces) + "end_header\n";
+  std::size_t values = 0;
+  for (const DataField& field : fields) values += length_of(field);
+  bytes.reserve(bytes.size() + 36 * mesh.positions().size() + 13 * mesh.faces().size() + values);
+  for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
+    append_little(bytes, mesh.positions()[v]);
+    if (!distances.empty()) append_little(bytes, distances[v]);
+    if (!nearest.empty()) append_little(bytes, nearest[v]);
+    append_fields(bytes, fields, kOnVertices, v);
+  }
+  for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
+    bytes += '\3';
+    append_faces(bytes, mesh.faces()[f]);
+    append_fields(bytes, fields, kOnFaces, f);
+  }
+  return bytes;
+}
+
+std::string vtp_bytes(const TriangleMesh& mesh, std::span<const double> distances,
+                      std::span<const Index> nearest, std::span<const DataField> fields) {
+  const std::uint64_t vertices = mesh.positions().size();
+  const std::uint64_t faces = mesh.faces().size();
+  std::uint64_t offset = 0;
+  // Each array is appended as its length in bytes and its values; the XML holds where it starts.
+  const auto array = [&offset](const std::string& attributes, std::uint64_t length) {
+    const std::string start = std::to_string(offset);
+    offset += sizeof(std::uint64_t) + length;
+    return "<DataArray " + attributes + " format=\"appended\" offset=\"" + start + "\"/>\n";
+  };
+  const auto field_arrays = [&](DataField::Place place) {
+    std::string text;
+    for (const DataField& field : fields) {
+      if (field.place != place) continue;
+      const std::string type = is_small(field) ? "UInt8" : "Float64";
+      text += array("type=\"" + type + "\" Name=\"" + field.name + '"', length_of(field));
+    }
+    return text;
+  };
+  const std::uint64_t lengths[] = {8 * vertices, 24 * vertices, 12 * faces, 8 * faces};
+  const std::uint64_t nearest_length = 4 * vertices;
+  std::string bytes =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+      std::to_string(vertices) +
+      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+      std::to_string(faces) + "\">\n<PointData Scalars=\"distance\">\n";
+  bytes += array("type=\"Float64\" Name=\"distance\"", lengths[0]);
+  if (!nearest.empty()) bytes += array("type=\"Int32\" Name=\"nearest_source\"", nearest_length);
+  bytes += field_arrays(kOnVertices) + "</PointData>\n";
+  const std::string on_faces = field_arrays(kOnFaces);
+  if (!on_faces.empty()) bytes += "<CellData>\n" + on_faces + "</CellData>\n";
+  bytes += "<Points>\n";
+  bytes += array("type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"", lengths[1]);
+  bytes += "</Points>\n<Polys>\n";
+  bytes += array("type=\"Int32\" Name=\"connectivity\"", lengths[2]);
+  bytes += array("type=\"Int64\" Name=\"offsets\"", lengths[3]);
+  bytes += "</Polys>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+  bytes.reserve(bytes.size() + offset + 64);
+  append_little(bytes, lengths[0]);
+  for (const double distance : distances) append_little(bytes, distance);
+  if (!nearest.empty()) append_little(bytes, nearest_length);
+  for (const Index source : nearest) append_little(bytes, source);
+  for (const auto place : {kOnVertices, kOnFaces}) {
+    for (const DataField& field : fields) {
+      if (field.place == place) append_array(bytes, field);
+    }
+  }
+  append_little(bytes, lengths[1]);
+  for (const Vec3& p : mesh.positions()) append_little(bytes, p);
+  append_little(bytes, lengths[2]);
+  for (const Face& face : mesh.faces()) append_faces(bytes, face);
+  append_little(bytes, lengths[3]);
+  for (std::uint64_t f = 1; f <= faces; ++f) append_little(bytes, 3 * f);
+  return bytes + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+Result<std::string> stl_bytes(const TriangleMesh& mesh) {
+  constexpr std::size_t kHeader = 80;
+  std::string bytes = "binary STL, geotherm";
+  bytes.resize(kHeader, ' ');
+  bytes.reserve(kHeader + 4 + 50 * mesh.faces().size());
+  append_little(bytes, static_cast<std::uint32_t>(mesh.face_count()));
+  const auto append_floats = [&bytes](const Vec3& p) {
+    for (int axis = 0; axis < 3; ++axis) append_little(bytes, static_cast<float>(p[axis]));
+  };
+  for (const Face& face : mesh.faces()) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return mesh.positions()[static_cast<std::size_t>(face[k])];
+    };
+    const Vec3 area = (at(1) - at(0)).cross(at(2) - at(0));
+    const bool has_normal = area.norm() > 0 && std::isfinite(area.norm());
+    append_floats(has_normal ? Vec3(area / area.norm()) : Vec3(Vec3::Zero()));
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (at(k).cwiseAbs().maxCoeff() > double{std::numeric_limits<float>::max()}) {
+        return Error{
+            ErrorCode::kBadInput,
+            "vertex " + std::to_string(face[k]) + " is too far away for the 32-bit numbers of STL",
+            {"write .ply, .obj or .off"}};
+      }
+      append_floats(at(k));
+    }
+    append_little(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
+
+}  // namespace geotherm::io

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "geotherm/mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "geotherm/sources.h"
+#include "solver/core/sorting.h"
+
+namespace geotherm {
+
+Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
+  constexpr std::size_t kMax = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
+  if (faces.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has no faces (" + std::to_string(positions.size()) + " vertices)",
+                 {"distances need a surface of triangles"}};
+  }
+  if (positions.size() > kMax || faces.size() > kMax) {
+    return Error{ErrorCode::kBadInput,
+                 "the mesh has " + std::to_string(positions.size()) + " vertices and " +
+                     std::to_string(faces.size()) + " faces",
+                 {"at most " + std::to_string(kMax) + " of each are supported"}};
+  }
+  const auto vertex_count = static_cast<Index>(positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!positions[v].allFinite()) {
+      return Error{ErrorCode::kBadInput,
+                   "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+    }
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const Index corner : faces[f]) {
+      if (corner < 0 || corner >= vertex_count) {
+        return Error{ErrorCode::kBadInput, "face " + std::to_string(f) + " uses vertex " +
+                                               std::to_string(corner) + ", but there are " +
+                                               std::to_string(vertex_count) + " vertices"};
+      }
+    }
+  }
+  return TriangleMesh(std::move(positions), std::move(faces));
+}
+
+Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces,
+                                         std::vector<Index> same_as) {
+  auto mesh = build(std::move(positions), std::move(faces));
+  if (!mesh) return mesh;
+  const std::size_t count = same_as.size();
+  for (std::size_t v = 0; v < count; ++v) {
+    const Index low = same_as[v];
+    const bool valid = low >= 0 && static_cast<std::size_t>(low) <= v && same_as[low] == low;
+    if (valid && count == mesh->positions_.size()) continue;
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(v) + " of " + std::to_string(mesh->vertex_count()) +
+                     " cannot be the same as " + std::to_string(low) + " in a table of " +
+                     std::to_string(count),
+                 {"name the lowest vertex that each is one with"}};
+  }
+  if (same_as.empty()) return mesh;
+  for (Face& face : mesh->faces_) {
+    for (Index& corner : face) corner = same_as[corner];
+  }
+  mesh->same_as_ = std::move(same_as);
+  return mesh;
+}
+
+SourceGroups source_groups(const SourceSet& sources) {
+  const auto points = static_cast<Index>(sources.points.size());
+  const auto edges = static_cast<Index>(sources.edges.size());
+  DisjointSets sets(sources.points.size() + sources.edges.size());
+  std::unordered_map<Index, Index> end_of;  // vertex to an edge that ends there
+  for (Index e = 0; e < edges; ++e) {
+    for (const Index v : sources.edges[e]) {
+      const auto [at, fresh] = end_of.try_emplace(v, points + e);
+      if (!fresh) sets.join(points + e, at->second);
+    }
+  }
+  for (Index i = 0; i < points; ++i) {
+    if (!sources.points[i].is_vertex()) continue;
+    const auto at = end_of.find(sources.points[i].vertex);
+    if (at != end_of.end()) sets.join(i, at->second);
+  }
+  SourceGroups groups;
+  std::unordered_map<Index, Index> number;
+  const auto group_of = [&](Index i) {
+    const auto [at, fresh] = number.try_emplace(sets.root(i), groups.count);
+    groups.count += fresh;
+    return at->second;
+  };
+  for (Index i = 0; i < points; ++i) groups.of_point.push_back(group_of(i));
+  for (Index e = 0; e < edges; ++e) {
+    groups.of_edge.push_back(group_of(points + e));
+  }
+  return groups;
+}
+
+namespace {
+
+using Weights = std::array<double, 3>;
+
+struct Candidate {
+  Weights weights{};
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Corners relative to the query, divided by their largest coordinate: no square over- or
+/// underflows, and what is near keeps its digits.
+struct LocalTriangle {
+  std::array<Vec3, 3> corners;
+  double unit;
+};
+
+LocalTriangle around(const Vec3& query, const std::array<Vec3, 3>& corners) {
+  LocalTriangle local{{corners[0] - query, corners[1] - query, corners[2] - query}, 0.0};
+  for (const Vec3& corner : local.corners) {
+    local.unit = std::max(local.unit, corner.cwiseAbs().maxCoeff());
+  }
+  if (local.unit > 0) {
+    for (Vec3& corner : local.corners) corner /= local.unit;
+  }
+  return local;
+}
+
+/// The distance is measured at the point that the weights give, so that it is honest even where
+/// the weights of a needle are not.
+void offer(const LocalTriangle& t, const Weights& w, Candidate& best) {
+  const double distance =
+      t.unit * (w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2]).norm();
+  if (distance < best.distance) best = {w, distance};
+}
+
+void offer_inside(const LocalTriangle& t, Candidate& best) {
+  const auto& [a, b, c] = t.corners;
+  const Vec3 normal = (b - a).cross(c - a);
+  Weights w = {b.cross(c).dot(normal), c.cross(a).dot(normal), a.cross(b).dot(normal)};
+  const double sum = w[0] + w[1] + w[2];
+  if (!(sum > 0) || std::min({w[0], w[1], w[2]}) < 0) return;
+  for (double& each : w) each /= sum;
+  offer(t, w, best);
+}
+
+void offer_side(const LocalTriangle& t, int k, Candidate& best) {
+  const int next = k == 2 ? 0 : k + 1;
+  const Vec3 along = t.corners[next] - t.corners[k];
+  const double length2 = along.squaredNorm();
+  const double s = length2 > 0 ? std::clamp(-t.corners[k].dot(along) / length2, 0.0, 1.0) : 0.0;
+  Weights w{};
+  w[k] = 1 - s;
+  w[next] = s;
+  offer(t, w, best);
+}
+
+}  // namespace
+
+Result<ClosestPoint> closest_point(const TriangleMesh& mesh, const Vec3& query) {
+  if (!query.allFinite()) {
+    return Error{ErrorCode::kBadInput, "the point has a coordinate that is not finite"};
+  }
+  Candidate best;
+  Index best_face = kNoIndex;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Face& face = mesh.faces()[f];
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    const LocalTriangle local = around(
+        query, {mesh.positions()[face[0]], mesh.positions()[face[1]], mesh.positions()[face[2]]});
+    Candidate here;
+    offer_inside(local, here);
+    for (int k = 0; k < 3; ++k) offer_side(local, k, here);
+    if (!(here.distance < best.distance)) continue;
+    best = here;
+    best_face = f;
+  }
+  if (best_face == kNoIndex) {
+    return Error{ErrorCode::kBadInput,
+                 "none of the " + std::to_string(mesh.face_count()) +
+                     " faces can hold a point; each repeats a corner or is infinitely far"};
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (best.weights[k] != 1.0) continue;
+    return ClosestPoint{SurfacePoint::at_vertex(mesh.faces()[best_face][k]), best.distance};
+  }
+  return ClosestPoint{SurfacePoint::in_face(best_face, best.weights), best.distance};
+}
+
+}  // namespace geotherm

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "geotherm/error.h"
+
+namespace geotherm {
+
+/// A file that is written piece by piece: beside its place until finish() renames it, so that it is
+/// there whole or not at all. Without finish(), or where a signal ends the program
+/// (remove_unfinished_files()), nothing is left. A link stays a link, and a device or a pipe is
+/// written to as it is. "-" is standard output, through the C stream. For one thread at a time.
+/// Errors (kBadFile) carry the path and the system's reason.
+class GrowingFile {
+ public:
+  static Result<GrowingFile> open(const std::string& path);
+
+  GrowingFile(GrowingFile&&) noexcept;
+  GrowingFile& operator=(GrowingFile&&) noexcept;
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+  ~GrowingFile();
+
+  /// Cost: one system call; append much at once.
+  Result<void> append(std::string_view bytes);
+
+  /// Makes it the file of its path. Nothing may follow.
+  Result<void> finish();
+
+ private:
+  struct State;
+  explicit GrowingFile(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// Bytes that still fit where `path` is to be written; empty where no file grows there (standard
+/// output, a device) or the system does not say.
+std::optional<std::uint64_t> room_for(const std::string& path);
+
+/// Writes `bytes` beside `path` and renames: `path` is there whole or not at all. "-" is standard
+/// output. Errors (kBadFile) carry the path and the system's reason; the temporary is removed.
+Result<void> write_file(const std::string& path, std::string_view bytes);
+
+/// Removes what GrowingFile and write_file() have begun beside their targets, on every thread, and
+/// lets it begin nothing more: for the handler of a signal that ends the program.
+/// Async-signal-safe; waits up to a second for a thread that opens a file at this moment.
+void remove_unfinished_files() noexcept;
+
+}  // namespace geotherm
