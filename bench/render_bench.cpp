@@ -8,8 +8,8 @@
 #include "app/main_drawing/upload_picture.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"
-#include "engine/offscreen_target.h"
 #include "engine/renderer.h"
+#include "engine/target.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/heat_method.h"
 

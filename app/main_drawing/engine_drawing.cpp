@@ -10,7 +10,6 @@
 #include "app/main_drawing/upload_picture.h"
 #include "app/picture/turntable.h"
 #include "engine/device.h"
-#include "engine/picture.h"
 #include "engine/renderer.h"
 #include "solver/core/free_memory.h"
 

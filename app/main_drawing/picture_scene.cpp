@@ -7,8 +7,7 @@
 
 #include "app/picture/face_view.h"
 #include "app/text.h"
-#include "engine/scene/colour_map.h"
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "app/picture/picture_scale.h"
-#include "engine/overlay/legend.h"
+#include "engine/overlay/overlay.h"
 #include "engine/scene/scene.h"
 
 // Settings of a picture in the engine's words.

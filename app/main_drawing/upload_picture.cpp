@@ -2,8 +2,7 @@
 #include "app/main_drawing/upload_picture.h"
 
 #include "app/picture/picture_scale.h"
-#include "engine/scene/colour_map.h"
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 
 namespace geotherm::app {
 namespace {

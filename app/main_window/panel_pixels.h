@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/overlay/panel_draw.h"
+#include "engine/renderer.h"
 
 // What Dear ImGui has laid out, in the engine's words; of the current context.
 namespace geotherm::app {

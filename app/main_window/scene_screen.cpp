@@ -5,7 +5,7 @@
 #include "app/main_drawing/device_words.h"
 #include "app/main_drawing/picture_scene.h"
 #include "app/main_drawing/upload_picture.h"
-#include "engine/picture.h"
+#include "engine/renderer.h"
 
 namespace geotherm::app {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "app/main_drawing/picture_scene.h"
 #include "app/picture_report.h"
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 
 namespace geotherm::app {
 namespace {

@@ -11,7 +11,7 @@
 #include "app/text.h"
 #include "app/told.h"
 #include "engine/overlay/overlay.h"
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/models/generate.h"
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/heat/heat_method.h"
 #include "tests/engine/stage.h"

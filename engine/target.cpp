@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "engine/offscreen_target.h"
+#include "engine/target.h"
 
 #include <cassert>
 #include <cstring>
 
 #include "engine/vulkan/device_state.h"
-#include "engine/vulkan/target_frame.h"
-#include "engine/vulkan/vulkan_error.h"
+#include "engine/vulkan/vulkan.h"
 
 namespace geotherm::engine {
 namespace {
