@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "app/main_drawing/picture_scene.h"
-#include "app/main_drawing/upload_picture.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"
 #include "engine/renderer.h"
