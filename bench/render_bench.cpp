@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/render_bench.h"
+#include "bench/viewer_bench.h"
 
 #include <cmath>
 #include <memory>

@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/explore_bench.h"
-#include "bench/growth.h"
 #include "bench/load_bench.h"
-#include "bench/machine.h"
 #include "bench/machine_limits.h"
-#include "bench/render_bench.h"
 #include "bench/solve_bench.h"
+#include "bench/viewer_bench.h"
 
 namespace geotherm::bench {
 

@@ -8,7 +8,7 @@
 
 #include "bench/bench_mesh.h"
 #include "bench/estimates.h"
-#include "bench/rates.h"
+#include "bench/measure.h"
 #include "solver/core/free_memory.h"
 #include "solver/core/parallel.h"
 #include "solver/heat/heat_method.h"

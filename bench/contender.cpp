@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "bench/measure.h"
+
 #include <utility>
 
-#include "bench/contender.h"
 #include "solver/method/build_method.h"
 
 namespace geotherm::bench {
