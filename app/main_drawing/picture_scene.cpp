@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "app/picture/face_view.h"
 #include "app/picture/picture_scale.h"
 #include "app/text.h"
 #include "engine/scene/colours.h"

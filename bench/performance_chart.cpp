@@ -1,48 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "bench/chart/performance_chart.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
-#include "bench/chart/panel.h"
-#include "bench/chart/svg.h"
+#include "app/chart.h"
 #include "bench/number_text.h"
+#include "bench/report.h"
 
 namespace geotherm::bench {
 namespace {
 
-// Colours that people with any kind of colour blindness tell apart (Okabe, Ito 2002), darker on
-// white and lighter on black than there, so that thin lines stand out; the baseline is grey.
-constexpr const char* kStyle = R"(
-text { font: 13px system-ui, -apple-system, "Segoe UI", "Helvetica Neue", Arial, sans-serif;
-  fill: #1c2733 }
-.page { fill: #ffffff } .soft { fill: #5d6b7c; font-size: 12px }
-.head { font-size: 20px; font-weight: 600 } .title { font-size: 15px; font-weight: 600 }
-.grid { stroke: #e4e9ee } .axis { stroke: #8e9aa8 }
-.curve { fill: none; stroke: currentColor; stroke-width: 2; stroke-linejoin: round }
-.dot { fill: currentColor } .hollow { fill: none; stroke: currentColor; stroke-width: 1.4; opacity: 0.7 }
-.end { fill: currentColor; font-weight: 600; stroke: #ffffff; stroke-width: 4;
-  paint-order: stroke; stroke-linejoin: round }
-.base { color: #6b7684 } .base .curve { stroke-dasharray: 6 4 } .any { color: #1c2733 }
-.k0 { color: #0068a8 } .k1 { color: #c94f00 } .k2 { color: #008561 } .k3 { color: #a8447f }
-.k4 { color: #9a6a00 } .k5 { color: #2a93c9 }
-@media (prefers-color-scheme: dark) {
-  text { fill: #e3e8ee } .page { fill: #14191f } .soft { fill: #9aa7b5 }
-  .grid { stroke: #28313b } .axis { stroke: #6b7684 } .end { fill: currentColor; stroke: #14191f }
-  .base { color: #9aa7b5 } .any { color: #e3e8ee }
-  .k0 { color: #5cb4ee } .k1 { color: #f58a45 } .k2 { color: #2fc79c } .k3 { color: #e592c3 }
-  .k4 { color: #e8b53c } .k5 { color: #a3d9f7 }
-}
-)";
+using app::chart::Box;
+using app::chart::Mark;
+using app::chart::Panel;
+using app::chart::Series;
 
 constexpr double kPage[2] = {1140, 870};
 constexpr double kLeft = 84, kAcross = 560, kTop = 168, kDown = 370;
 constexpr double kBox[2] = {350, 268};
 
 /// What a panel shows of the figures.
-struct Quantity {
+struct Shown {
   const char* title;
   double Figures::*figure;
   std::string (*tick)(double);
@@ -58,7 +38,7 @@ std::string faces_tick(double faces) {
   return faces < 1e6 ? tick_digits(faces / 1e3) + "k" : tick_digits(faces / 1e6) + "M";
 }
 
-constexpr Quantity kQuantities[] = {
+constexpr Shown kPanels[] = {
     {"Set-up: from a mesh in memory to the first query", &Figures::setup_ms, time_tick, false},
     {"Query: all distances from one source", &Figures::query_ms, time_tick, false},
     {"Batch: one of 16 sources that are asked for together", &Figures::batch_ms_per_source,
@@ -99,19 +79,16 @@ class Chart {
   }
 
   std::string svg() const {
-    std::string body = "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n" +
-                       svg::text(kLeft - 50, 44, "start", "head",
-                                 "The heat method by backend, beside a plain use of CHOLMOD") +
-                       svg::text(kLeft - 50, 68, "start", "soft", where_measured()) + legend();
-    for (std::size_t q = 0; q < std::size(kQuantities); ++q) {
+    std::string body =
+        app::chart::text(kLeft - 50, 44, "start", "head",
+                         "The heat method by backend, beside a plain use of CHOLMOD") +
+        app::chart::text(kLeft - 50, 68, "start", "soft", where_measured()) + legend();
+    for (std::size_t q = 0; q < std::size(kPanels); ++q) {
       const Box box{kLeft + kAcross * static_cast<double>(q % 2),
                     kTop + kDown * static_cast<double>(q / 2), kBox[0], kBox[1]};
-      body += panel_svg(panel(kQuantities[q]), box);
+      body += panel_svg(panel(kPanels[q]), box);
     }
-    const std::string size = format("width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\"",
-                                    kPage[0], kPage[1], kPage[0], kPage[1]);
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + size + ">\n<style>" + kStyle +
-           "</style>\n" + body + "</svg>\n";
+    return app::chart::page(kPage[0], kPage[1], body);
   }
 
  private:
@@ -133,12 +110,13 @@ class Chart {
     double x = kLeft - 50;
     const auto entry = [&](const std::string& kind, const std::string& sample,
                            const std::string& text) {
-      out += svg::group(kind, sample) + svg::text(x + kSample + 6, kY, "start", "", text);
+      out += app::chart::group(kind, sample) +
+             app::chart::text(x + kSample + 6, kY, "start", "", text);
       x += kSample + kSpace + kLetter * static_cast<double>(text.size());
     };
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const std::string sample = svg::polyline({{x, kY - 4}, {x + kSample, kY - 4}}, "curve") +
-                                 mark_svg(Mark::kDot, x + kSample / 2, kY - 4);
+      const std::string sample =
+          app::chart::sample(x, kY - 4, kSample) + mark_svg(Mark::kDot, x + kSample / 2, kY - 4);
       entry(kind_of(i), sample, names_[i]);
     }
     for (const auto& [mesh, regular] : meshes_) {
@@ -148,20 +126,20 @@ class Chart {
     return out;
   }
 
-  Panel panel(const Quantity& quantity) const {
+  Panel panel(const Shown& quantity) const {
     Panel out{quantity.title, "faces", faces_tick, quantity.tick, {}};
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      PanelSeries series;
+      Series series;
       series.kind = kind_of(i);
       for (const SolveGroup& group : run_.groups) add(group, names_[i], quantity, series);
-      std::ranges::sort(series.joined, {}, &PanelPoint::x);
+      std::ranges::sort(series.joined, {}, &app::chart::Point::x);
       out.series.push_back(std::move(series));
     }
     return out;
   }
 
-  void add(const SolveGroup& group, const std::string& name, const Quantity& quantity,
-           PanelSeries& series) const {
+  void add(const SolveGroup& group, const std::string& name, const Shown& quantity,
+           Series& series) const {
     const auto figures = std::ranges::find(group.figures, name, &Figures::name);
     if (figures == group.figures.end()) return;
     const double value = (*figures).*quantity.figure;
@@ -173,7 +151,7 @@ class Chart {
   }
 
   static std::string end_label(const std::string& name, double ours, const Figures* baseline,
-                               const Quantity& quantity) {
+                               const Shown& quantity) {
     if (name == kBaseline || baseline == nullptr) return name;
     const double theirs = (*baseline).*quantity.figure;
     if (!(theirs > 0) || !std::isfinite(theirs)) return name;

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
+#include <vector>
 
 #include "app/picture/picture_settings.h"
+#include "solver/mesh/ray_tree.h"
 #include "solver/mesh/triangle_mesh.h"
 
 namespace geotherm::app {
@@ -43,5 +46,29 @@ class LineView {
   double scale_ = 1;  ///< pixels a unit of on_screen()
   Eigen::Vector2d middle_ = Eigen::Vector2d::Zero(), shift_ = Eigen::Vector2d::Zero();
 };
+
+/// A line or the outline of a region in a picture, pixels.
+using Outline = std::vector<Eigen::Vector2d>;
+
+/// What of lines on a surface is seen: the surface does not hide it.
+class LineSight {
+ public:
+  LineSight(const RayTree& tree, const LineView& view) : tree_(tree), view_(view) {}
+
+  bool sees(const Vec3& point) const;
+
+  /// The visible parts of a polyline, pixels; where they end is found to a small part of a piece.
+  std::vector<Outline> visible_parts(std::span<const Vec3> points) const;
+
+ private:
+  Vec3 last_seen(Vec3 seen, Vec3 hidden) const;
+
+  const RayTree& tree_;
+  const LineView& view_;
+};
+
+/// Borders, and the edges where the surface turns away from the eye: visible parts, pixels.
+std::vector<Outline> visible_contours(const TriangleMesh& mesh, const LineSight& sight,
+                                      const LineView& view);
 
 }  // namespace geotherm::app
