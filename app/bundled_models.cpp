@@ -13,11 +13,13 @@ namespace geotherm::app {
 namespace {
 
 constexpr BundledModel kModels[] = {
-    {"terrain", 33'000, "mountains cut by rivers, a height field with an open border"},
-    {"sleeve", 37'000, "a bent garment sleeve with folds, open at the shoulder and the cuff"},
-    {"cube", 30'000, "a cube with exact edges and corners"},
-    {"gargoyle", 200'000, "a horned, winged creature that crouches on a plinth"},
-    {"bunny", 4'000, "a sitting rabbit"},
+    {"terrain", 33'000, "mountains cut by rivers, a height field with an open border",
+     "a landscape with one boundary"},
+    {"sleeve", 37'000, "a bent garment sleeve with folds, open at the shoulder and the cuff",
+     "a tube with two boundaries"},
+    {"cube", 30'000, "a cube with exact edges and corners", "with exact edges"},
+    {"gargoyle", 200'000, "a horned, winged creature that crouches on a plinth", "200,000 faces"},
+    {"bunny", 4'000, "a sitting rabbit", "4,000 faces"},
 };
 
 /// Where files of models are looked for, in this order.

@@ -15,6 +15,7 @@ struct BundledModel {
   std::string_view name;
   Index faces;  ///< about
   std::string_view description;
+  std::string_view feature;  ///< what menus say beside the name
 };
 
 /// All of them: terrain, sleeve, cube, gargoyle, bunny.

@@ -5,7 +5,7 @@
 
 #include "app/explore/explored_picture.h"
 #include "app/outputs.h"
-#include "app/picture/face_view.h"
+#include "app/picture/picture_scale.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/target_paths.h"
 #include "app/picture/turntable.h"

@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "app/command_line.h"
-#include "app/main_drawing/make_drawing.h"
-#include "app/main_window/make_window.h"
+#include "app/drawing.h"
+#include "app/viewer_window.h"
 #include "solver/mesh/output_file.h"
 
 namespace {

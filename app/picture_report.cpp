@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "app/picture/face_view.h"
-#include "app/picture/picture_caption.h"
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_scale.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/turntable.h"
 #include "app/text.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,8 @@ class ViewerWindow {
   /// at the start), kNumericalFailure (validation spoke).
   virtual Result<void> run(const ViewerStart& start) = 0;
 };
+
+/// The window of this build, or a stand-in that says that there is none. Opens nothing yet.
+std::unique_ptr<ViewerWindow> make_window();
 
 }  // namespace geotherm::app

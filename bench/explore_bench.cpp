@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/explore_bench.h"
+#include "bench/viewer_bench.h"
 
 #include <algorithm>
 #include <condition_variable>

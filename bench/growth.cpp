@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "bench/growth.h"
+#include "bench/solve_bench.h"
 
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "bench/report.h"
 
 namespace geotherm::bench {
 namespace {
@@ -72,6 +74,20 @@ std::vector<Growth> measure_growth(const std::vector<SolveGroup>& groups) {
     if (std::isfinite(growth.all.setup)) out.push_back(growth);
   }
   return out;
+}
+
+Ratios ratios_of(const Figures& ours, const Figures* baseline) {
+  if (baseline == nullptr) return {};
+  return {baseline->setup_ms / ours.setup_ms, baseline->query_ms / ours.query_ms,
+          baseline->batch_ms_per_source / ours.batch_ms_per_source,
+          ours.factor_mb / baseline->factor_mb, ours.peak_mb / baseline->peak_mb};
+}
+
+Shares shares_of(const Rates& rates, const MachineLimits& limits, int threads) {
+  if (!limits.measured()) return {};
+  return {rates.factor_gflops / (threads > 1 ? limits.all_gflops : limits.one_gflops),
+          rates.solve_gbs / limits.reading_gbs(rates.factor_bytes, threads),
+          rates.solve_gbs / limits.memory_gbs(threads)};
 }
 
 }  // namespace geotherm::bench

@@ -10,6 +10,10 @@
 #include "geotherm/io.h"
 #include "solver/core/stopwatch.h"
 
+#ifdef GEOTHERM_BENCH_TINYOBJLOADER
+#include <tiny_obj_loader.h>
+#endif
+
 namespace geotherm::bench {
 namespace {
 
@@ -43,6 +47,20 @@ bool write_obj(const std::string& path, const TriangleMesh& mesh) {
   }
   const bool whole = std::ferror(file) == 0;
   return std::fclose(file) == 0 && whole;
+}
+
+/// Milliseconds that tinyobjloader takes to read the file; kNotMeasured in a build without it.
+Result<double> time_tinyobjloader([[maybe_unused]] const std::string& path) {
+#ifdef GEOTHERM_BENCH_TINYOBJLOADER
+  tinyobj::ObjReader reader;
+  const Stopwatch watch;
+  const bool read = reader.ParseFromFile(path);
+  const double elapsed = watch.milliseconds();
+  if (read) return elapsed;
+  return Error{ErrorCode::kBadFile, "tinyobjloader: " + reader.Error()};
+#else
+  return kNotMeasured;
+#endif
 }
 
 }  // namespace

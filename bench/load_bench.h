@@ -23,8 +23,4 @@ struct LoadRow {
 /// it `runs` times with each reader.
 LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs);
 
-/// Milliseconds that tinyobjloader takes to read the file; kNotMeasured in a build without it.
-/// Errors: kBadFile.
-Result<double> time_tinyobjloader(const std::string& path);
-
 }  // namespace geotherm::bench

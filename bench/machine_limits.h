@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "app/machine.h"
 #include "bench/measure.h"
+#include "solver/core/processor.h"
 
 namespace geotherm::bench {
+
+/// What the figures were measured on.
+struct Machine : app::Machine {
+  std::string compiler;
+  double load = 0;  ///< of other programs when this was read: runnable threads, a minute's mean
+};
+
+Machine read_machine();
 
 /// What the machine can do at best, measured in the same run as what is divided by it: the best of
 /// many short attempts, since other programs only ever take away.
@@ -43,5 +55,13 @@ MachineLimits measure_limits(int threads, double largest_bytes, const Say& say);
 /// Measures again, and keeps the better of both figures: after work that takes long, since a busy
 /// minute before it would set its limits too low. Cost: as much once more.
 MachineLimits remeasure_limits(const MachineLimits& before, const Say& say);
+
+/// Sums `count` doubles with as many registers as keep up with memory. Precondition: a multiple of
+/// 64, aligned to 64 bytes. The sum is returned so that no compiler leaves the reading out.
+double read_all(const double* values, std::size_t count, InstructionSet set);
+
+/// So many rounds of independent fused multiply-adds that live in registers. Returns the
+/// floating-point operations done (two each); `sink` gets what was computed.
+double multiply_add(std::int64_t rounds, InstructionSet set, double& sink);
 
 }  // namespace geotherm::bench

@@ -9,9 +9,7 @@
 #include <string>
 
 #include "bench/bench_mesh.h"
-#include "bench/chart/performance_chart.h"
 #include "bench/load_bench.h"
-#include "bench/machine.h"
 #include "bench/machine_limits.h"
 #include "bench/report.h"
 #include "bench/solve_bench.h"

@@ -9,9 +9,45 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/contender.h"
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
 
 namespace geotherm::bench {
+
+/// One way to get geodesic distance, as the benchmark drives it: set up once for a mesh, then ask.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+
+  virtual std::string name() const = 0;
+
+  /// Not another method that answers the same question.
+  virtual bool heat_method() const { return true; }
+
+  /// Everything between a mesh in memory and the first query ready. Replaces an earlier set-up.
+  virtual Result<void> set_up(std::shared_ptr<const TriangleMesh> mesh) = 0;
+
+  /// Frees what set_up() made.
+  virtual void drop() = 0;
+
+  /// Distances to one vertex.
+  virtual Result<std::vector<double>> query(Index source) = 0;
+
+  /// Distances to each of the sources, by the fastest way there is.
+  virtual Result<void> batch(std::span<const Index> sources) = 0;
+
+  /// Memory of all factors, in 2^20 bytes.
+  virtual double factor_mb() const = 0;
+};
+
+/// geotherm with this backend of the heat method, or with another method, and default options.
+/// `threads` 0: all cores.
+std::unique_ptr<Contender> make_contender(std::string name, int threads);
+
+/// What the backends are held against; null in a build without CHOLMOD.
+std::unique_ptr<Contender> make_baseline_contender();
+
+inline constexpr const char* kBaseline = "baseline";
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,5 +108,25 @@ struct Race {
 /// them alike. With one at a time they take turns in their set-ups; each is asked after its last.
 /// All are dropped in the end. Figures are in the order of the contenders.
 std::vector<Figures> measure(const Race& race, const Say& say, const OnAnswer& on_answer = {});
+
+/// How fast a backend factorises and reads its factors, apart from everything around it: the
+/// numeric factorisations of A + t L and of L with one row held, side by side as HeatMethod makes
+/// them, and solves of the second with a dense right side. Best of as many attempts as fit into
+/// `milliseconds`, one at least. Assembly of the matrices is not counted. Empty figures for a
+/// backend that is iterative or does not count its operations. Cost: one analysis more.
+/// Errors: the backend's.
+Result<Rates> measure_rates(std::shared_ptr<const TriangleMesh> mesh, const std::string& backend,
+                            int threads, double milliseconds);
+
+/// How much more memory the process had at its peak than when this was made, in 2^20 bytes.
+/// 0 where the system does not tell, or lets no peak begin anew.
+class PeakMemory {
+ public:
+  PeakMemory();
+  double megabytes() const;
+
+ private:
+  double before_ = std::numeric_limits<double>::infinity();
+};
 
 }  // namespace geotherm::bench

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "bench/render_bench.h"
+#include "bench/viewer_bench.h"
 
 #include <cmath>
 #include <memory>
 
 #include "app/main_drawing/picture_scene.h"
-#include "app/main_drawing/upload_picture.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"
-#include "engine/offscreen_target.h"
 #include "engine/renderer.h"
+#include "engine/target.h"
 #include "geotherm/heat_method.h"
 #include "solver/core/stopwatch.h"
 

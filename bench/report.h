@@ -4,13 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/explore_bench.h"
-#include "bench/growth.h"
 #include "bench/load_bench.h"
-#include "bench/machine.h"
 #include "bench/machine_limits.h"
-#include "bench/render_bench.h"
 #include "bench/solve_bench.h"
+#include "bench/viewer_bench.h"
 
 namespace geotherm::bench {
 
@@ -59,5 +56,11 @@ std::string to_json(const BenchRun& run);
 /// For the documentation, in Markdown: set-up, query, batch and memory as tables of meshes by
 /// contenders, what was left out and why, the limits, rates and growth.
 std::string to_markdown(const BenchRun& run);
+
+/// Set-up, query, batch and memory over the number of faces, one colour for each backend of the
+/// heat method and for the baseline, as an SVG picture that needs nothing else; readable on light
+/// and dark pages. Lines join the irregular mesh that was measured at most sizes; the others are
+/// marks. Figures that are not there leave gaps.
+std::string performance_chart(const BenchRun& run);
 
 }  // namespace geotherm::bench

@@ -150,18 +150,12 @@ std::string growth_table(const std::vector<Growth>& growth) {
   return out;
 }
 
-/// "OpenBLAS 0.3.21", without how it was configured.
-std::string short_blas(const std::string& name) {
-  const std::size_t version = name.find(' ');
-  return version == std::string::npos ? name : name.substr(0, name.find(' ', version + 1));
-}
-
 }  // namespace
 
 std::string to_markdown(const BenchRun& run) {
   std::string out = run.machine.cpu + format(", %d threads, the baseline 1", run.threads) +
                     (run.quick ? " (a quick run)" : "") + "; " + run.machine.compiler + "; BLAS " +
-                    short_blas(run.machine.blas) + ".\n";
+                    run.machine.blas + ".\n";
   std::vector<std::string> parts;
   for (const Quantity& quantity : kQuantities) parts.push_back(figures_table(run, quantity));
   parts.insert(parts.end(), {reasons(run), limits_table(run.limits), rates_table(run),

@@ -8,7 +8,7 @@
 
 #include "bench/bench_mesh.h"
 #include "bench/estimates.h"
-#include "bench/rates.h"
+#include "bench/measure.h"
 #include "geotherm/backend.h"
 #include "geotherm/heat_method.h"
 #include "solver/core/memory.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases.h"
+#include "bench/bench_mesh.h"
 #include "bench/measure.h"
 
 namespace geotherm::bench {
@@ -28,5 +28,21 @@ using OnGroup = std::function<void(const SolveGroup&)>;
 
 std::vector<SolveGroup> measure_solves(const SolvePlan& plan, const Say& say,
                                        const OnGroup& on_group);
+
+/// How times grow with the number of vertices: time ~ vertices^exponent.
+struct Exponents {
+  double setup = kNotMeasured;
+  double query = kNotMeasured;
+};
+
+struct Growth {
+  std::string name;
+  Exponents all, regular, irregular;  ///< over all meshes, and over those of one kind
+};
+
+/// Slopes of log time over log vertices (least squares), with an offset of its own for each kind of
+/// mesh, so that a shape's own pace is no growth. One row for each contender that was measured on
+/// two sizes of one kind. What cannot be said is not a number.
+std::vector<Growth> measure_growth(const std::vector<SolveGroup>& groups);
 
 }  // namespace geotherm::bench

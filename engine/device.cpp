@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "engine/vulkan/device_state.h"
-#include "engine/vulkan/vulkan_error.h"
+#include "engine/vulkan/vulkan.h"
 #include "engine/window/window_state.h"
 
 namespace geotherm::engine {

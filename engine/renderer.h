@@ -1,18 +1,45 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "engine/device.h"
 #include "engine/overlay/overlay.h"
-#include "engine/overlay/panel_draw.h"
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "engine/scene/scene.h"
 #include "engine/target.h"
 #include "geotherm/error.h"
 
 namespace geotherm::engine {
+
+/// One letter image for panels, 8-bit coverage; `version` changes with its content.
+struct PanelFont {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;
+  std::uint64_t version = 0;
+};
+
+/// Triangles of panels, drawn over everything: the layout of ImDrawVert and ImDrawIdx.
+struct PanelDraw {
+  struct Vertex {
+    glm::vec2 position;  ///< pixels from the top left corner of the target
+    glm::vec2 uv;        ///< in the font's image
+    /// sRGB and alpha, not multiplied in: red is the lowest byte, alpha the highest.
+    std::uint32_t colour = 0;
+  };
+  struct Command {
+    glm::vec4 clip;  ///< left, top, right, bottom, pixels
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t vertex_offset = 0;
+  };
+  std::vector<Vertex> vertices;
+  std::vector<std::uint16_t> indices;
+  std::vector<Command> commands;
+};
 
 /// Draws one model. Geometry is uploaded once; values, regions, colours, arrows, lines and markers
 /// are replaced without touching it. Every call may fail with kOutOfMemory or kNoDevice (device
@@ -63,5 +90,12 @@ class Renderer {
   explicit Renderer(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Draws a picture of scene.camera.extent pixels into memory, in tiles where it is larger than
+/// `largest_tile` (0: a size that suits) or than the device can draw at once. Errors: kBadInput (a
+/// size that is not
+/// between 1 and 16384), the renderer's.
+Result<Image> draw_picture(const Device& device, Renderer& renderer, const Scene& scene,
+                           const Overlay& overlay = {}, int largest_tile = 0);
 
 }  // namespace geotherm::engine

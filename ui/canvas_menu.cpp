@@ -3,8 +3,8 @@
 
 #include <imgui.h>
 
+#include "ui/bars.h"
 #include "ui/frame.h"
-#include "ui/menu_bar.h"
 #include "ui/source_edit.h"
 
 namespace geotherm::ui {

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/bundled_models.h"
 #include "app/method_words.h"
 #include "app/text.h"
 #include "ui/action.h"
-#include "ui/bundled.h"
+#include "ui/bars.h"
+#include "ui/rows.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
-#include "ui/work_row.h"
 
 namespace geotherm::ui {
 namespace {
@@ -64,11 +65,11 @@ void draw_hint(Frame& frame) {
   draw_dim(frame, "or a bundled one:");
   const float width = button_width(3);
   int column = 0;
-  for (const Bundled& model : bundled()) {
+  for (const app::BundledModel& model : app::bundled_models()) {
     if (column++ % 3 != 0) ImGui::SameLine();
     const std::string name(model.name);
     if (draw_button(frame, name, name.c_str(), true, width)) frame.send(app::command::Open{name});
-    draw_tip(frame, model.what);
+    draw_tip(frame, model.feature);
   }
   ImGui::Dummy({0, frame.px(4)});
   draw_dim(frame, "F1 shows all keys.");

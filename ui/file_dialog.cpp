@@ -1,13 +1,100 @@
 // SPDX-License-Identifier: MIT
 #include "ui/file_dialog.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
-#include "ui/file_task.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string in_small_letters(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  }
+  return text;
+}
+
+bool comes_first(const FolderEntry& a, const FolderEntry& b) {
+  if (a.is_folder != b.is_folder) return a.is_folder;
+  const std::string x = in_small_letters(a.name), y = in_small_letters(b.name);
+  return x != y ? x < y : a.name < b.name;
+}
+
+}  // namespace
+
+bool has_extension(const fs::path& file, std::span<const std::string_view> extensions) {
+  const std::string extension = in_small_letters(file.extension().string());
+  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+}
+
+FolderListing list_folder(const fs::path& folder, std::span<const std::string_view> extensions) {
+  FolderListing listing;
+  std::error_code error;
+  fs::directory_iterator at(folder, error);
+  for (; !error && at != fs::directory_iterator(); at.increment(error)) {
+    FolderEntry entry;
+    entry.name = at->path().filename().string();
+    if (entry.name.starts_with('.')) continue;
+    std::error_code unknown;  // a link to nowhere is no reason to list nothing
+    entry.is_folder = at->is_directory(unknown);
+    if (!entry.is_folder) {
+      if (!extensions.empty() && !has_extension(at->path(), extensions)) continue;
+      entry.bytes = at->file_size(unknown);
+      if (unknown) entry.bytes = 0;
+    }
+    listing.entries.push_back(std::move(entry));
+  }
+  if (error) listing.error = folder.string() + " cannot be listed: " + error.message();
+  std::sort(listing.entries.begin(), listing.entries.end(), comes_first);
+  return listing;
+}
+
+fs::path typed_path(const std::string& text, const fs::path& folder) {
+  fs::path path = text;
+  if (text == "~" || text.starts_with("~/")) {
+    const char* home = std::getenv("HOME");
+    if (home) path = fs::path(home) / text.substr(std::min<std::size_t>(2, text.size()));
+  }
+  return (path.is_absolute() ? path : folder / path).lexically_normal();
+}
+
+namespace {
+
+constexpr std::string_view kModels[] = {".obj", ".ply", ".off", ".stl"};
+constexpr std::string_view kPictures[] = {".png"};
+constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
+constexpr std::string_view kSessions[] = {kSessionExtension};
+constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
+constexpr std::string_view kFigures[] = {".json"};
+
+constexpr FileTask kTasks[] = {
+    {FilePurpose::kOpenModel, "Open a model", "Open", false, kModels},
+    {FilePurpose::kOpenSession, "Open a session", "Open", false, kScripts},
+    {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
+    {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
+    {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
+    {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
+    {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
+};
+
+}  // namespace
+
+const FileTask& file_task(FilePurpose purpose) {
+  return kTasks[static_cast<std::size_t>(purpose)];  // in the order of the enumeration
+}
+
+std::string suggested_name(const std::string& model, const FileTask& task) {
+  std::string name = std::filesystem::path(model).stem().string();
+  if (name.empty()) name = "geotherm";
+  if (task.purpose == FilePurpose::kSaveLog) name += "-log";
+  return name + std::string(task.extensions.front());
+}
 
 namespace fs = std::filesystem;
 

@@ -6,10 +6,9 @@
 
 #include "app/announce.h"
 #include "app/text.h"
-#include "ui/dialog.h"
+#include "ui/dialogs.h"
 #include "ui/file_dialog.h"
-#include "ui/file_task.h"
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

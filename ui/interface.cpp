@@ -9,15 +9,12 @@
 #include <utility>
 
 #include "ui/action.h"
+#include "ui/bars.h"
 #include "ui/canvas_menu.h"
 #include "ui/canvas_overlay.h"
-#include "ui/dialog.h"
+#include "ui/dialogs.h"
 #include "ui/frame.h"
-#include "ui/key_codes.h"
 #include "ui/key_map.h"
-#include "ui/menu_bar.h"
-#include "ui/side_bars.h"
-#include "ui/status_bar.h"
 
 namespace geotherm::ui {
 namespace {

@@ -17,11 +17,6 @@
 // Everything comes from the current ImGui context, so that tests can play mouse and keys.
 namespace geotherm::ui {
 
-/// Pixels from the top left corner of the window, as ImGui counts them.
-struct Rect {
-  float x = 0, y = 0, width = 0, height = 0;
-};
-
 /// The picture behind the panels.
 class Canvas {
  public:

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "app/text.h"
-#include "ui/key_codes.h"
 
 namespace geotherm::ui {
 namespace {

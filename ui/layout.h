@@ -31,4 +31,23 @@ Layout load_layout(const std::string& path);
 /// Makes the folder. False when it cannot be written: nothing depends on it.
 bool save_layout(const std::string& path, const Layout& layout);
 
+/// Pixels from the top left corner of the window, as ImGui counts them.
+struct Rect {
+  float x = 0, y = 0, width = 0, height = 0;
+};
+
+inline constexpr float kMinCanvas = 200;  ///< pixels at scale 1 that panels leave to the picture
+inline constexpr float kMinBar = 240;     ///< width of a side bar, pixels at scale 1
+inline constexpr float kMinLog = 70;      ///< height of the log, pixels at scale 1
+
+/// Where panels lie. What is hidden, or has no room, has no width.
+struct Places {
+  Rect menu, status, left, right, log, canvas;
+};
+
+/// Divides a window. `line`: height of menu bar and status bar, pixels. Where room is scarce, side
+/// bars and log shrink, then the right one goes, then the left one, the log and the status bar.
+/// Nothing overlaps, and nothing is smaller than 0.
+Places place_panels(const Layout& layout, float width, float height, float scale, float line);
+
 }  // namespace geotherm::ui

@@ -1,15 +1,35 @@
 // SPDX-License-Identifier: MIT
-#include "ui/menu_bar.h"
+#include "ui/bars.h"
 
 #include <imgui.h>
-
 #include <string>
 
-#include "ui/bundled.h"
+#include "app/bundled_models.h"
 #include "ui/key_map.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {
+namespace {
+
+void draw_bundled_entries(Frame& frame) {
+  for (const app::BundledModel& model : app::bundled_models()) {
+    const std::string name(model.name);
+    if (ImGui::MenuItem(name.c_str(), std::string(model.feature).c_str())) {
+      frame.send(app::command::Open{name});
+    }
+    frame.mark(name);
+  }
+}
+
+}  // namespace
+
+void draw_bundled_list(Frame& frame, float width) {
+  if (draw_button(frame, "bundled", "Bundled\u2026", true, width)) ImGui::OpenPopup("bundled");
+  if (!ImGui::BeginPopup("bundled")) return;
+  draw_bundled_entries(frame);
+  ImGui::EndPopup();
+}
+
 namespace {
 
 constexpr int kScales[] = {75, 100, 125, 150, 200};  ///< of letters, percent
@@ -28,7 +48,7 @@ void draw_file_menu(Frame& frame) {
   const bool open = ImGui::BeginMenu("Open bundled");
   frame.mark("Open bundled");
   if (open) {
-    draw_bundled_menu(frame);
+    draw_bundled_entries(frame);
     ImGui::EndMenu();
   }
   draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);

@@ -1,15 +1,141 @@
 // SPDX-License-Identifier: MIT
-#include <imgui.h>
+#include "app/explore/settings.h"
 
+#include <imgui.h>
 #include <algorithm>
 
-#include "app/explore/settings.h"
+#include "app/answer_check.h"
 #include "app/text.h"
+#include "app/told.h"
+#include "ui/action.h"
 #include "ui/panels.h"
+#include "ui/plots.h"
+#include "ui/rows.h"
 #include "ui/widgets.h"
-#include "ui/work_row.h"
 
 namespace geotherm::ui {
+namespace {
+
+/// The options in which A and B differ, side by side.
+void draw_settings(Frame& frame) {
+  app::ViewerState kept = frame.state();
+  kept.options = *frame.state().kept;
+  bool any = false;
+  for (const app::Setting& setting : app::settings()) {
+    if (!setting.of_method()) continue;
+    const std::string a = setting.get(frame.state()), b = setting.get(kept);
+    if (a == b) continue;
+    any = true;
+    draw_value(frame, setting.name, a + "  |  " + b, "", setting.help);
+  }
+  if (!any) draw_dim(frame, "A and B have the same settings: change one of them in the solver.");
+}
+
+void draw_difference(Frame& frame) {
+  const auto& difference = frame.explored().difference;
+  if (!difference) return;
+  const auto in_words = [&](double value) {
+    const std::string text = app::significant(value);
+    if (!(difference->largest > 0)) return text;
+    return text + "  (" + app::significant(100 * value / difference->largest, 3) + " %)";
+  };
+  const char* help =
+      "Of |d_A \u2212 d_B| over all vertices: model units, and relative to the largest distance of "
+      "A.";
+  draw_value(frame, "largest", in_words(difference->most), "", help);
+  draw_value(frame, "mean", in_words(difference->mean), "", help);
+}
+
+}  // namespace
+
+void draw_ab_panel(Frame& frame) {
+  if (!draw_section(frame, "A and B")) return;
+  const app::ViewerState& state = frame.state();
+  const bool kept = state.kept.has_value();
+  const float width = button_width(3);
+  if (draw_button(frame, "keep", "Keep as B", is_possible(frame, Action::kKeep), width)) {
+    perform(frame, Action::kKeep);
+  }
+  draw_tip(frame, "Keeps the present settings as B (k), to compare others with.");
+  ImGui::SameLine();
+  if (draw_button(frame, "swap", "Swap", kept, width)) perform(frame, Action::kSwap);
+  ImGui::SameLine();
+  if (draw_button(frame, "forget", "Forget B", kept, width)) perform(frame, Action::kForget);
+  if (!kept) {
+    return draw_dim(frame,
+                    "Keep these settings as B, then change them: both answers stay at hand.");
+  }
+  const int chosen = draw_segments(
+      frame, {{"show a", "A", state.shown == app::Shown::kA},
+              {"show b", "B", state.shown == app::Shown::kB},
+              {"show difference", "A \u2212 B", state.shown == app::Shown::kDifference}});
+  constexpr app::Shown kShown[] = {app::Shown::kA, app::Shown::kB, app::Shown::kDifference};
+  if (chosen >= 0) frame.send(app::command::Show{kShown[chosen]});
+  draw_settings(frame);
+  draw_difference(frame);
+}
+
+namespace {
+
+void draw_figures(Frame& frame, const AccuracyReport& report) {
+  if (!report.measured) return draw_note(app::told(report), frame.colours().dim);
+  const DistanceError& e = report.figures;
+  draw_value(frame, "against", to_text(report.reference), "",
+             "The more accurate method; solved once for these sources.");
+  draw_value(frame, "mean error", app::percent(e.mean_relative), "",
+             "Mean of |d \u2212 d_exact| / d_exact over the vertices.");
+  draw_value(frame, "largest error", app::percent(e.max_of_range), "",
+             "Largest |d \u2212 d_exact|, as a share of the largest distance.");
+  draw_value(frame, "bias", app::significant(e.mean_signed, 3), "",
+             "Mean of d \u2212 d_exact, model units: below 0, distances are too short.");
+  if (e.worst != kNoIndex) {
+    draw_value(frame, "worst vertex", std::to_string(e.worst), "",
+               "Where the error is largest: " + app::significant(e.max, 3) + " model units.");
+  }
+  draw_error_plot(frame, report.histogram);
+  draw_note(app::told(report), report.is_poor() ? frame.colours().warning : frame.colours().dim);
+}
+
+/// Figures of a vertex are shown at a face that has it.
+std::optional<app::FacePoint> point_at(const TriangleMesh& mesh, Index vertex) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Face& face = mesh.faces()[f];
+    for (int k = 0; k < 3; ++k) {
+      if (face[k] != vertex) continue;
+      app::FacePoint point{f};
+      point.weights[static_cast<std::size_t>(k)] = 1;
+      return point;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void draw_error_panel(Frame& frame) {
+  if (!draw_section(frame, "Exact error", false)) return;
+  draw_setting(frame, *app::find_setting("check"));
+  const app::Answer* answer = frame.answer();
+  if (!answer || !answer->error) {
+    return draw_dim(frame, frame.state().check == app::Check::kOff
+                               ? "Holds the distances against a more accurate method, live."
+                               : "Not known yet: distances are checked when they rest.");
+  }
+  draw_figures(frame, *answer->error);
+  const float width = button_width(2);
+  if (draw_button(frame, "show", "Show", true, width)) perform(frame, Action::kExactError);
+  draw_tip(frame, "The error in colours (8).");
+  ImGui::SameLine();
+  const Index worst = answer->error->figures.worst;
+  if (draw_button(frame, "worst", "Go to worst", worst != kNoIndex, width)) {
+    const TriangleMesh& mesh = *frame.model()->model.mesh;
+    const Vec3& at = mesh.positions()[worst];
+    frame.send(app::command::Pick{point_at(mesh, worst)});
+    frame.send(app::command::Centre{at.x(), at.y(), at.z()});
+  }
+  draw_tip(frame, "Picks the vertex with the largest error and turns about it.");
+}
+
 namespace {
 
 using Figure = std::optional<double> app::CompareRow::*;

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/text.h"
+
+#include <cmath>
+
+#include "app/answer_check.h"
 #include "ui/action.h"
-#include "ui/bundled.h"
+#include "ui/bars.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -97,6 +101,99 @@ void draw_model_panel(Frame& frame) {
   draw_bundled_list(frame, width);
   if (!frame.model()) return draw_dim(frame, "No model is open.");
   draw_report(frame, *frame.model());
+}
+
+namespace {
+
+constexpr double kLargeResidual = 1e-6;  ///< of a system that was meant to be solved
+constexpr double kFarSource = 0.5;  ///< mean edges: a source that is not near 0 is worth a colour
+
+/// A drag leaves the figures out: all of them are 0 then, which no computed answer has.
+bool is_measured(const Quality& quality) {
+  return quality.eikonal_error_mean != 0 || quality.poisson_residual != 0 ||
+         quality.heat_residual != 0;
+}
+
+void draw_distances(Frame& frame, const app::Answer& answer) {
+  const auto& distance = answer.distance;
+  draw_value(frame, "largest distance", app::significant(distance.max), "", "Model units.");
+  draw_value(frame, "mean distance", app::significant(distance.mean), "",
+             "Over the vertices that are reached, model units.");
+  if (distance.unreached > 0) {
+    draw_value(frame, "unreached", app::grouped(distance.unreached), "",
+               "Vertices in parts without a source: their distance is infinite.",
+               frame.colours().warning);
+  }
+}
+
+/// How wrong the distances are, by the method wavefront or what the panel of the error names.
+void draw_error(Frame& frame, const AccuracyReport& report) {
+  const ImVec4 colour = report.is_poor() ? frame.colours().warning : frame.colours().text;
+  const std::string tip = app::accuracy_line(report);
+  draw_value(frame, "mean error", app::percent(report.figures.mean_relative), "", tip.c_str(),
+             colour);
+  draw_value(frame, "largest error", app::percent(report.figures.max_of_range), "", tip.c_str(),
+             colour);
+}
+
+/// `heat`: those of the heat method as well.
+void draw_figures(Frame& frame, const Quality& quality, bool heat) {
+  const Palette& p = frame.colours();
+  const auto warn = [&p](bool bad) { return bad ? p.warning : p.text; };
+  const double edge = frame.model()->mesh.mean_edge_length;
+  draw_value(frame, "distance at sources", app::significant(quality.max_source_distance, 3), "",
+             "Largest |d| on a source as solved, before it is set to 0; model units. Near 0 unless "
+             "the constraint mode lets sources float.",
+             warn(quality.max_source_distance > kFarSource * edge));
+  draw_value(
+      frame, "eikonal error", app::significant(quality.eikonal_error_mean, 3), "",
+      "Area-weighted mean of | |\u2207d| \u2212 1 |: 0 for true distances away from where fronts "
+      "meet. Falls with finer meshes; grows with t.");
+  draw_value(
+      frame, "below straight line", app::grouped(quality.below_straight_line), "",
+      "Vertices whose distance is below the straight line to the nearest source by more than "
+      "the method's tolerance. Such a distance is wrong, whatever the surface.",
+      warn(quality.below_straight_line > 0));
+  draw_value(frame, "too steep edges", app::grouped(quality.steep_edges), "",
+             "Edges along which the distance differs by more than their length and the method's "
+             "tolerance. It is wrong around them.",
+             warn(quality.steep_edges > 0));
+  if (!heat) return;
+  draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
+             "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",
+             warn(quality.heat_residual > kLargeResidual));
+  draw_value(frame, "Poisson residual", app::significant(quality.poisson_residual, 2), "",
+             "|L \u03c6 \u2212 b| / |b| of the Poisson step.",
+             warn(quality.poisson_residual > kLargeResidual));
+  draw_value(frame, "faces without \u2207u", app::grouped(quality.zero_gradient_faces), "",
+             "Faces in reach in which the heat has no gradient: no direction can be had there.",
+             warn(quality.zero_gradient_faces > 0));
+  draw_value(frame, "clamped vertices", app::grouped(quality.clamped_vertices), "",
+             "Distances below 0 by more than round-off, set to 0.",
+             warn(quality.clamped_vertices > 0));
+  const auto iterations = [](int count) {
+    return count == 0 ? std::string("direct") : app::grouped(count);
+  };
+  draw_value(frame, "iterations, heat", iterations(quality.iterations_heat), "",
+             "Of an iterative backend; direct ones need none.");
+  draw_value(frame, "iterations, Poisson", iterations(quality.iterations_poisson), "",
+             "Of an iterative backend; direct ones need none.");
+}
+
+}  // namespace
+
+void draw_quality_panel(Frame& frame) {
+  if (!draw_section(frame, "Quality")) return;
+  const app::Answer* answer = frame.answer();
+  if (!answer || !frame.model()) return draw_dim(frame, "No answer yet.");
+  draw_distances(frame, *answer);
+  if (answer->error && answer->error->measured) draw_error(frame, *answer->error);
+  if (is_measured(answer->result.quality)) {
+    draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
+  } else {
+    draw_dim(frame, "Quality is measured when the drag ends.");
+  }
+  for (const std::string& warning : answer->warnings) draw_note(warning, frame.colours().warning);
 }
 
 }  // namespace geotherm::ui

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/text.h"
-#include "ui/number.h"
+#include "ui/frame.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"

@@ -4,9 +4,9 @@
 #include "app/picture/picture_text.h"
 #include "app/text.h"
 #include "ui/action.h"
-#include "ui/number.h"
+#include "ui/frame.h"
 #include "ui/panels.h"
-#include "ui/setting_rows.h"
+#include "ui/rows.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

@@ -22,4 +22,10 @@ void draw_compare_panel(Frame& frame);
 /// What the log window holds.
 void draw_log_panel(Frame& frame);
 
+/// A field for any command in its text form; arrows up and down bring back what was typed before.
+void draw_command_line(Frame& frame);
+
+/// What the line about a wrong command needs above the field.
+float command_error_height(Frame& frame);
+
 }  // namespace geotherm::ui

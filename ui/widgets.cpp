@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "app/text.h"
-#include "ui/number.h"
+#include "ui/frame.h"
 
 namespace geotherm::ui {
 namespace {

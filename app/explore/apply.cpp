@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "app/explore/settings.h"
-#include "app/picture/picture_values.h"
+#include "app/picture/picture_text.h"
 #include "app/source_spec.h"
 #include "app/text.h"
 #include "app/told.h"

@@ -6,7 +6,7 @@
 #include "app/explore/command.h"
 #include "app/explore/command_words.h"
 #include "app/explore/settings.h"
-#include "app/picture/picture_values.h"
+#include "app/picture/picture_text.h"
 #include "app/text.h"
 #include "app/told.h"
 

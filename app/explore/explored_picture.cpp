@@ -2,8 +2,8 @@
 #include "app/explore/explored_picture.h"
 
 #include "app/method_words.h"
-#include "app/picture/face_view.h"
-#include "app/picture/picture_caption.h"
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_scale.h"
 #include "app/text.h"
 
 namespace geotherm::app {

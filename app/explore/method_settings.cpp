@@ -6,7 +6,7 @@
 
 #include "app/explore/settings.h"
 #include "app/model_reading.h"
-#include "app/picture/picture_values.h"
+#include "app/picture/picture_text.h"
 #include "app/text.h"
 #include "app/told.h"
 #include "geotherm/backend.h"

@@ -5,7 +5,6 @@
 
 #include "app/explore/settings.h"
 #include "app/picture/picture_text.h"
-#include "app/picture/picture_values.h"
 #include "app/text.h"
 #include "solver/core/text.h"
 

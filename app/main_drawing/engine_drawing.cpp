@@ -4,13 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "app/main_drawing/device_words.h"
-#include "app/main_drawing/make_drawing.h"
+#include "app/drawing.h"
 #include "app/main_drawing/picture_scene.h"
-#include "app/main_drawing/upload_picture.h"
 #include "app/picture/turntable.h"
 #include "engine/device.h"
-#include "engine/picture.h"
 #include "engine/renderer.h"
 #include "solver/core/memory.h"
 
@@ -43,7 +40,7 @@ class EngineDrawing final : public Drawing {
     const auto found = engine::list_devices();
     if (!found) return found.error();
     std::vector<DrawingDevice> out;
-    for (const engine::DeviceInfo& info : *found) out.push_back(device_in_our_words(info));
+    for (const engine::DeviceInfo& info : *found) out.push_back(to_drawing_device(info));
     return out;
   }
 
@@ -59,7 +56,7 @@ class EngineDrawing final : public Drawing {
       renderer_ = *std::move(renderer);
       samples_ = settings.samples;
     }
-    return device_in_our_words(device_->info());
+    return to_drawing_device(device_->info());
   }
 
   Result<void> draw(const PictureData& data, const PictureSettings& settings,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In builds without the engine, instead of engine_drawing.cpp.
-#include "app/main_drawing/make_drawing.h"
+#include "app/drawing.h"
 
 namespace geotherm::app {
 namespace {

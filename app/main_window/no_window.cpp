@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In builds without the viewer, instead of the real one.
-#include "app/main_window/make_window.h"
+#include "app/viewer_window.h"
 
 namespace geotherm::app {
 namespace {

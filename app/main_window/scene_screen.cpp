@@ -2,10 +2,8 @@
 #include "app/main_window/scene_screen.h"
 
 #include "app/explore/explored_picture.h"
-#include "app/main_drawing/device_words.h"
 #include "app/main_drawing/picture_scene.h"
-#include "app/main_drawing/upload_picture.h"
-#include "engine/picture.h"
+#include "engine/renderer.h"
 
 namespace geotherm::app {
 namespace {
@@ -148,7 +146,7 @@ Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,
   return in_our_words(std::move(image));
 }
 
-DrawingDevice SceneScreen::device() const { return device_in_our_words(device_.info()); }
+DrawingDevice SceneScreen::device() const { return to_drawing_device(device_.info()); }
 
 std::vector<std::string> SceneScreen::validation_messages() const {
   return device_.validation_messages();

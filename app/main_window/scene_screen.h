@@ -7,10 +7,9 @@
 
 #include "app/drawing.h"
 #include "app/explore/session.h"
-#include "engine/offscreen_target.h"
-#include "engine/overlay/legend.h"
-#include "engine/overlay/panel_draw.h"
+#include "engine/overlay/overlay.h"
 #include "engine/renderer.h"
+#include "engine/target.h"
 #include "engine/window/window_target.h"
 
 namespace geotherm::app {

@@ -3,6 +3,7 @@
 
 #include "app/explore/explored.h"
 #include "app/main_window/scene_screen.h"
+#include "engine/renderer.h"
 #include "ui/interface.h"
 
 namespace geotherm::app {
@@ -30,5 +31,11 @@ class ViewCanvas final : public ui::Canvas {
   double fps_;
   double pixels_per_point_;
 };
+
+/// The image of all letters that the current ImGui context has loaded. `version` counts them.
+engine::PanelFont panel_font(std::uint64_t version);
+
+/// The panels of the last ImGui::Render(), in pixels of the target.
+engine::PanelDraw panel_draw();
 
 }  // namespace geotherm::app

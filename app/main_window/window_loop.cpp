@@ -4,16 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/main_window/panel_pixels.h"
 #include "app/main_window/view_canvas.h"
 #include "app/picture_report.h"
 #include "app/process_clock.h"
 #include "app/text.h"
 #include "app/told.h"
+#include "app/viewer_window.h"
 #include "engine/overlay/overlay.h"
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "solver/core/stopwatch.h"
 
+// The window of the viewer: the one place where engine, panels and session meet.
 namespace geotherm::app {
 namespace {
 
@@ -248,5 +249,20 @@ Result<void> WindowLoop::save_picture(const command::SavePicture& save, const Se
   };
   return save_view_picture(save, session, painter);
 }
+
+namespace {
+
+class EngineWindow final : public ViewerWindow {
+ public:
+  Result<void> run(const ViewerStart& start) override {
+    auto loop = WindowLoop::open(start);
+    if (!loop) return loop.error();
+    return (*loop)->run();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ViewerWindow> make_window() { return std::make_unique<EngineWindow>(); }
 
 }  // namespace geotherm::app

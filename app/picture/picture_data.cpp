@@ -5,8 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "app/method_words.h"
+#include "app/text.h"
 #include "geotherm/quality_fields.h"
-#include "solver/geometry/face_gradient.h"
 
 namespace geotherm::app {
 namespace {
@@ -166,6 +167,11 @@ void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResul
     data.heat_directions.push_back(to_float(heat[f]));
     data.distance_gradients.push_back(to_float(distance[f].stableNormalized() * length));
   }
+}
+
+std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method) {
+  const std::string text = one_line(model) + ", " + counted(faces, "face", "faces");
+  return method == nullptr ? text : text + ", " + method_caption(*method);
 }
 
 }  // namespace geotherm::app

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "app/picture/picture_text.h"
-#include "app/picture/picture_values.h"
 #include "app/text.h"
 #include "app/told.h"
 

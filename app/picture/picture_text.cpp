@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_text.h"
 
+#include <cmath>
 #include <span>
+#include <utility>
 
 #include "app/text.h"
 #include "solver/core/text.h"
@@ -118,6 +120,136 @@ std::vector<std::pair<std::string, std::string>> settings_in_words(const Picture
           {"centre", centre_text(camera)},
           {"fit", to_text(camera.fit)},
           {"projection", camera.orthographic ? "orthographic" : "perspective"}};
+}
+
+namespace {
+
+Error wrong(const std::string& text, const std::string& why) {
+  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why};
+}
+
+Result<double> number_between(const std::string& text, double least, double most,
+                              const std::string& why) {
+  const auto value = number_in<double>(text);
+  if (value && *value >= least && *value <= most) return *value;
+  return wrong(text, why);
+}
+
+/// The parts before and after the first of `marks`.
+std::optional<std::pair<std::string, std::string>> halves(const std::string& text,
+                                                          const char* marks) {
+  const std::size_t at = text.find_first_of(marks);
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair{text.substr(0, at), text.substr(at + 1)};
+}
+
+}  // namespace
+
+Result<int> whole_between(const std::string& text, int least, int most, const std::string& why) {
+  const auto value = number_in<int>(text);
+  if (value && *value >= least && *value <= most) return *value;
+  return wrong(text, why);
+}
+
+Result<Size> parse_size(const std::string& text) {
+  if (const auto parts = halves(text, "xX")) {
+    const auto width = number_in<int>(parts->first);
+    const auto height = number_in<int>(parts->second);
+    const auto fits = [](const std::optional<int>& side) {
+      return side && *side >= 1 && *side <= kLargestPictureSide;
+    };
+    if (fits(width) && fits(height)) return Size{*width, *height};
+  }
+  return wrong(text, "is no size; give WxH in pixels, each 1 to " +
+                         std::to_string(kLargestPictureSide) + ", such as 1920x1080");
+}
+
+Result<int> parse_samples(const std::string& text) {
+  if (text == "1" || text == "4") return text == "1" ? 1 : 4;
+  return wrong(text, "samples a pixel cannot be had; give 1 or 4");
+}
+
+Result<Range> parse_range(const std::string& text) {
+  if (text.empty() || text == "auto") return Range{};
+  const auto parts = halves(text, ":");
+  const auto end = [](const std::string& part, std::optional<double>& value) {
+    if (part.empty()) return true;
+    value = number_in<double>(part);
+    return value && std::isfinite(*value);
+  };
+  Range range;
+  if (parts && end(parts->first, range.min) && end(parts->second, range.max) &&
+      (range.min || range.max) && !(range.min && range.max && *range.min >= *range.max)) {
+    return range;
+  }
+  return wrong(text,
+               "is no range; give MIN:MAX with MIN below MAX, such as 0:2.5; one of them "
+               "may be left out");
+}
+
+Result<std::optional<double>> parse_spacing(const std::string& text) {
+  if (text.empty() || text == "auto") return std::optional<double>();
+  const auto value = number_in<double>(text);
+  if (value && *value >= 0 && std::isfinite(*value)) return value;
+  return wrong(text,
+               "is no spacing of isolines; give a length in model units, such as 0.5, or 0 "
+               "for none");
+}
+
+Result<double> parse_azimuth(const std::string& text) {
+  return number_between(text, -kMaxAngle, kMaxAngle,
+                        "is no angle; give degrees about the vertical axis, such as 30");
+}
+
+Result<double> parse_elevation(const std::string& text) {
+  return number_between(text, -90, 90,
+                        "is no elevation; give degrees from -90 (from below) to 90 (from above)");
+}
+
+Result<double> parse_zoom(const std::string& text) {
+  return number_between(text, kMinZoom, kMaxZoom,
+                        "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits");
+}
+
+Result<Pan> parse_pan(const std::string& text) {
+  if (const auto parts = halves(text, ":, ")) {
+    const auto right = number_in<double>(parts->first);
+    const auto up = number_in<double>(parts->second);
+    const auto fits = [](const std::optional<double>& part) {
+      return part && std::abs(*part) <= kMaxPan;
+    };
+    if (fits(right) && fits(up)) return Pan{*right, *up};
+  }
+  return wrong(text, "is no shift; give RIGHT:UP in picture heights, such as 0.1:-0.25");
+}
+
+Result<bool> parse_projection(const std::string& text) {
+  if (text == "perspective") return false;
+  if (text == "orthographic") return true;
+  return Error{ErrorCode::kBadInput, "there is no projection '" + one_line(text) +
+                                         "'; there are perspective, orthographic"};
+}
+
+Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text) {
+  if (text.empty() || text == "auto") return std::optional<std::array<double, 3>>();
+  std::array<double, 3> centre{};
+  std::string rest = text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? rest.find(':') : rest.size();
+    const auto value = number_in<double>(rest.substr(0, end));
+    if (end == std::string::npos || !value || !std::isfinite(*value)) {
+      return wrong(text, "is no point; give X:Y:Z in model units, such as 0:1.5:-2, or auto");
+    }
+    centre[k] = *value;
+    rest.erase(0, k < 2 ? end + 1 : end);
+  }
+  return std::optional(centre);
+}
+
+Result<bool> parse_switch(const std::string& text) {
+  if (text == "on") return true;
+  if (text == "off") return false;
+  return wrong(text, "is neither on nor off");
 }
 
 }  // namespace geotherm::app

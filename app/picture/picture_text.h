@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,10 +11,11 @@
 #include "app/picture/picture_settings.h"
 #include "geotherm/error.h"
 
+// A picture's settings as text and back, the same on the command line, in scripts and in panels.
+// Errors: kBadInput, with the text and what is expected.
 namespace geotherm::app {
 
-/// The text form of each choice, the same on the command line, in files and in panels.
-/// parse(to_text(x)) == x. Errors: kBadInput, with the values there are.
+/// Each choice: parse(to_text(x)) == x.
 std::string to_text(View view);                     // wireframe | ... | gradient-error | contours
 std::string to_text(PictureLight light);            // three-point | headlight | none
 std::string to_text(PictureBackground background);  // light | dark | transparent
@@ -38,5 +41,35 @@ std::string centre_text(const CameraSettings& camera);
 /// Every setting as name and text, named as its option: ("view", "contours"), ("size", "1280x720").
 /// What is chosen by the data ("auto") and flags ("yes", "no") are said as well.
 std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& settings);
+
+struct Size {
+  int width = 0, height = 0;
+};
+struct Range {
+  std::optional<double> min, max;
+};
+struct Pan {
+  double right = 0, up = 0;
+};
+
+Result<Size> parse_size(const std::string& text);                      // 1280x720
+Result<int> parse_samples(const std::string& text);                    // 1 | 4
+Result<Range> parse_range(const std::string& text);                    // MIN:MAX | MIN: | auto
+Result<std::optional<double>> parse_spacing(const std::string& text);  // D | auto
+Result<double> parse_azimuth(const std::string& text);                 // degrees
+Result<double> parse_elevation(const std::string& text);               // degrees
+Result<double> parse_zoom(const std::string& text);                    // factor
+Result<Pan> parse_pan(const std::string& text);                        // RIGHT:UP
+Result<bool> parse_projection(const std::string& text);                // true: orthographic
+Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text);  // X:Y:Z | auto
+Result<bool> parse_switch(const std::string& text);                                  // on | off
+inline std::string switch_text(bool on) { return on ? "on" : "off"; }
+Result<int> whole_between(const std::string& text, int least, int most, const std::string& why);
+
+/// Bounds of the camera.
+inline constexpr double kMinZoom = 1e-3, kMaxZoom = 1e6;
+inline constexpr double kMaxPan = 1e3;    ///< picture heights
+inline constexpr double kMaxAngle = 1e6;  ///< degrees
+inline constexpr int kLargestPictureSide = 8192;
 
 }  // namespace geotherm::app

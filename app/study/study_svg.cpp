@@ -3,8 +3,7 @@
 #include <cmath>
 
 #include "app/answer_check.h"
-#include "app/markup.h"
-#include "app/study/log_plot.h"
+#include "app/chart.h"
 #include "app/study/study_report.h"
 #include "app/text.h"
 #include "geotherm/options.h"
@@ -12,113 +11,104 @@
 namespace geotherm::app {
 namespace {
 
-constexpr const char* kStyle = R"(
-text { font: 12px system-ui, "Helvetica Neue", Arial, sans-serif; fill: #1c2733 }
-.soft { fill: #66758a } .title { font-weight: 600; font-size: 13px } .head { font-size: 18px;
-  font-weight: 600 } .grid { stroke: #e3e8ee } .one { stroke: #9aa7b5; stroke-dasharray: 3 3 }
-.curve { fill: none; stroke-width: 1.8 }
-)";
+using chart::Panel;
+using chart::Series;
 
-constexpr const char* kRuleColours[] = {"#2a6fb0", "#d9711c"};  // mean-edge, mean-face-area
-constexpr const char* kConstraintColours[] = {"#2a6fb0", "#2f9e62", "#8a5bd0", "#d9a514",
-                                              "#c0392b"};
+std::string tick_percent(double error) { return significant(100 * error, 2) + " %"; }
 
-/// By boundary rule, and by constraint so that curves that lie on each other can be told apart.
-constexpr const char* kDashes[] = {"", "7 4", "2 3", "9 3 2 3", "1 5"};
+/// No powers of ten in letters where digits are as short.
+std::string tick_number(double value) {
+  return value >= 1 && value < 1e5 ? grouped(std::llround(value)) : significant(value, 2);
+}
+
+/// A class of the style sheet: a colour, and dashes, so that curves that lie on each other can be
+/// told apart.
+std::string kind_of(std::size_t colour, std::size_t dashes) {
+  return "k" + std::to_string(colour) + " d" + std::to_string(dashes);
+}
 
 /// The curve of the rows that `belongs` takes.
 template <class Belongs, class X>
-Curve curve_of(const Study& study, std::string name, std::string colour, std::string dashes,
-               Belongs belongs, X x) {
-  Curve curve{std::move(name), std::move(colour), std::move(dashes), {}};
+Series series_of(const Study& study, std::string name, std::string kind, Belongs belongs, X x) {
+  Series series{.kind = std::move(kind), .name = std::move(name)};
   for (const StudyRow& row : study.rows) {
-    if (!belongs(row) || !row.mean_error || !(*row.mean_error > 0)) continue;
-    curve.points.emplace_back(x(row), *row.mean_error);
+    if (!belongs(row) || !row.mean_error) continue;
+    series.joined.push_back({x(row), *row.mean_error, chart::Mark::kSmallDot});
   }
-  std::ranges::sort(curve.points);
-  return curve;
+  std::ranges::sort(series.joined, {}, &chart::Point::x);
+  return series;
+}
+
+Panel panel_of(std::string title, std::string x_label) {
+  return {std::move(title), std::move(x_label), tick_number, tick_percent, {}, {}, 1};
 }
 
 /// One curve for each time rule and boundary rule, with the default constraint.
 template <class X>
-LogPlot rules_plot(const Study& study, std::string title, std::string x_label, X x) {
-  LogPlot plot{std::move(title), std::move(x_label), 0, 0, {}};
+Panel rules_panel(const Study& study, std::string title, std::string x_label, X x) {
+  Panel panel = panel_of(std::move(title), std::move(x_label));
+  std::size_t colour = 0;
   for (const TimeRule rule : {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea}) {
+    std::size_t dashes = 0;
     for (const BoundaryRule boundary :
          {BoundaryRule::kNeumann, BoundaryRule::kDirichlet, BoundaryRule::kAverage}) {
       const auto belongs = [&](const StudyRow& row) {
         return row.rule == rule && row.boundary == boundary &&
                row.constraint == ConstraintMode::kPinSources;
       };
+      const std::string kind = kind_of(colour, dashes++);
       if (std::ranges::none_of(study.rows, belongs)) continue;
-      plot.curves.push_back(curve_of(
-          study, to_text(TimeStep{rule, 1, 0}) + ", " + to_text(boundary),
-          kRuleColours[static_cast<int>(rule)], kDashes[static_cast<int>(boundary)], belongs, x));
+      panel.series.push_back(series_of(
+          study, to_text(TimeStep{rule, 1, 0}) + ", " + to_text(boundary), kind, belongs, x));
     }
+    ++colour;
   }
-  return plot;
+  return panel;
 }
 
-LogPlot constraints_plot(const Study& study) {
-  LogPlot plot{"Constraint modes, mean-edge", "time factor m", 0, 0, {}};
+Panel constraints_panel(const Study& study) {
+  Panel panel = panel_of("Constraint modes, mean-edge", "time factor m");
   std::size_t i = 0;
   for (const Constraint& constraint : study_constraints()) {
     const auto belongs = [&](const StudyRow& row) {
       return row.rule == TimeRule::kMeanEdge && row.boundary == BoundaryRule::kNeumann &&
              row.constraint == constraint.mode;
     };
-    plot.curves.push_back(curve_of(study, to_text(constraint), kConstraintColours[i], kDashes[i],
-                                   belongs, [](const StudyRow& row) { return row.factor; }));
+    panel.series.push_back(series_of(study, to_text(constraint), kind_of(i, i), belongs,
+                                     [](const StudyRow& row) { return row.factor; }));
     ++i;
   }
-  return plot;
-}
-
-/// The same range of errors in all plots: whole steps of 1, 2 and 5 around what there is.
-void share_range(std::vector<LogPlot>& plots) {
-  double low = 0, high = 0;
-  for (const LogPlot& plot : plots) {
-    for (const Curve& curve : plot.curves) {
-      for (const auto& [unused, y] : curve.points) {
-        low = low > 0 ? std::min(low, y) : y;
-        high = std::max(high, y);
-      }
-    }
-  }
-  if (!(low > 0)) low = high = 0.01;
-  for (LogPlot& plot : plots) {
-    plot.y_low = low / 1.5;
-    plot.y_high = std::max(high * 1.5, low * 3);
-  }
+  return panel;
 }
 
 }  // namespace
 
 std::string study_svg(const std::string& model, const Study& study) {
   constexpr double kWidth = 290, kHeight = 250, kLeft = 62, kTop = 110, kStep = 370;
-  std::vector<LogPlot> plots = {
-      rules_plot(study, "Both time rules over m", "time factor m",
-                 [](const StudyRow& row) { return row.factor; }),
-      rules_plot(study, "The same over t: one curve", "t / h\u00b2, h the mean edge length",
-                 [](const StudyRow& row) { return row.unit_t; }),
-      constraints_plot(study)};
-  share_range(plots);
-  std::string body;
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    body += plot_svg(plots[i], kLeft + kStep * static_cast<double>(i), kTop, kWidth, kHeight);
-  }
+  std::vector<Panel> panels = {
+      rules_panel(study, "Both time rules over m", "time factor m",
+                  [](const StudyRow& row) { return row.factor; }),
+      rules_panel(study, "The same over t: one curve", "t / h\u00b2, h the mean edge length",
+                  [](const StudyRow& row) { return row.unit_t; }),
+      constraints_panel(study)};
+  std::vector<double> errors;
+  for (const StudyRow& row : study.rows) errors.push_back(row.mean_error.value_or(0));
   const StudyRow* best = best_row(study);
   const std::string found = best == nullptr
                                 ? ""
                                 : "; least: " + percent(*best->mean_error) +
                                       " at t = " + significant(best->unit_t, 3) + " h\u00b2";
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1110 540\" width=\"1110\" "
-         "height=\"540\">\n<style>" +
-         std::string(kStyle) +
-         "</style>\n<rect width=\"1110\" height=\"540\" fill=\"#ffffff\"/>\n" +
-         "<text class=\"head\" x=\"62\" y=\"36\">Mean error of the heat method on " +
-         escaped(one_line(model)) + "</text>\n<text class=\"soft\" x=\"62\" y=\"58\">against " +
-         to_text(study.reference) + found + "</text>\n" + body + "</svg>\n";
+  std::string body =
+      chart::text(kLeft, 36, "start", "head",
+                  "Mean error of the heat method on " + one_line(model)) +
+      chart::text(kLeft, 60, "start", "soft", "against " + to_text(study.reference) + found);
+  double left = kLeft;
+  for (Panel& panel : panels) {
+    panel.y_values = errors;
+    body += panel_svg(panel, {left, kTop, kWidth, kHeight});
+    left += kStep;
+  }
+  return chart::page(1110, 560, body);
 }
 
 }  // namespace geotherm::app

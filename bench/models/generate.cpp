@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "bench/models/models.h"
+#include "bench/models/draft_mesh.h"
 
 namespace geotherm {
 namespace {

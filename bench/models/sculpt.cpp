@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/models/sculpt.h"
+#include "bench/models/sculpture.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,8 +8,6 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-
-#include "bench/models/sparse_field.h"
 
 namespace geotherm::generate {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/models/sparse_field.h"
+#include "bench/models/sculpture.h"
 
 #include <algorithm>
 #include <cmath>

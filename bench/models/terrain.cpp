@@ -6,8 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "bench/models/models.h"
-#include "bench/models/noise.h"
+#include "bench/models/draft_mesh.h"
 
 namespace geotherm::generate {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "embedded/legend_font.h"
 #include "engine/overlay/overlay.h"
-#include "engine/overlay/utf8.h"
 
 namespace geotherm::engine {
 namespace {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "engine/overlay/legend.h"
+#include "engine/overlay/overlay.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-
-#include "engine/overlay/text_fit.h"
 
 namespace geotherm::engine {
 namespace {

@@ -4,12 +4,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/scene/camera.h"
+#include "engine/scene/colours.h"
+
 namespace geotherm::engine {
+
+/// What stands for bytes that are not UTF-8; no letter.
+inline constexpr char32_t kMalformed = 0xFFFFFFFF;
+
+/// Takes the first letter off a text that is not empty. Bytes that are not UTF-8 (cut off,
+/// overlong, surrogates, beyond U+10FFFF) are taken as one kMalformed each or, where they begin
+/// like a longer letter, together.
+char32_t take_letter(std::string_view& text);
 
 /// The font that everything is written in (DejaVu Sans, embedded): a TrueType file.
 std::span<const std::byte> font_file();
@@ -62,5 +74,54 @@ struct Overlay {
   /// `base`: left end of the base line. Text is placed on whole pixels.
   void add_text(glm::vec2 base, std::string_view text, const glm::vec4& colour);
 };
+
+inline constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
+
+/// The text, or as many of its letters as fit into `width` pixels with an ellipsis after them;
+/// empty where not even that fits. The atlas must hold kEllipsis.
+std::string cut_to_width(const GlyphAtlas& atlas, std::string_view text, float width);
+
+/// The text in lines of at most `width` pixels, broken at blanks. Words that are longer, and the
+/// last of `most` lines where text remains, are cut.
+std::vector<std::string> wrapped_lines(const GlyphAtlas& atlas, std::string_view text, float width,
+                                       std::size_t most);
+
+struct Tick {
+  float position = 0;  ///< 0 at the bar's lower end, 1 at its upper end
+  std::string label;
+};
+
+/// What a colour in the picture stands for.
+struct Key {
+  glm::vec3 colour{0};
+  std::string label;
+  std::optional<glm::vec3> rim{};    ///< about the stroke that shows the colour
+  std::vector<glm::vec3> patches{};  ///< instead of a stroke: patches of several colours
+};
+
+/// What is written around the model; empty parts are left out.
+struct Legend {
+  bool bar = false;
+  std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
+  std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
+  std::vector<Tick> ticks;
+  std::string title;  ///< over the bar: what the values are, and their unit
+  /// One line along the lower edge; cut with an ellipsis where it is too long.
+  std::string caption;
+  std::vector<Key> keys;        ///< one a line in the upper left corner
+  glm::vec3 ink{0};             ///< colour of letters and frames
+  glm::vec4 paper{1, 1, 1, 0};  ///< under them, so that they can be read where the model lies there
+  float scale = 1;              ///< of letters and bar; 1 suits a picture 720 pixels high
+};
+
+struct LegendLayout {
+  Overlay overlay;
+  Insets insets;  ///< what the legend takes of the picture's sides; 0 where it has nothing
+};
+
+/// Lays the legend out for a picture of this size. Letters grow with the smaller side of the
+/// picture; ticks whose labels would touch are thinned out; a picture that is too small for a bar
+/// or a caption has none. Cost: the glyphs' rasterisation, milliseconds.
+LegendLayout lay_out(const Legend& legend, glm::vec2 extent);
 
 }  // namespace geotherm::engine

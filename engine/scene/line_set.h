@@ -7,10 +7,23 @@
 #include <span>
 #include <vector>
 
-#include "engine/scene/line_pieces.h"
 #include "engine/scene/scene.h"
 
 namespace geotherm::engine {
+
+/// One straight piece of a polyline with the points beside it, which decide how it joins its
+/// neighbours. At an end of the polyline the point beside is the end itself.
+struct LinePiece {
+  glm::vec3 before, from, to, after;
+};
+
+/// A polyline without the points that are not finite, which cut it in two.
+std::vector<std::vector<glm::vec3>> finite_runs(std::span<const glm::vec3> points);
+
+/// The pieces of a polyline. Points that repeat the one before them, up to rounding in scene space,
+/// are left out; where it ends in the point that it begins with it is closed. Points are finite.
+/// Cost: O(points).
+std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points);
 
 /// The points of a polyline that are needed to stay within `tolerance` of all of them; both ends
 /// are kept, and at least every 256th point (D. Douglas, T. Peucker 1973, in runs of that length).

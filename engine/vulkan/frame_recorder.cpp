@@ -6,8 +6,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
-#include "engine/vulkan/frame_uniforms.h"
-#include "engine/vulkan/upload.h"
+#include "engine/vulkan/device_state.h"
 #include "shaders/shared.h"
 
 namespace geotherm::engine {

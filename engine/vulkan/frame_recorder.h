@@ -5,18 +5,76 @@
 #include <span>
 
 #include "engine/overlay/overlay.h"
-#include "engine/scene/arrow_selection.h"
-#include "engine/scene/colour_map.h"
+#include "engine/renderer.h"
+#include "engine/scene/arrows.h"
+#include "engine/scene/colours.h"
 #include "engine/scene/draw_mesh.h"
 #include "engine/scene/line_set.h"
-#include "engine/vulkan/attachments.h"
-#include "engine/vulkan/descriptors.h"
+#include "engine/scene/scene.h"
+#include "engine/target.h"
 #include "engine/vulkan/device_state.h"
-#include "engine/vulkan/panel_layer.h"
 #include "engine/vulkan/pipelines.h"
-#include "engine/vulkan/target_frame.h"
+#include "engine/vulkan/vulkan.h"
+#include "shaders/shared.h"
 
 namespace geotherm::engine {
+
+/// A scene as the shaders read it.
+/// `origin`, `extent`: the part of the picture that is drawn, pixels.
+shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 extent);
+
+/// The features (shared.h) that the surface needs: what is off is not compiled in.
+std::uint32_t surface_features(const Scene& scene);
+
+/// What a scene is drawn into before it reaches the target: depth, and with several samples a pixel
+/// their colours. Kept from frame to frame while size and format stay.
+struct Attachments {
+  Attachments() = default;
+  Attachments(const Device::State& device, vk::Extent2D extent, vk::Format format,
+              vk::SampleCountFlagBits samples);
+
+  bool fit(vk::Extent2D size, vk::Format colour_format) const {
+    return extent == size && format == colour_format;
+  }
+
+  vk::Extent2D extent{};
+  vk::Format format = vk::Format::eUndefined;
+  Texture depth;
+  Texture colour;  ///< empty with one sample a pixel
+};
+
+/// Begins drawing a scene onto `background` (colours multiplied by alpha), resolving into `target`
+/// where there are several samples.
+void record_scene_begin(const vk::raii::CommandBuffer& commands, const Attachments& attachments,
+                        vk::ImageView target, const vk::ClearColorValue& background);
+
+/// Begins drawing on top of what the target shows.
+void record_overlay_begin(const vk::raii::CommandBuffer& commands, vk::Extent2D extent,
+                          vk::Image image, vk::ImageView target);
+
+/// Panels on the device, and the commands that draw them. Nothing may be drawing while it is
+/// changed or prepared. Methods throw and then leave what was there.
+class PanelLayer {
+ public:
+  PanelLayer(std::shared_ptr<Device::State> device, vk::DescriptorSetLayout layout);
+
+  void set_font(const PanelFont& font);
+  /// What the next frame shows; null: nothing. Without a font nothing is shown.
+  void prepare(const PanelDraw* panels);
+  bool empty() const { return commands_.empty(); }
+  /// Within a rendering to the target; leaves the scissor changed.
+  void record(const vk::raii::CommandBuffer& commands, Pipelines& pipelines, glm::ivec2 extent);
+
+ private:
+  // Members are destroyed from the last to the first.
+  std::shared_ptr<Device::State> device_;
+  vk::raii::Sampler sampler_;
+  Texture font_;
+  std::uint64_t version_ = 0;  ///< of font_, where there is one
+  Buffer vertices_, indices_;
+  std::vector<PanelDraw::Command> commands_;
+  Descriptors descriptors_;
+};
 
 /// What of a renderer lives on the device, and the commands that draw it. Nothing may be drawing
 /// while it is changed or prepared: there is one copy of each buffer, so targets wait for a frame

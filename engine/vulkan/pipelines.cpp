@@ -15,10 +15,10 @@
 #include "embedded/surface_frag.h"
 #include "embedded/surface_vert.h"
 #include "engine/overlay/overlay.h"
-#include "engine/overlay/panel_draw.h"
-#include "engine/scene/arrow_selection.h"
+#include "engine/renderer.h"
+#include "engine/scene/arrows.h"
 #include "engine/scene/draw_mesh.h"
-#include "engine/scene/line_pieces.h"
+#include "engine/scene/line_set.h"
 #include "shaders/shared.h"
 
 namespace geotherm::engine {

@@ -1,7 +1,52 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The loader is opened when an instance is made (loader.h), so that a machine without it still runs
-// everything that draws nothing. Included by sources of this folder only: it is expensive.
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "geotherm/error.h"
+
+// The loader is opened when an instance is made, so that a machine without it still runs everything
+// that draws nothing. Included by sources of the engine only: it is expensive.
 #define VULKAN_HPP_ENABLE_DYNAMIC_LOADER_TOOL 0
 #include <vulkan/vulkan_raii.hpp>
+
+namespace geotherm::engine {
+
+/// How a failure travels inside the engine; guarded() turns it into a Result at the border.
+class Failure : public std::exception {
+ public:
+  explicit Failure(Error error) : error_(std::move(error)) {}
+  const Error& error() const { return error_; }
+  const char* what() const noexcept override { return error_.message.c_str(); }
+
+ private:
+  Error error_;
+};
+
+/// What a status of Vulkan means to people. `what`: what was being done ("drawing").
+Error error_of(vk::Result status, std::string_view what);
+
+/// Runs `work`, which returns a Result; no exception leaves.
+template <class Work>
+auto guarded(std::string_view what, Work&& work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const Failure& failure) {
+    return failure.error();
+  } catch (const vk::SystemError& error) {
+    return error_of(static_cast<vk::Result>(error.code().value()), what);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory,
+                 std::string(what) + ": out of memory; try a smaller picture or mesh"};
+  }
+}
+
+/// Throws a status that is not success.
+inline void check(vk::Result status, const char* what) {
+  if (status != vk::Result::eSuccess) vk::throwResultException(status, what);
+}
+
+}  // namespace geotherm::engine

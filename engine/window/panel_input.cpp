@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/window/panel_input.h"
+#include "engine/window/window_state.h"
 
 #include <imgui_impl_glfw.h>
 

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-#include "engine/vulkan/vulkan_error.h"
+#include "engine/vulkan/vulkan.h"
 #include "engine/window/window_state.h"
 
 namespace geotherm::engine {

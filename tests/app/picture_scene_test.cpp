@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "engine/scene/oklab.h"
+#include "engine/scene/colours.h"
 
 namespace geotherm::test {
 namespace {

@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "app/markup.h"
 #include "app/progress_bar.h"
 #include "app/report_json.h"
 #include "app/text_table.h"

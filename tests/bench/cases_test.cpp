@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/cases.h"
+#include "bench/bench_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-
-#include "bench/bench_mesh.h"
 
 namespace geotherm::test {
 namespace {

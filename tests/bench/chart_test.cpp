@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/chart/performance_chart.h"
+#include "bench/report.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/chart/panel.h"
-#include "bench/chart/svg.h"
+#include "app/chart.h"
 #include "tests/bench/bench_fixture.h"
 
 namespace geotherm::test {
@@ -162,13 +161,13 @@ TEST(PerformanceChart, NamesOfAnyKindAreEscaped) {
 class Panel : public testing::TestWithParam<double> {};
 
 TEST_P(Panel, LabelsOfLinesThatEndTogetherStandApart) {
-  bench::Panel panel{"title",
-                     "x",
-                     [](double) { return std::string("1"); },
-                     [](double) { return std::string("1"); },
-                     {}};
+  app::chart::Panel panel{"title",
+                          "x",
+                          [](double) { return std::string("1"); },
+                          [](double) { return std::string("1"); },
+                          {}};
   for (int k = 0; k < 6; ++k) {
-    bench::PanelSeries series{.kind = "k" + std::to_string(k)};
+    app::chart::Series series{.kind = "k" + std::to_string(k)};
     series.joined = {{1e4, 10.0 + k}, {GetParam(), 1000 + 0.1 * k}};
     series.end_label = "label";
     panel.series.push_back(series);
@@ -176,7 +175,7 @@ TEST_P(Panel, LabelsOfLinesThatEndTogetherStandApart) {
   panel.series.push_back(
       {.kind = "base", .joined = {{1e4, 1e-3}, {1e6, 1e-3}}, .end_label = "low"});
   const auto elements =
-      elements_of("<svg>" + bench::panel_svg(panel, {100, 100, 300, 200}) + "</svg>");
+      elements_of("<svg>" + app::chart::panel_svg(panel, {100, 100, 300, 200}) + "</svg>");
   std::vector<double> heights;
   for (const Element& e : elements) {
     const auto kind = e.attributes.find("class");
@@ -193,18 +192,18 @@ TEST_P(Panel, LabelsOfLinesThatEndTogetherStandApart) {
 }
 
 TEST(PanelLabels, ThatReachTheRightStandApartFromThoseThere) {
-  bench::Panel panel{"title",
-                     "x",
-                     [](double) { return std::string("1"); },
-                     [](double) { return std::string("1"); },
-                     {}};
+  app::chart::Panel panel{"title",
+                          "x",
+                          [](double) { return std::string("1"); },
+                          [](double) { return std::string("1"); },
+                          {}};
   panel.series.push_back({.kind = "a", .joined = {{1e4, 1}, {1e6, 100}}, .end_label = "right"});
   panel.series.push_back(
       {.kind = "b", .joined = {{1e4, 10}, {5e5, 100}}, .end_label = "a long label"});
   panel.series.push_back({.kind = "c", .joined = {{1e4, 100}}, .end_label = "left"});
   std::map<std::string, double> height;
   const auto elements =
-      elements_of("<svg>" + bench::panel_svg(panel, {100, 100, 300, 200}) + "</svg>");
+      elements_of("<svg>" + app::chart::panel_svg(panel, {100, 100, 300, 200}) + "</svg>");
   for (const Element& e : elements) {
     const auto kind = e.attributes.find("class");
     if (e.name == "text" && kind != e.attributes.end() && kind->second == "end") {

@@ -7,7 +7,7 @@
 #include <string>
 #include <tuple>
 
-#include "bench/resident_memory.h"
+#include "bench/measure.h"
 #include "solver/core/parallel.h"
 #include "tests/linear/backend_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/growth.h"
+#include "bench/solve_bench.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/limit_kernels.h"
 #include "bench/machine_limits.h"
 
 namespace geotherm::test {

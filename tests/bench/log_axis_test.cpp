@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/chart/log_axis.h"
+#include "app/chart.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace geotherm::test {
 namespace {
 
-using bench::LogAxis;
+using app::chart::LogAxis;
 
 TEST(LogAxis, HasSomeTicksWithinTheAxisWhateverTheRange) {
   for (double low = 1e-7; low < 1e7; low *= 3.7) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/rates.h"
+#include "bench/measure.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/arrow_places.h"
+#include "engine/scene/arrows.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "engine/scene/arrow_selection.h"
+#include "engine/scene/arrows.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 
 #include <gtest/gtest.h>
 

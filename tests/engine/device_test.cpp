@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "engine/vulkan/device_state.h"
-#include "engine/vulkan/vulkan_error.h"
+#include "engine/vulkan/vulkan.h"
 #include "tests/engine/gpu_fixture.h"
 
 namespace geotherm::test {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "engine/image.h"
+#include "engine/target.h"
 
 namespace geotherm::test {
 

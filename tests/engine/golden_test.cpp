@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/models/generate.h"
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 #include "geotherm/heat_method.h"
 #include "solver/geometry/face_gradient.h"
 #include "tests/engine/stage.h"

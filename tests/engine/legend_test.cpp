@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/overlay/legend.h"
+#include "engine/overlay/overlay.h"
 
 #include <gtest/gtest.h>
 

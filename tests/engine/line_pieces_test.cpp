@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/line_pieces.h"
+#include "engine/scene/line_set.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/image.h"
+#include "engine/target.h"
 #include "tests/engine/models.h"
 
 // What a picture shows, in numbers.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/overlay/legend.h"
+#include "engine/overlay/overlay.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

@@ -9,9 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/overlay/text_fit.h"
-#include "engine/overlay/utf8.h"
-
 namespace geotherm::test {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/overlay/panel_draw.h"
+#include "engine/renderer.h"
 
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/picture.h"
+#include "engine/renderer.h"
 
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

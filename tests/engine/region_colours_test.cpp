@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 
 #include <gtest/gtest.h>
-
-#include "engine/scene/oklab.h"
 
 namespace geotherm::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "engine/scene/region_colours.h"
+#include "engine/scene/colours.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 

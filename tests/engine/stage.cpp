@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/engine/stage.h"
 
-#include "engine/offscreen_target.h"
+#include "engine/target.h"
 
 namespace geotherm::test {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/picture.h"
 #include "engine/renderer.h"
 #include "tests/engine/gpu_fixture.h"
 #include "tests/engine/models.h"

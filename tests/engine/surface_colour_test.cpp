@@ -3,7 +3,7 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtx/component_wise.hpp>
 
-#include "engine/scene/colour_map.h"
+#include "engine/scene/colours.h"
 #include "geotherm/heat_method.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"

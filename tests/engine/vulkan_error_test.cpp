@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/vulkan/vulkan_error.h"
+#include "engine/vulkan/vulkan.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/image.h"
+#include "engine/target.h"
 
 namespace geotherm::test {
 

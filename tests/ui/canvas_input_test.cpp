@@ -3,7 +3,7 @@
 
 #include "app/source_spec.h"
 #include "tests/ui/driver.h"
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 #include "ui/source_edit.h"
 
 namespace geotherm::ui {

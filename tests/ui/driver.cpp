@@ -6,7 +6,7 @@
 #include <fstream>
 #include <utility>
 
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 
 namespace geotherm::ui {
 namespace {

@@ -5,8 +5,7 @@
 #include <fstream>
 
 #include "tests/ui/driver.h"
-#include "ui/file_task.h"
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 
 namespace geotherm::ui {
 namespace {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "tests/ui/driver.h"
-#include "ui/key_codes.h"
 
 namespace geotherm::ui {
 namespace {

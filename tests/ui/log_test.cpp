@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/ui/driver.h"
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 
 namespace geotherm::ui {
 namespace {

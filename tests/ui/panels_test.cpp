@@ -6,8 +6,7 @@
 #include "bench/models/generate.h"
 #include "geotherm/io.h"
 #include "tests/ui/driver.h"
-#include "ui/bundled.h"
-#include "ui/key_codes.h"
+#include "ui/key_map.h"
 #include "ui/source_edit.h"
 
 namespace geotherm::ui {
@@ -235,7 +234,7 @@ TEST_F(Panels, CompareLeavesOutWhatIsNotTicked) {
 
 TEST_F(Panels, OfferModelsWhereNoneIsOpen) {
   frame();
-  for (const Bundled& model : bundled()) {
+  for (const app::BundledModel& model : app::bundled_models()) {
     EXPECT_TRUE(is_drawn("Hint/" + std::string(model.name)));
   }
   click_item("Hint/bunny");
@@ -247,7 +246,7 @@ TEST_F(Panels, OfferModelsWhereNoneIsOpen) {
 
 TEST_F(Panels, OfferTheModelsThatThereAre) {
   Texts names, expected;
-  for (const Bundled& model : bundled()) names.emplace_back(model.name);
+  for (const app::BundledModel& model : app::bundled_models()) names.emplace_back(model.name);
   for (const app::BundledModel& model : app::bundled_models()) expected.emplace_back(model.name);
   EXPECT_EQ(names, expected);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/places.h"
+#include "ui/layout.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/image.h"
+#include "engine/target.h"
 
 namespace geotherm::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/window/window_target.h"
 
-#include "engine/vulkan/target_frame.h"
+#include "engine/vulkan/frame_recorder.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/window/window_fixture.h"
 #include "tests/engine/window/x_client.h"

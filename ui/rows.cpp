@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "ui/rows.h"
+
+#include <imgui.h>
+#include <algorithm>
+#include <cmath>
+
+#include "app/text.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+/// The phrase, what the values mean, and more.
+std::string tip_of(const app::Setting& setting, std::string_view more) {
+  std::string tip(setting.help);
+  for (const std::string_view part : {setting.detail, more}) {
+    if (!part.empty()) (tip += "\n") += part;
+  }
+  return tip;
+}
+
+std::string label_of(const app::Setting& setting) {
+  std::string label(setting.name);
+  std::ranges::replace(label, '-', ' ');
+  return label;
+}
+
+void draw_switch(Frame& frame, const app::Setting& setting) {
+  bool on = setting.get(frame.state()) == "on";
+  if (draw_checkbox(frame, setting.name, label_of(setting).c_str(), on)) {
+    frame.set(setting.name, on ? "on" : "off");
+  }
+  draw_tip(frame, tip_of(setting, {}));
+}
+
+}  // namespace
+
+std::string setting_text(const Frame& frame, std::string_view name) {
+  const app::Setting* setting = app::find_setting(name);
+  return setting ? setting->get(frame.state()) : std::string();
+}
+
+void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_view more) {
+  draw_label(frame, label_of(setting), tip_of(setting, more));
+}
+
+void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more) {
+  if (setting.kind == app::SettingKind::kSwitch) return draw_switch(frame, setting);
+  draw_setting_label(frame, setting, more);
+  const std::string text = setting.get(frame.state());
+  if (setting.values != nullptr && setting.forms.empty()) {
+    if (const auto chosen = draw_choice(frame, setting.name, text, setting.values())) {
+      frame.set(setting.name, *chosen);
+    }
+    return;
+  }
+  const auto typed = draw_field(frame, setting.name, text);
+  if (typed && !typed->empty()) frame.set(setting.name, *typed);
+}
+
+std::string name_part(const std::string& text) { return text.substr(0, text.find(':')); }
+
+std::string value_part(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  return colon == std::string::npos ? std::string() : text.substr(colon + 1);
+}
+
+void draw_progress(Frame& frame, double share, float height) {
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const float round = height / 2;
+  list->AddRectFilled(low, {low.x + width, low.y + height}, packed(frame.colours().frame), round);
+  float begin = 0, end = static_cast<float>(std::clamp(share, 0.0, 1.0));
+  if (share < 0) {  // a piece that runs to and fro
+    begin = 0.375F + 0.375F * static_cast<float>(std::sin(ImGui::GetTime() * 3));
+    end = begin + 0.25F;
+  }
+  list->AddRectFilled({low.x + begin * width, low.y}, {low.x + end * width, low.y + height},
+                      packed(frame.colours().accent), round);
+  ImGui::Dummy({width, height});
+}
+
+void draw_work_row(Frame& frame) {
+  const app::SessionWork work = frame.session.work();
+  const Palette& p = frame.colours();
+  if (!work.busy) {
+    if (frame.session.stale())
+      draw_note("stale: what is shown belongs to other settings", p.warning);
+    return;
+  }
+  std::string text = work.stage.empty() ? "working" : work.stage;
+  if (work.share >= 0) text += "  " + app::fixed(100 * work.share, 0) + " %";
+  ImGui::AlignTextToFramePadding();
+  ImGui::PushStyleColor(ImGuiCol_Text, p.accent);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+  const float width = frame.px(70);
+  ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
+  if (draw_button(frame, "cancel", "Cancel", true, width)) frame.out.cancel = true;
+  draw_progress(frame, work.share, frame.px(5));
+}
+
+}  // namespace geotherm::ui
