@@ -71,9 +71,9 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
 }
 
 /// Waits for a thread that sets the same one up.
-Trial<HeatMethod> HeatMethod::substitute(const std::string& backend,
-                                         std::span<const Fallback> failed,
-                                         const Progress& progress) const {
+Attempt<HeatMethod> HeatMethod::substitute(const std::string& backend,
+                                           std::span<const Fallback> failed,
+                                           const Progress& progress) const {
   constexpr std::chrono::milliseconds kBetweenLooks(2);
   std::unique_lock lock(state_->substitutes->mutex, std::defer_lock);
   while (!lock.try_lock()) {
@@ -82,7 +82,7 @@ Trial<HeatMethod> HeatMethod::substitute(const std::string& backend,
   }
   auto& methods = state_->substitutes->methods;
   if (const auto known = methods.find(backend); known != methods.end()) return known->second;
-  Trial<HeatMethod> made =
+  Attempt<HeatMethod> made =
       set_up(state_->surface->mesh, with_backend(state_->options, backend), failed, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
   if (!cancelled) methods.emplace(backend, made);
@@ -100,12 +100,12 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
   std::vector<Fallback> failed = state_->failed;
   auto results = first_that_works<Results>(
       at_work, state_->options.strict, failed,
-      [&](const std::string& tried, std::span<const Fallback> before) -> Trial<Results> {
+      [&](const std::string& tried, std::span<const Fallback> before) -> Attempt<Results> {
         backend = tried;
         if (tried == at_work) return ask(sets, query, watched);
         constexpr double kSetUpShare = 0.5;
         const auto other = substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
-        if (!other.outcome) return {other.outcome.error(), other.successor};
+        if (!other.outcome) return {other.outcome.error(), other.policy};
         return other.outcome->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
       });
   shared.rethrow();

@@ -70,14 +70,14 @@ Error out_of_memory_error(const std::string& stage, Index faces, const std::stri
 }
 
 /// Everything with one backend, `options.backend`.
-Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
-                                     const HeatOptions& options, std::span<const Fallback> failed,
-                                     const Progress& progress) try {
+Attempt<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                       const HeatOptions& options, std::span<const Fallback> failed,
+                                       const Progress& progress) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
   auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
                                part_of(progress, 0.0, kSurfaceShare));
-  if (!surface) return {surface.error(), successor_of(surface.error())};
+  if (!surface) return {surface.error(), policy_after(surface.error())};
   auto state = std::make_shared<State>();
   state->backend = *backend;
   state->surface = std::move(*surface);
@@ -91,13 +91,13 @@ Trial<HeatMethod> HeatMethod::set_up(const std::shared_ptr<const TriangleMesh>& 
   return {HeatMethod(std::move(timed))};
 } catch (const std::bad_alloc&) {
   return {out_of_memory_error("set-up", mesh->face_count(), options.backend),
-          Successor::kFactorless};
+          FallbackPolicy::kFactorless};
 }
 
 /// What is still missing for these options, on this surface and with this backend.
-Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
-                                         std::span<const Fallback> failed,
-                                         const Progress& progress) const try {
+Attempt<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
+                                           std::span<const Fallback> failed,
+                                           const Progress& progress) const try {
   if (!report(progress, "factorize", 0.0)) return {cancelled_error()};
   Stopwatch watch;
   auto next = std::make_shared<State>(*state_);
@@ -121,7 +121,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
   if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend,
                                             options.precision, plan, options.memory_limit_mb);
       !fits) {
-    return {fits.error(), Successor::kAny};
+    return {fits.error(), FallbackPolicy::kAny};
   }
   Result<void> heat_done, poisson_done;
   const int of_heat = next->poisson ? threads : std::max(1, threads / 2);
@@ -154,10 +154,10 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
     const Error error =
         with_time_cure(heat_done.error(), next->times.extreme, options.time_step.rule);
     return {error, is_extreme_time(next->times.extreme) && error.code != ErrorCode::kOutOfMemory
-                       ? Successor::kNone
-                       : successor_of(error)};
+                       ? FallbackPolicy::kNone
+                       : policy_after(error)};
   }
-  if (!poisson_done) return {poisson_done.error(), successor_of(poisson_done.error())};
+  if (!poisson_done) return {poisson_done.error(), policy_after(poisson_done.error())};
   next->warnings = next->surface->warnings;
   const HeatMethod made(next);
   const double held = made.memory_mb(), foreseen = made.forecast_mb();
@@ -175,7 +175,7 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
                 {"raise ", SettingHint{"memory-limit"}, " or try ", SettingHint{"backend", {"cg"}},
                  ", which holds no factor"},
                 options.backend},
-          Successor::kAny};
+          FallbackPolicy::kAny};
     }
     next->warnings.push_back({"the factors are kept in doubles (" + rounded_text(held) +
                               " MB, foreseen " + rounded_text(foreseen) +
@@ -188,12 +188,12 @@ Trial<HeatMethod> HeatMethod::factorised(const HeatOptions& options,
 } catch (const std::bad_alloc&) {
   return {
       out_of_memory_error("factorisation", state_->surface->mesh->face_count(), options.backend),
-      Successor::kFactorless};
+      FallbackPolicy::kFactorless};
 }
 
-Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> sets,
-                                                   const QueryOptions& query,
-                                                   const Progress& progress) const try {
+Attempt<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> sets,
+                                                     const QueryOptions& query,
+                                                     const Progress& progress) const try {
   const QueryPipeline pipeline{*state_->surface, *state_->heat, *state_->poisson, state_->options,
                                state_->times,    *state_->pool, *state_->helpers};
   return run_queries(pipeline, sets, query, progress);
@@ -201,7 +201,7 @@ Trial<std::vector<DistanceResult>> HeatMethod::ask(std::span<const SourceSet> se
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
   return {
       out_of_memory_error(queries, state_->surface->mesh->face_count(), state_->options.backend),
-      Successor::kFactorless};
+      FallbackPolicy::kFactorless};
 }
 
 const HeatOptions& HeatMethod::options() const { return state_->options; }

@@ -86,15 +86,16 @@ class HeatMethod final : public DistanceMethod {
 
  private:
   struct State;
-  static Trial<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
-                                  const HeatOptions& options, std::span<const Fallback> failed,
-                                  const Progress& progress);
-  Trial<HeatMethod> factorised(const HeatOptions& options, std::span<const Fallback> failed,
-                               const Progress& progress) const;
-  Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
-                                         const Progress& progress) const;
-  Trial<HeatMethod> substitute(const std::string& backend, std::span<const Fallback> failed,
-                               const Progress& progress) const;
+  static Attempt<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+                                    const HeatOptions& options, std::span<const Fallback> failed,
+                                    const Progress& progress);
+  Attempt<HeatMethod> factorised(const HeatOptions& options, std::span<const Fallback> failed,
+                                 const Progress& progress) const;
+  Attempt<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets,
+                                           const QueryOptions& query,
+                                           const Progress& progress) const;
+  Attempt<HeatMethod> substitute(const std::string& backend, std::span<const Fallback> failed,
+                                 const Progress& progress) const;
   explicit HeatMethod(std::shared_ptr<const State> state) : state_(std::move(state)) {}
   std::shared_ptr<const State> state_;
 };

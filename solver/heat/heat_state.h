@@ -21,7 +21,7 @@ struct HeatMethod::State {
   /// Methods that answer where this one fails, by their backends, and why there is none.
   struct Substitutes {
     std::mutex mutex;
-    std::map<std::string, Trial<HeatMethod>> methods;
+    std::map<std::string, Attempt<HeatMethod>> methods;
   };
 
   HeatOptions options;  ///< with the backend at work

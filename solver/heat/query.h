@@ -30,8 +30,9 @@ struct QueryPipeline {
 /// `progress` is called by one thread at a time, with shares that do not fall.
 /// A query that makes a factor of its own is held against the memory limit before; threads that
 /// would have one more each are fewer then. Throws std::bad_alloc.
-Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
-                                               std::span<const SourceSet> sets,
-                                               const QueryOptions& query, const Progress& progress);
+Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                                 std::span<const SourceSet> sets,
+                                                 const QueryOptions& query,
+                                                 const Progress& progress);
 
 }  // namespace geotherm

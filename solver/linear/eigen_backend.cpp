@@ -9,9 +9,8 @@
 
 #include "solver/core/number_text.h"
 #include "solver/linear/backends.h"
-#include "solver/linear/column_factor.h"
-#include "solver/linear/counted_factor.h"
-#include "solver/linear/fill_order.h"
+#include "solver/linear/multifrontal/fill_order.h"
+#include "solver/linear/panel_factor.h"
 
 namespace geotherm {
 namespace {
@@ -85,8 +84,7 @@ class EigenAnalysis final : public Analysis {
     data.value.assign(factor.valuePtr(), factor.valuePtr() + data.start.back());
     data.inverse_pivot.resize(static_cast<std::size_t>(lower.size()));
     for (Index j = 0; j < lower.size(); ++j) data.inverse_pivot[j] = 1 / pivots[j];
-    return make_direct_factorization(
-        std::make_unique<CountedFactor>(make_column_factor(data), operations_));
+    return make_direct_factorization(make_column_factor(data, operations_));
   }
 
  private:

@@ -8,15 +8,15 @@
 namespace geotherm {
 namespace {
 
-bool may_follow(const Backend& backend, Successor successor) {
-  switch (successor) {
-    case Successor::kNone:
+bool may_follow(const Backend& backend, FallbackPolicy policy) {
+  switch (policy) {
+    case FallbackPolicy::kNone:
       return false;
-    case Successor::kAny:
+    case FallbackPolicy::kAny:
       return true;
-    case Successor::kFactored:
+    case FallbackPolicy::kFactored:
       return !backend.iterative();
-    case Successor::kFactorless:
+    case FallbackPolicy::kFactorless:
       return backend.iterative();
   }
   return false;
@@ -24,24 +24,24 @@ bool may_follow(const Backend& backend, Successor successor) {
 
 }  // namespace
 
-Successor successor_of(const Error& error) {
+FallbackPolicy policy_after(const Error& error) {
   switch (error.code) {
     case ErrorCode::kNumericalFailure:
-      return Successor::kAny;
+      return FallbackPolicy::kAny;
     case ErrorCode::kBudgetEnded:
-      return Successor::kFactored;
+      return FallbackPolicy::kFactored;
     case ErrorCode::kOutOfMemory:
-      return Successor::kFactorless;
+      return FallbackPolicy::kFactorless;
     default:
-      return Successor::kNone;
+      return FallbackPolicy::kNone;
   }
 }
 
-std::string next_backend(std::span<const Fallback> failed, Successor successor) {
+std::string next_backend(std::span<const Fallback> failed, FallbackPolicy policy) {
   for (const std::string& name : backend_names()) {
     if (std::ranges::count(failed, name, &Fallback::backend) > 0) continue;
     const auto backend = find_backend(name);
-    if (backend && may_follow(**backend, successor)) return name;
+    if (backend && may_follow(**backend, policy)) return name;
   }
   return {};
 }
