@@ -99,17 +99,6 @@ class SupernodalFactor final : public TriangularFactor {
   std::int64_t operations_;
 };
 
-}  // namespace
-
-std::unique_ptr<TriangularFactor> make_supernodal_factor(
-    std::shared_ptr<const SupernodalStructure> structure, const double* values,
-    std::shared_ptr<const void> owner, std::int64_t operations) {
-  return std::make_unique<SupernodalFactor>(std::move(structure), values, std::move(owner),
-                                            operations);
-}
-
-namespace {
-
 /// The last column of the fundamental supernode that begins with `column`. It goes on while a
 /// column has exactly one entry more than the next and the next is its parent: then the rest of
 /// both patterns is the same (Liu, Ng, Peyton 1993).
@@ -123,6 +112,13 @@ Index last_of_supernode(Index column, Index size, const Below& below, const Pare
 }
 
 }  // namespace
+
+std::unique_ptr<TriangularFactor> make_supernodal_factor(
+    std::shared_ptr<const SupernodalStructure> structure, const double* values,
+    std::shared_ptr<const void> owner, std::int64_t operations) {
+  return std::make_unique<SupernodalFactor>(std::move(structure), values, std::move(owner),
+                                            operations);
+}
 
 std::unique_ptr<TriangularFactor> make_column_factor(const ColumnFactorData& data,
                                                      std::int64_t operations) {

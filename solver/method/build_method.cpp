@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "solver/core/parallel.h"
-#include "solver/exact/exact_method.h"
+#include "solver/polyhedral/exact_method.h"
 #include "solver/heat/heat_method.h"
 #include "solver/method/mapped_method.h"
-#include "solver/wave/fast_marching_method.h"
-#include "solver/wave/wavefront_method.h"
+#include "solver/polyhedral/fast_marching_method.h"
+#include "solver/polyhedral/wavefront_method.h"
 
 namespace geotherm {
 namespace {

@@ -7,7 +7,7 @@
 #include "solver/heat/heat_options.h"
 #include "solver/mesh/triangle_mesh.h"
 #include "solver/method/distance_method.h"
-#include "solver/wave/wave_surface.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 

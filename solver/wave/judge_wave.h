@@ -3,7 +3,7 @@
 
 #include "solver/method/distance_result.h"
 #include "solver/method/method_kind.h"
-#include "solver/wave/wave_surface.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 

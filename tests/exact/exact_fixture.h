@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/exact/exact_method.h"
+#include "solver/polyhedral/exact_method.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "solver/exact/propagation.h"
+#include "solver/polyhedral/propagation.h"
 #include "tests/exact/exact_fixture.h"
 #include "tests/support/broken_mesh.h"
 

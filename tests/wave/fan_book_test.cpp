@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "solver/wave/wave_front.h"
+#include "solver/polyhedral/wave_front.h"
 #include "tests/support/compare.h"
 #include "tests/support/shapes.h"
 #include "tests/wave/wave_fixture.h"

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "solver/wave/wave_front.h"
+#include "solver/polyhedral/wave_front.h"
 #include "tests/support/mesh_zoo.h"
 
 namespace geotherm::test {

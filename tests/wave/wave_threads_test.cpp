@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "solver/wave/wave_tables.h"
+#include "solver/polyhedral/wave_tables.h"
 #include "tests/support/shapes.h"
 #include "tests/wave/wave_fixture.h"
 

@@ -112,6 +112,23 @@ void order_part(const SymmetricPattern& whole, GraphPart part, std::span<Index> 
       });
 }
 
+std::vector<Index> minimum_degree(const SymmetricPattern& pattern) {
+  const Index n = pattern.size();
+  Eigen::SparseMatrix<double> graph(n, n);
+  std::vector<int> counts(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) counts[i] = static_cast<int>(pattern.neighbors(i).size()) + 1;
+  graph.reserve(counts);
+  for (Index i = 0; i < n; ++i) {
+    graph.insert(i, i) = 1;
+    for (const Index j : pattern.neighbors(i)) graph.insert(j, i) = 1;
+  }
+  graph.makeCompressed();
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
+  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), inverse);
+  const auto& indices = inverse.indices();
+  return {indices.data(), indices.data() + n};
+}
+
 }  // namespace
 
 std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
@@ -142,27 +159,6 @@ std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
   order_part(pattern, std::move(whole), order, threads);
   return order;
 }
-
-namespace {
-
-std::vector<Index> minimum_degree(const SymmetricPattern& pattern) {
-  const Index n = pattern.size();
-  Eigen::SparseMatrix<double> graph(n, n);
-  std::vector<int> counts(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) counts[i] = static_cast<int>(pattern.neighbors(i).size()) + 1;
-  graph.reserve(counts);
-  for (Index i = 0; i < n; ++i) {
-    graph.insert(i, i) = 1;
-    for (const Index j : pattern.neighbors(i)) graph.insert(j, i) = 1;
-  }
-  graph.makeCompressed();
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> inverse;
-  Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), inverse);
-  const auto& indices = inverse.indices();
-  return {indices.data(), indices.data() + n};
-}
-
-}  // namespace
 
 std::vector<Index> fill_reducing_order(const SymmetricPattern& pattern,
                                        std::span<const Vec3> positions, int threads) {

@@ -198,13 +198,6 @@ void find_entries(const SymmetricPattern& pattern, const std::vector<Index>& row
 
 }  // namespace
 
-std::int64_t FrontTree::bytes() const {
-  return static_cast<std::int64_t>(
-      sizeof(Index) * (3 * nodes.below.size() + tree.parent.size() + tree.node_of_row.size() +
-                       place_in_parent.size() + entry_offset.size()) +
-      sizeof(std::int64_t) * (below_start.size() + value_start.size() + entry_start.size()));
-}
-
 FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,
                            int threads) {
   FrontTree out;

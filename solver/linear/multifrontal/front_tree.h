@@ -74,7 +74,6 @@ struct FrontTree {
   /// Rows of a front vector, with room for a slab that is only begun.
   Index places(Index s) const { return padded(width(s)) + padded(below(s)); }
   const Index* places_in_parent(Index s) const { return place_in_parent.data() + below_start[s]; }
-  std::int64_t bytes() const;
 };
 
 /// Where largest_panel is beyond what an Index counts, the rest is not filled.

@@ -75,7 +75,6 @@ class NativeAnalysis final : public Analysis {
       : order_(std::move(order)), pattern_(pattern), tree_(std::move(tree)), threads_(threads) {}
 
   std::span<const Index> order() const override { return order_; }
-  std::int64_t bytes() const override { return tree_->bytes(); }
   std::int64_t factor_bytes(FactorStorage storage) const override {
     return tree_->value_start.back() * bytes_of(storage_for(storage));
   }

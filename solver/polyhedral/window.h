@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "solver/core/types.h"
+#include "solver/mesh/edge_table.h"
+
+namespace geotherm {
+
+/// The part of a side through which straight lines from one source enter the side's face, all of
+/// them over the same faces. In the frame of the side (its first corner at the origin, its second
+/// at (length, 0), the face above) the source, unfolded, stands at (x, y), y <= 0: the distance at
+/// p is sigma + |p - (x, y)|. A plane wave has its unit direction (x, y), y >= 0, there instead,
+/// and the distance sigma + x p.x + y p.y. Source: Mitchell, Mount, Papadimitriou 1987.
+struct Window {
+  double begin, end;  ///< 0 <= begin <= end <= length
+  double x, y;
+  double sigma;
+  Side side;           ///< or ~vertex: an event, the vertex sends windows of its own from sigma
+  std::int32_t label;  ///< 16 group + flags
+
+  static constexpr std::int32_t kPlane = 1;
+  static constexpr std::int32_t kFromFace = 2;  ///< from a point that is no vertex
+  static constexpr std::int32_t kBranched = 4;  ///< over an edge with three faces or more
+
+  static constexpr std::int32_t kMerged = 8;  ///< over flat vertices
+
+  bool is(std::int32_t flag) const { return (label & flag) != 0; }
+  bool is_plane() const { return is(kPlane); }
+  Index group() const { return label >> 4; }
+  static std::int32_t label_of(Index group, std::int32_t flags = 0) { return 16 * group + flags; }
+
+  double distance_to(double px, double py) const {
+    if (is_plane()) return sigma + x * px + y * py;
+    const double dx = px - x, dy = py - y;
+    return sigma + std::sqrt(dx * dx + dy * dy);
+  }
+  double distance_at(double px) const { return distance_to(px, 0); }
+
+  /// A multiple of the direction in which the line through (px, 0) enters the face.
+  double ray_x(double px) const { return is_plane() ? x : px - x; }
+  double ray_y() const { return is_plane() ? y : -y; }
+
+  /// The smallest distance in the window, and where along the side.
+  double nearest_place() const {
+    if (is_plane()) return x > 0 ? begin : end;
+    return x < begin ? begin : (x > end ? end : x);
+  }
+
+  /// The same window in the frame that runs the other way.
+  void reverse(double length) {
+    const double old_begin = begin;
+    begin = length - end;
+    end = length - old_begin;
+    if (is_plane()) {
+      sigma += x * length;
+      x = -x;
+    } else {
+      x = length - x;
+    }
+  }
+};
+
+/// Distances closer than this to each other count as equal, relative to themselves: round-off.
+inline constexpr double kTie = 1e-13;
+
+/// Places on a side closer than this to each other stand in no order, relative to the side.
+inline constexpr double kOrder = 1e-9;
+
+/// Whether the places, unfolded, and the distances of two windows' sources are one but for
+/// round-off.
+bool have_same_source(const Window& a, const Window& b);
+
+/// Cuts off a window what its side's ends, at these distances, reach sooner along the side (Xin,
+/// Wang 2009, theorem 3.2; and in part). False: nothing is left. Ties stay.
+bool trim_by_ends(Window& window, double length, double at_origin, double at_length);
+
+/// What Propagation knows of the shortest line yet to the corner opposite to a side.
+struct Leader {
+  double distance = kUnreached;
+  double crossing = 0;  ///< where the line crosses the side
+  Window window{};
+};
+
+/// On which sides of the corner ahead a window's lines pass.
+struct Passage {
+  bool left, right;
+};
+
+/// Cuts off what crosses a shorter line to the corner at (apex_x, apex_y) (Chen, Han 1990: one
+/// angle, one split), and makes a window the leader that has a shorter one. `passage` is where the
+/// window goes; both: it has a line to the corner. False: nothing is left.
+bool yield_to_leader(Window& window, double length, double apex_x, double apex_y, Leader& leader,
+                     Passage& passage);
+
+/// Cuts off the ends of a window where another window on the same edge is as early. Both stand in
+/// one frame of the edge, from any of its faces. False: nothing is left. A later part in the middle
+/// stays. (In whole: the trimming of Mitchell, Mount, Papadimitriou 1987.)
+bool trim_dominated_ends(Window& window, const Window& other, double length);
+
+}  // namespace geotherm

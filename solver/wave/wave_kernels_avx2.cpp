@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: MIT
-// The kernels for one instruction set; CMake gives this file its compiler flags.
-#define GEOTHERM_KERNEL_NAMESPACE kernels_avx2
-#include "solver/wave/wave_kernels.inl"
