@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "solver/core/types.h"
 #include "solver/mesh/corner_table.h"
 #include "solver/mesh/edge_table.h"
 #include "solver/mesh/triangle_mesh.h"
@@ -29,5 +31,14 @@ inline bool sides_agree(const std::vector<Face>& faces, Side a, Side b) {
 
 /// Cost: O(F).
 CleanFaces clean_faces(const TriangleMesh& mesh, int threads = 1);
+
+/// Which faces hang together through shared vertices: distances never pass between components.
+struct FaceComponents {
+  std::vector<Index> of;  ///< F: number of the face's component, by first appearance
+  Index count = 0;
+};
+
+/// Precondition: corners are below `vertex_count`. Cost: O(V + F).
+FaceComponents face_components(std::span<const Face> faces, Index vertex_count);
 
 }  // namespace geotherm

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "solver/geometry/flip_diamond.h"
 #include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {

@@ -10,8 +10,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/delaunay.h"
-#include "solver/geometry/flip_diamond.h"
-#include "solver/geometry/split_faces.h"
+#include "solver/geometry/edit.h"
 
 namespace geotherm {
 namespace {

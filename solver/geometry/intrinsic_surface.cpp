@@ -7,7 +7,7 @@
 #include "solver/core/number_text.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/geometry/face_components.h"
+#include "solver/geometry/clean_faces.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solver/core/parallel.h"
-#include "solver/geometry/face_components.h"
+#include "solver/geometry/clean_faces.h"
 
 namespace geotherm {
 namespace {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solver/geometry/clean_faces.h"
-#include "solver/geometry/face_components.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/mesh/surface_point.h"
 

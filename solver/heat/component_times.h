@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "solver/core/result.h"
-#include "solver/geometry/per_component.h"
+#include "solver/geometry/fem_operator.h"
 #include "solver/heat/surface.h"
 
 namespace geotherm {

@@ -6,7 +6,7 @@
 
 #include "solver/core/number_text.h"
 #include "solver/core/stopwatch.h"
-#include "solver/geometry/surface_pattern.h"
+#include "solver/geometry/operator_mesh.h"
 
 namespace geotherm {
 namespace {

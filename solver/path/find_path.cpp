@@ -7,7 +7,7 @@
 #include "solver/core/number_text.h"
 #include "solver/path/geodesic_search.h"
 #include "solver/path/shorten.h"
-#include "solver/path/trace.h"
+#include "solver/path/streamline.h"
 #include "solver/path/within_memory.h"
 
 namespace geotherm {

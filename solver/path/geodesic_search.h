@@ -3,7 +3,7 @@
 
 #include "solver/core/progress.h"
 #include "solver/core/result.h"
-#include "solver/path/geodesic_ends.h"
+#include "solver/path/crossing_graph.h"
 #include "solver/path/path_surface.h"
 #include "solver/path/surface_path.h"
 
