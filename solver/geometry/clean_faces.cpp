@@ -19,7 +19,7 @@
 namespace geotherm {
 namespace {
 
-/// The order of places by their coordinates.
+/// The lexicographic order of positions.
 bool less(const Vec3& a, const Vec3& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
@@ -40,7 +40,8 @@ double cotangents_at(std::span<const Vec3> positions, const std::vector<Face>& f
   return sum;
 }
 
-/// Whether a face is turned, relative to the first of those that it is joined with.
+/// Disjoint sets of faces that also know, for each face, whether it is turned relative to the root
+/// of its set.
 class TurnedFaces {
  public:
   explicit TurnedFaces(std::size_t count) : parent_(count), size_(count, 1), turned_(count, 0) {
@@ -51,13 +52,13 @@ class TurnedFaces {
     for (; parent_[f] != f; f = parent_[f]) turned = static_cast<char>(turned ^ turned_[f]);
     return turned != 0;
   }
-  /// The face that stands for all that hang together.
+  /// The root of the set that the face belongs to.
   Index root(Index f) const {
     while (parent_[f] != f) f = parent_[f];
     return f;
   }
-  /// Joins what hangs together with `a` to what does with `b`, so that they agree; not where they
-  /// hang together already.
+  /// Joins the sets of `a` and `b` so that the two faces agree; does nothing where both are in one
+  /// set.
   void join(Index a, Index b, bool disagree) {
     const bool turn = is_turned(a) != is_turned(b);
     const Index root_a = root(a), root_b = root(b);
@@ -74,15 +75,15 @@ class TurnedFaces {
   std::vector<char> turned_;  ///< relative to the parent
 };
 
-/// The corners' places of a face from the least on, by coordinates, as they follow each other.
+/// The positions of a face's corners in their cyclic order, the least by coordinates first.
 std::array<Vec3, 3> from_least(std::span<const Vec3> positions, const Face& face) {
   std::array<Vec3, 3> out = {positions[face[0]], positions[face[1]], positions[face[2]]};
   std::ranges::rotate(out, std::ranges::min_element(out, less));
   return out;
 }
 
-/// Of all faces that hang together the one whose places come first is kept in the turn in which
-/// they ascend.
+/// For each set of faces, whether all of it is to be turned: the face whose positions come first
+/// keeps the orientation in which they ascend.
 std::vector<char> turned_roots(std::span<const Vec3> positions, const std::vector<Face>& faces,
                                const TurnedFaces& turned) {
   using Places = std::array<double, 9>;
@@ -102,8 +103,8 @@ std::vector<char> turned_roots(std::span<const Vec3> positions, const std::vecto
   return out;
 }
 
-/// What makes an edge agree before others, by the shape alone: first its cotangents, rounded so
-/// that those of a regular mesh are the same, then its place.
+/// The rank by which edges are made to agree, from the shape alone: first the cotangents, rounded
+/// so that those of a regular mesh are equal, then the position.
 using Rank = std::array<double, 7>;
 Rank rank_of(std::span<const Vec3> positions, const std::vector<Face>& faces,
              const EdgeTable& edges, Index e) {
@@ -144,7 +145,7 @@ void orient_by_shape(std::span<const Vec3> positions, std::vector<Face>& faces,
   }
 }
 
-/// Edges or faces a thread must have to be worth starting.
+/// Minimum edges or faces per thread.
 constexpr std::int64_t kGrain = 1 << 14;
 
 /// The corner of a side's face that is none of its ends.
@@ -157,7 +158,7 @@ bool same_vertices(const std::vector<Face>& faces, Side a, Side b) {
   return opposite(faces, a) == opposite(faces, b);
 }
 
-/// What most meshes have none of, found in one pass over the edges.
+/// Defects that most meshes do not have, found in one pass over the edges.
 struct Flaws {
   bool duplicates = false;    ///< the two faces at an edge have the same vertices
   bool inconsistent = false;  ///< the two faces at an edge disagree
@@ -200,7 +201,7 @@ std::vector<char> find_duplicates(const std::vector<Face>& faces, const EdgeTabl
           break;
         }
       }
-      if (sides.size() > 64 && j > 64) break;  // a fan of hundreds: quadratic work is not worth it
+      if (sides.size() > 64 && j > 64) break;  // bounds the work of fans with hundreds of faces
     }
   }
   return duplicate;
@@ -244,7 +245,7 @@ Index orient(std::vector<Face>& faces, const EdgeTable& edges) {
   return count;
 }
 
-/// Takes the faces of the mesh that repeat no corner.
+/// Copies the faces of the mesh that repeat no corner.
 void take_faces(const TriangleMesh& mesh, int threads, CleanFaces& out) {
   const auto count = static_cast<std::int64_t>(mesh.faces().size());
   const int pieces = piece_count(threads, count, kGrain);
@@ -276,7 +277,7 @@ void list_edges(Index vertex_count, int threads, CleanFaces& out) {
   out.edges = EdgeTable(out.corners, out.faces, threads);
 }
 
-/// Leaves out faces that are there already; false where there are none.
+/// Drops faces that repeat an earlier one; false where there are none.
 bool drop_duplicates(CleanFaces& out) {
   const std::vector<char> duplicate = find_duplicates(out.faces, out.edges);
   std::size_t kept = 0;

@@ -14,8 +14,8 @@ namespace geotherm {
 namespace {
 
 /// Cotangent sums down to this are accepted. Cocircular corners, as in every mesh of rectangles,
-/// would flip to and fro, and as rounding of the coordinates (1e-7 of an edge for a model that
-/// stands a million sizes away) would have it.
+/// would otherwise flip back and forth, driven by the rounding of the coordinates (1e-7 of an edge
+/// for a model that stands a million of its sizes away from the origin).
 constexpr double kTolerance = 1e-6;
 
 /// Flips between two calls of progress: a few milliseconds.
@@ -75,7 +75,7 @@ Edit flip(IntrinsicMesh& mesh, Side side) {
 /// round-off.
 std::size_t most_flips(const IntrinsicMesh& mesh) { return 100 * mesh.twin.size() + 1000; }
 
-/// Takes a side from the queue and flips its edge if that is not Delaunay. Whether it did.
+/// Takes a side from the queue and flips its edge if that is not Delaunay; returns whether it did.
 bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>& edits) {
   const Side side = queue.back();
   queue.pop_back();
@@ -128,7 +128,7 @@ struct Cut {
 }  // namespace
 
 std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
-  constexpr std::int64_t kGrain = 1 << 15;  // sides a thread must have to be worth starting
+  constexpr std::int64_t kGrain = 1 << 15;  // minimum sides per thread
   const auto count = static_cast<std::int64_t>(mesh.twin.size());
   const int pieces = piece_count(threads, count, kGrain);
   std::vector<std::vector<Side>> found(static_cast<std::size_t>(pieces));

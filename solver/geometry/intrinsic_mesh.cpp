@@ -9,7 +9,7 @@
 namespace geotherm {
 namespace {
 
-/// Edges a thread must have to be worth starting.
+/// Minimum edges per thread.
 constexpr std::int64_t kGrain = 1 << 14;
 
 /// Four times the area by Kahan's formula, which stays accurate for needles: a >= b >= c.

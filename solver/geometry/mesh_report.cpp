@@ -86,7 +86,7 @@ void add_face(const std::array<Vec3, 3>& corners, AreaSum& sum) {
   sum.flat += shape.is_flat();
 }
 
-/// Area, and faces without one.
+/// Sums the area and counts faces without one.
 void measure_faces(const TriangleMesh& mesh, const CleanFaces& clean, int threads,
                    MeshSummary& summary) {
   const auto measure = [&](std::int64_t begin, std::int64_t end) {
@@ -237,7 +237,7 @@ void inspect_edges(std::span<const Vec3> positions, const CleanFaces& clean, Mes
 
 /// As LaplacianKind::kAuto has it.
 RefinementCounts count_refinement(const TriangleMesh& mesh) {
-  const std::shared_ptr<const TriangleMesh> view(std::shared_ptr<void>(), &mesh);  // owns nothing
+  const std::shared_ptr<const TriangleMesh> view(std::shared_ptr<void>(), &mesh);  // no owner
   const auto surface = build_intrinsic_surface(
       view, {FlipRule::kWhereNeeded, CoverRule::kWhereNeeded, RefineRule::kWhereNeeded});
   if (!surface) return {};

@@ -23,7 +23,8 @@ constexpr double kPoint = 1e-70;
 /// Rounds at most: ordinary files take three.
 constexpr int kMaxRounds = 100;
 
-/// What is missing to the triangle inequality over side k, at most 0 where it is strict enough.
+/// The length by which the triangle inequality over side k fails to be strict; at most 0 where it
+/// is strict enough.
 double missing(const Lengths& l, int k, double strict) {
   const double longest = std::max({l[0], l[1], l[2]});
   const double size = longest > kPoint ? longest : 1.0;
@@ -38,7 +39,7 @@ double addition(const Lengths& l) {
 }
 
 std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, int threads) {
-  constexpr std::int64_t kGrain = 1 << 15;  // faces a thread must have to be worth starting
+  constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
   const auto count = static_cast<std::int64_t>(lengths.size());
   const int pieces = piece_count(threads, count, kGrain);
   std::vector<std::vector<Index>> found(static_cast<std::size_t>(pieces));
@@ -56,7 +57,7 @@ std::vector<Index> faces_that_fail(const std::vector<Lengths>& lengths, int thre
   return out;
 }
 
-/// Lengthens the edges of failing faces and follows what that makes fail.
+/// Lengthens the edges of failing faces, then those of neighbours that fail because of it.
 class LocalRepair {
  public:
   LocalRepair(std::vector<Lengths>& lengths, const EdgeTable& edges)
@@ -91,7 +92,7 @@ class LocalRepair {
   }
 
  private:
-  /// What a face that fails wants of its edges, which are added to `called`.
+  /// Computes the lengths that a failing face needs, and adds its edges to `called`.
   void ask_for(Index f, std::vector<Index>& called) {
     if (!(addition(lengths_[f]) > 0)) return;
     for (int k = 0; k < 3; ++k) {
@@ -106,7 +107,7 @@ class LocalRepair {
     }
   }
 
-  /// Of several faces that want an edge longer, the one that wants most is heard.
+  /// An edge gets the largest length that any of its faces needs.
   void want(Index edge, double by, std::vector<Index>& called) {
     if (!(by > 0)) return;
     if (wanted_[edge] == 0) called.push_back(edge);

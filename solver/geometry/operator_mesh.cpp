@@ -38,14 +38,14 @@ SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& c
 
 namespace {
 
-/// Faces or vertices a thread must have to be worth starting.
+/// Minimum faces or vertices per thread.
 constexpr std::int64_t kGrain = 1 << 13;
 
 /// Rows of a range: some 0.1 ms of work for a pass over its faces, several times what it takes to
 /// start a thread. Eliminated one after the other, they are a patch or a few: 2 to 5 % of the faces
 /// cross.
 constexpr Index kRowsOfRange = 8192;
-/// More would feed no more cores than people have, and let more faces cross.
+/// The maximum number of ranges: more would make more faces cross without keeping more cores busy.
 constexpr Index kMaxRanges = 32;
 
 Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1, kMaxRanges); }
@@ -111,7 +111,7 @@ class Builder {
     out_.corners = CornerTable(static_cast<Index>(size_), out_.faces, threads_);
   }
 
-  /// Every vertex adds up what its faces give it, in their order.
+  /// Sums the contributions of the faces at each vertex, in their order.
   void add_up_faces() {
     out_.mass.resize(size_);
     out_.stiffness_diagonal.resize(size_);

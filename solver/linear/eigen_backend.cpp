@@ -20,8 +20,8 @@ constexpr const char* kName = "eigen-ldlt";
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Eigen's LDL^T with its analysis kept apart from its numbers. The ordering is ours and already
-/// applied, so that Eigen's own (most of its analysis) is the natural one.
+/// Eigen's LDL^T with its analysis kept apart from its numbers. The matrix arrives in elimination
+/// order, so that Eigen is asked for the natural one and most of its analysis falls away.
 class EigenAnalysis final : public Analysis {
  public:
   EigenAnalysis(std::vector<Index> order, const SymmetricPattern& pattern)
@@ -32,7 +32,8 @@ class EigenAnalysis final : public Analysis {
     entries_ = std::max(lower, below);
     for (const std::int64_t entries : counts.below) operations_ += (entries + 1) * (entries + 1);
     factor_bytes_ = column_factor_bytes(counts);
-    work_bytes_ = kEntryBytes * (2 * lower + 2 * below);  // ours and Eigen's copy, of both
+    // Matrix and factor, each with Eigen's copy.
+    work_bytes_ = kEntryBytes * (2 * lower + 2 * below);
   }
 
   std::span<const Index> order() const override { return order_; }

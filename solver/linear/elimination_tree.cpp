@@ -63,10 +63,10 @@ std::vector<Index> elimination_parents(const SymmetricPattern& pattern) {
 std::vector<Index> postorder(std::span<const Index> parent) {
   const auto size = static_cast<Index>(parent.size());
   std::vector<Index> first_child(parent.size() + 1, kNoIndex);  // the last: of all roots
-  std::vector<Index> next_brother(parent.size(), kNoIndex);
+  std::vector<Index> next_sibling(parent.size(), kNoIndex);
   for (Index node = size; node-- > 0;) {
     const auto above = static_cast<std::size_t>(parent[node] == kNoIndex ? size : parent[node]);
-    next_brother[node] = first_child[above];
+    next_sibling[node] = first_child[above];
     first_child[above] = node;
   }
   std::vector<Index> order;
@@ -74,15 +74,15 @@ std::vector<Index> postorder(std::span<const Index> parent) {
   for (Index node = first_child.back(); node != kNoIndex;) {
     while (first_child[node] != kNoIndex) {  // downwards; a child that was entered is taken off
       const Index child = first_child[node];
-      first_child[node] = next_brother[child];
-      next_brother[child] = kNoIndex;
+      first_child[node] = next_sibling[child];
+      next_sibling[child] = kNoIndex;
       node = child;
     }
     order.push_back(node);
     if (parent[node] != kNoIndex) {
       node = parent[node];
     } else {
-      node = next_brother[node];
+      node = next_sibling[node];
     }
   }
   return order;

@@ -28,7 +28,7 @@ struct EliminationTree {
 std::vector<Index> elimination_parents(const SymmetricPattern& pattern);
 
 /// order[k]: the node that comes k-th when every subtree is contiguous and children come before
-/// their parent, brothers in the order of their numbers. Precondition: parents have larger numbers.
+/// their parent, siblings in the order of their numbers. Precondition: parents have larger numbers.
 /// Cost: O(n).
 std::vector<Index> postorder(std::span<const Index> parent);
 

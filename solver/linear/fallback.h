@@ -11,24 +11,24 @@
 
 namespace geotherm {
 
-/// A backend that could not do the work that was asked of it.
+/// A backend that failed, and its error.
 struct Fallback {
   std::string backend;
-  Error error;  ///< as it came
+  Error error;  ///< the error that the backend gave
 };
 
-/// Which backend may do what another one could not.
+/// Which backends may take over from one that failed.
 enum class FallbackPolicy {
-  kNone,        ///< none: input, options or the caller are the reason
+  kNone,        ///< none: the input, the options or the caller are the cause
   kAny,         ///< the next one
   kFactored,    ///< the next one that factorises
-  kFactorless,  ///< the next one that holds no factor: the memory has ended
+  kFactorless,  ///< the next one that holds no factor, because memory ran out
 };
 
-/// Who may follow after an error of a backend.
+/// The policy after this error of a backend.
 FallbackPolicy policy_after(const Error& error);
 
-/// What came of one backend; `policy` counts where that is an error.
+/// The outcome of one backend; `policy` matters where it is an error.
 template <class Value>
 struct Attempt {
   Result<Value> outcome;
@@ -41,7 +41,8 @@ std::string next_backend(std::span<const Fallback> failed, FallbackPolicy policy
 /// "A failed: MESSAGE; B took over". Precondition: `failed` is not empty.
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by);
 
-/// What all of them say, with the code and the hint of the last. Precondition: not empty.
+/// One error with the messages of all failures, the code and the hint of the last. Precondition:
+/// not empty.
 Error joint_error(std::span<const Fallback> failed);
 
 /// Tries `backend`, and where it fails the others in the order of backend_names(), as far as they

@@ -51,7 +51,7 @@ SurfacePoint on_edge(const PathSurface& surface, Index edge, double share) {
   return point;
 }
 
-/// True for two points of one edge, between which there is nothing to gain.
+/// True for two points of one edge, whose connection would only follow the edge.
 bool on_same_edge(const PathSurface& surface, const SurfacePoint& a, const SurfacePoint& b,
                   Index face) {
   const auto p = surface.express(a, face), q = surface.express(b, face);

@@ -67,7 +67,7 @@ class Search {
     return {};
   }
 
-  /// Vertices beside a path have nothing new to offer.
+  /// Vertices beside a path are not tried: the path has been shortened past them.
   void mark(const SurfacePath& path) {
     for (const Index f : path.faces) {
       for (const Index v : surface_.mesh()->faces()[f]) seen_[v] = 1;

@@ -17,7 +17,8 @@ double angle_between(const Vec2& a, const Vec2& b) {
   return std::atan2(std::abs(cross(a, b)), a.dot(b));
 }
 
-/// Whether the edge between the first two faces holds the point, which then needs no first face.
+/// Whether the edge between the first two faces holds the point, which makes the first face
+/// superfluous.
 bool gate_holds(const PathSurface& surface, const SurfacePoint& point, Index first, Index second) {
   const auto in_second = surface.express(point, second);
   return in_second && surface.express(point, first);
@@ -147,7 +148,7 @@ double length_of(const std::vector<PathSegment>& segments) {
 
 void append_points(const PathSurface& surface, const PathSegment& segment,
                    std::vector<SurfacePoint>& points, std::vector<Index>& faces) {
-  /// Below, in lengths of an edge, where a segment crosses it is the edge's end.
+  /// A crossing nearer than this to an end of the edge, relative to its length, is that end.
   constexpr double kAtVertex = 1e-12;
   const UnfoldedStrip strip = unfold(surface, segment.from, segment.to, segment.faces);
   const Vec2& start = strip.points[at(strip.start())];

@@ -14,11 +14,11 @@
 namespace geotherm {
 namespace {
 
-/// Ways on the other side that are estimated longer by more than this share are not tried: the
-/// estimate sees one vertex, and those behind it may make up for so much.
+/// Alternatives that are estimated to be longer by more than this share are not tried. The estimate
+/// considers one vertex; those behind it may make up for so much.
 constexpr double kWorthTrying = 0.01;
 
-/// A vertex beside a segment, with the part of the strip on which it is.
+/// A vertex beside a segment, with the gates of the strip that it is a post of.
 struct Passed {
   Index vertex;
   int first_gate, last_gate;
@@ -38,7 +38,7 @@ double length_across(double a, double b, double angle) {
   return std::sqrt(std::max(0.0, a * a + b * b - 2 * a * b * std::cos(angle)));
 }
 
-/// The vertices that are worth passing on the other side, the most promising first.
+/// The vertices whose other side is worth a try, the most promising first.
 std::vector<Passed> passed_by(const PathSurface& surface, const PathSegment& segment) {
   const UnfoldedStrip strip = unfold(surface, segment.from, segment.to, segment.faces);
   const Vec2& a = strip.points[static_cast<std::size_t>(strip.start())];
@@ -66,7 +66,7 @@ std::vector<Passed> passed_by(const PathSurface& surface, const PathSegment& seg
   return out;
 }
 
-/// The segments of the way on the other side of the vertex; none where there is none.
+/// The segments of the alternative on the other side of the vertex; empty where there is none.
 std::vector<PathSegment> alternative(const PathSurface& surface, const PathSegment& segment,
                                      const Passed& passed) {
   const auto begin = segment.faces.begin();
@@ -87,7 +87,8 @@ std::vector<PathSegment> alternative(const PathSurface& surface, const PathSegme
   return way;
 }
 
-/// Replaces segment i by a shorter way on the other side of a vertex; false where none is found.
+/// Replaces segment i by a shorter alternative on the other side of a vertex; false where there is
+/// none.
 Result<bool> improve(const PathSurface& surface, std::vector<PathSegment>& segments, std::size_t i,
                      StepBudget& budget) {
   for (const Passed& passed : passed_by(surface, segments[i])) {
@@ -103,11 +104,12 @@ Result<bool> improve(const PathSurface& surface, std::vector<PathSegment>& segme
   return false;
 }
 
-/// Looks for shorter paths on the other sides of the vertices that a path passes: there is a
-/// straight path on each side of a vertex whose faces have less than 2 pi, and the one at hand need
-/// not be the shorter. Each such vertex is passed on its other side, the bends are straightened,
-/// and what is shorter is kept, until no such change is. Precondition: straighten_bends() has
-/// nothing left to do, and has nothing afterwards. Errors: those of the budget.
+/// Looks for shorter paths among the homotopic alternatives on the other sides of the vertices that
+/// a path passes: there is a straight path on each side of a vertex whose faces have less than 2
+/// pi, and the current one need not be the shorter. Each such vertex is passed on its other side,
+/// the bends are straightened, and what is shorter is kept, until no such change is. Precondition:
+/// straighten_bends() has nothing left to do, and has nothing afterwards. Errors: those of the
+/// budget.
 Result<void> try_homotopic_alternatives(const PathSurface& surface,
                                         std::vector<PathSegment>& segments, StepBudget& budget) {
   std::size_t i = 0;
@@ -162,7 +164,7 @@ class CutLoop {
     return pull_tight(surface_, place(share, faces_.front()), place(share, faces_.back()), faces_);
   }
 
-  /// How the length changes with the place, which never falls: the length is convex.
+  /// The derivative of the length by the place, which never falls since the length is convex.
   double slope(double share) const {
     const std::vector<PathSegment> segments = segments_at(share);
     if (segments.empty()) return 0;

@@ -12,7 +12,7 @@
 
 namespace geotherm {
 
-/// How often paths may still be shortened, and who watches.
+/// Limits the number of steps in which a path is shortened, and reports progress.
 class StepBudget {
  public:
   StepBudget(const PathSurface& surface, const Progress& progress);
@@ -30,9 +30,9 @@ class StepBudget {
 Result<std::vector<PathSegment>> tight_segments(const PathSurface& surface,
                                                 const SurfacePath& path);
 
-/// The strip of two segments that meet at a vertex, led round it on its narrow side; nothing where
-/// the path is as short there as it can be made. `closed`: neighbours of the vertex; edges to them
-/// are not crossed.
+/// The strip of two segments that meet at a vertex, led round the vertex on its narrow side;
+/// nothing where the path cannot be made shorter there. `closed`: neighbours of the vertex whose
+/// edges to it must not be crossed.
 std::optional<std::vector<Index>> strip_past(const PathSurface& surface, const PathSegment& in,
                                              const PathSegment& out,
                                              std::span<const Index> closed = {});
@@ -40,12 +40,13 @@ std::optional<std::vector<Index>> strip_past(const PathSurface& surface, const P
 /// True when a length is less than another by more than round-off.
 bool is_shorter(double length, double before);
 
-/// Passes the vertices between segments until none is left that makes the chain shorter. Its ends
-/// stay. Errors: those of the budget.
+/// Leads the chain of segments round the vertices at which it bends, until no such step makes it
+/// shorter. Its ends stay. Errors: those of the budget.
 Result<void> straighten_bends(const PathSurface& surface, std::vector<PathSegment>& segments,
                               StepBudget& budget);
 
-/// The path of segments, with points and faces of the file. `start`: where there are no segments.
+/// The path that the segments form, with points and faces of the file. `start`: the point of a path
+/// without segments.
 SurfacePath path_of(const PathSurface& surface, const std::vector<PathSegment>& segments,
                     const SurfacePoint& start);
 

@@ -13,7 +13,7 @@ namespace {
 /// Least height of a face, as a share of its longest side, that has a gradient.
 constexpr double kFlat = 1e-14;
 
-/// The steepest way down around one point.
+/// Finds the steepest descent around one point.
 class Choice {
  public:
   Choice(const PathSurface& surface, const DescentField& field, std::span<const Index> faces)
@@ -26,7 +26,8 @@ class Choice {
     if (!std::isfinite(log_largest_)) log_largest_ = 0;
   }
 
-  /// Down across the face, if its fall leads into it: no weight that is 0 may become less.
+  /// Offers the descent across the face, if it leads into the face: no weight that is 0 may become
+  /// less.
   void offer_face(Index f, const std::array<double, 3>& weights) {
     const Descent fall = fall_of(f);
     if (!(fall.slope > 0 && fall.slope >= best.slope)) return;
@@ -36,7 +37,7 @@ class Choice {
     best = fall;
   }
 
-  /// Down the edge, which `face` has, to a vertex that is lower than the other.
+  /// Offers the descent along an edge of `face` to a vertex that is lower than the other.
   void offer_edge(Index from, Index to, Index face) {
     if (!is_lower(to, from)) return;
     const double length = (surface_.position(to) - surface_.position(from)).norm();
@@ -46,7 +47,7 @@ class Choice {
     offer_vertex(to, face, std::max(slope, std::numeric_limits<double>::min()));
   }
 
-  /// Where a face has no fall, any way to a lower corner is as good.
+  /// Offers the lowest corner of a face without a gradient, where any descent will do.
   void offer_lowest_corner(Index f) {
     const Face& face = surface_.face(f);
     Index lowest = face[0], highest = face[0];
@@ -64,7 +65,8 @@ class Choice {
     if (slope > best.slope) best = {slope, face, vertex, {}};
   }
 
-  /// Of -u, over the largest u about, or as given, in units of the surface.
+  /// The height of a vertex: -u over the largest u nearby, or the value itself, in units of the
+  /// surface.
   double height(Index v) const {
     return field_.log_heat ? -std::exp(field_.values[v] - log_largest_)
                            : field_.values[v] / surface_.unit();
@@ -133,7 +135,7 @@ Descent steepest_descent(const PathSurface& surface, const DescentField& field,
 
 namespace {
 
-/// A line on its way, with points and faces of the surface.
+/// A line that is being traced, with points and faces of the surface.
 struct Line {
   std::vector<SurfacePoint> points;
   std::vector<Index> faces;
@@ -156,7 +158,7 @@ bool same_vertex(const SurfacePoint& a, const SurfacePoint& b) {
   return a.is_vertex() && a.vertex == b.vertex;
 }
 
-/// Goes straight to the goal where a face holds both.
+/// Ends the line with a straight piece where one face holds its last point and the goal.
 bool finish(const PathSurface& surface, const SurfacePoint& goal, Line& line) {
   const SurfacePoint& here = line.points.back();
   if (same_vertex(here, goal)) return true;
@@ -169,7 +171,7 @@ bool finish(const PathSurface& surface, const SurfacePoint& goal, Line& line) {
   return false;
 }
 
-/// Where the way across a face leaves it.
+/// The point at which the line across a face leaves it.
 SurfacePoint across(const PathSurface& surface, const SurfacePoint& from, const Descent& way) {
   /// A point with a weight below this is on an edge, and with two of them at a vertex.
   constexpr double kOnEdge = 1e-12;
@@ -198,7 +200,7 @@ SurfacePoint across(const PathSurface& surface, const SurfacePoint& from, const 
   return SurfacePoint::in_face(way.face, weights);
 }
 
-/// False where it is stuck.
+/// Follows the field to the goal; false where nothing leads down before it.
 bool follow(const PathSurface& surface, const DescentField& field, const SurfacePoint& goal,
             Line& line) {
   const std::size_t most = 100 + 4 * surface.faces().size();
@@ -223,7 +225,7 @@ Index nearest_corner(const PathSurface& surface, const SurfacePoint& point) {
   return surface.face(point.face)[static_cast<std::size_t>(largest)];
 }
 
-/// Goes on along edges.
+/// Continues the line along edges to the goal.
 Result<void> follow_edges(const PathSurface& surface, const SurfacePoint& goal, Line& line) {
   if (finish(surface, goal, line)) return {};
   const auto way = surface.edge_graph().shortest_path(nearest_corner(surface, line.points.back()),

@@ -13,8 +13,8 @@ namespace geotherm {
 /// starts at its offset and can only fall) and eikonal_error_mean alone. Beside the errors of every
 /// method, a query ends with kOutOfMemory or kBudgetEnded where windows multiply without end: where
 /// those of one solve_each() fill 1.5 GiB, of which each set that is solved at once has its share.
-/// Cost: 15 to 60 windows a face on models as they come, a few on planes.
-/// Sources: Mitchell, Mount, Papadimitriou 1987; Chen, Han 1990; Xin, Wang 2009.
+/// Cost: 15 to 60 windows a face on ordinary models, a few on planes. Sources: Mitchell, Mount,
+/// Papadimitriou 1987; Chen, Han 1990; Xin, Wang 2009.
 class ExactMethod final : public DistanceMethod {
  public:
   /// Errors: kCancelled, kOutOfMemory. Cost: O(F). Source sets are solved on `threads` threads,

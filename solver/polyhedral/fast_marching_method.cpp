@@ -44,7 +44,8 @@ using Point2 = Eigen::Vector2d;
 /// Cosines this near to 0 are right angles, which rounding must not make obtuse in one place and
 /// acute in another: grids are full of them.
 constexpr double kRightAngle = 1e-6;
-/// Faces that are unfolded at one corner; on a Delaunay triangulation a few do.
+/// The maximum number of faces that are unfolded at one corner; on a Delaunay triangulation a few
+/// suffice.
 constexpr int kMaxUnfolded = 50;
 
 /// The corner beyond side `k` of a face, on the left of the way from `start` to `end`, where the
@@ -153,7 +154,7 @@ MarchSupports build_march_supports(const WaveSurface& surface) {
 /// What a query takes at least for each face.
 constexpr double kFaceNanoseconds = 100;
 
-/// A ray that misses the support by no more than this share of its base goes through.
+/// A ray may miss the support by this share of its base.
 constexpr double kRayTolerance = 1e-12;
 /// Accepted vertices between two calls of progress: a few milliseconds.
 constexpr Index kVerticesBetweenCalls = 1 << 13;
@@ -168,14 +169,14 @@ class March {
         label(distance.size(), kNoIndex),
         accepted_(distance.size(), 0) {}
 
-  /// False when `progress` said stop.
+  /// False when `progress` returned false.
   bool run(const SourceSeeds& seeds, const Progress& progress) {
     seed(seeds);
     Index count = 0;
     while (!heap_.empty()) {
       const auto [key, vertex] = heap_.top();
       heap_.pop();
-      if (accepted_[vertex]) continue;  // it was here with a smaller value
+      if (accepted_[vertex]) continue;  // accepted before, with a smaller value
       accepted_[vertex] = 1;
       for (const Index s : supports_.of(vertex)) update(supports_.all[s], vertex);
       if (++count % kVerticesBetweenCalls != 0) continue;
@@ -200,7 +201,8 @@ class March {
     }
   }
 
-  /// Along the side from `from`, and as a plane wave where the other end is known, too.
+  /// Updates the target along the side from `from`, and by a plane wave where the other end is
+  /// known, too.
   void update(const MarchSupport& s, Index from) {
     if (accepted_[s.target]) return;
     const double left = distance[s.left], right = distance[s.right];

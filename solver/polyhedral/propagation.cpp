@@ -19,19 +19,19 @@ constexpr double kBucketWidth = 0.25;
 /// windows of one bucket are followed: there these must be in order.
 constexpr double kFine = 0.25 * kBucketWidth;
 
-/// What a window costs beside a comparison of two at an edge with many faces.
+/// The cost of a window, in comparisons of two windows at an edge with many faces.
 constexpr std::int64_t kWindowWork = 16;
 
 /// Work between two calls of progress: a few milliseconds.
 constexpr std::int64_t kWorkBetweenChecks = kWindowWork << 14;
 
-/// Windows from which on it is foreseen how many there will be.
+/// The total number of windows is forecast after this many.
 constexpr double kSample = 2e6;
 
-/// Windows that are worth the wait. On smooth closed surfaces they grow like F^1.5 (measured: 0.35
-/// times that on spheres, 0.5 on tori, 1.5 on Moebius strips), on others more slowly; where each of
-/// thousands of vertices bends the ways to all behind it, they grow like F^2. Small meshes are
-/// given some two seconds, whatever is wrong with them.
+/// The most windows that a query may be forecast to take. On smooth closed surfaces they grow like
+/// F^1.5 (measured: 0.35 times that on spheres, 0.5 on tori, 1.5 on Moebius strips), on others more
+/// slowly; where each of thousands of vertices bends the paths to everything behind it, they grow
+/// like F^2. Small meshes get some two seconds in any case.
 double most_windows(double faces) { return std::max(1e7, 4 * faces * std::sqrt(faces)); }
 
 /// share / whole of the length; all of it where that is more, or no number.
@@ -143,8 +143,8 @@ void Propagation::send_from(Index vertex, double distance, Index group) {
   }
 }
 
-/// Sends a window out of a face. It stands in the frame of `side`, or in the one that runs against
-/// it, with its source below.
+/// Sends a window out of a face through `side`. The window is in the frame of the side, or in the
+/// reversed one, with its source below.
 void Propagation::cross(Side side, Window window, bool against) {
   const auto& frame = mesh_.side(side);
   if (frame.across == WindowMesh::kBorder) return;
@@ -166,7 +166,7 @@ void Propagation::cross(Side side, Window window, bool against) {
 }
 
 /// Two windows that a flat vertex has split meet again side by side on the next edge: they go on as
-/// one. Without this large flat regions would be cut into ever more windows.
+/// one. Otherwise large flat regions would be split into ever more windows.
 bool Propagation::merges_with_waiting(const Window& window, double length) {
   Window* waiting = waiting_[static_cast<std::size_t>(window.side)];
   if (!waiting || (waiting->label | Window::kMerged) != (window.label | Window::kMerged))
@@ -180,8 +180,8 @@ bool Propagation::merges_with_waiting(const Window& window, double length) {
   return true;
 }
 
-/// Windows that cross an edge with many faces multiply, and those that meet again behind the next
-/// one would without end. Each goes on only where it is earlier than all before it.
+/// Windows multiply at an edge with many faces, and without end where they meet again behind the
+/// next one. So each goes on only where it gives smaller distances than all before it.
 bool Propagation::is_early_at_branch(Side side, Window& window, bool against) {
   const auto& frame = mesh_.side(side);
   auto& others = at_branches_[static_cast<std::size_t>(WindowMesh::kBranch - frame.across)];

@@ -12,27 +12,27 @@
 namespace geotherm {
 
 /// Exact distances from one source set by windows that spread from face to face, nearest first
-/// (Chen, Han 1990; Xin, Wang 2009). What cannot be the shortest way anywhere is cut off a window
-/// by comparing it with ways that exist (trim_window.h), so that no order of events loses a
-/// shortest one. Distances at vertices are lengths of ways at all times.
+/// (Chen, Han 1990; Xin, Wang 2009). Windows are trimmed by comparing them with paths that exist
+/// (window.h), so that no order of events loses a shortest path. The distance at a vertex is the
+/// length of a path at all times.
 class Propagation {
  public:
   struct VertexState {
     double distance = kUnreached;
-    double sent = kUnreached;  ///< with which it last was put into the queue
+    double sent = kUnreached;  ///< the distance with which it was last put into the queue
     Index group = kNoIndex;
   };
 
-  /// Where run() gives up, in bytes of windows: 1.5 GiB.
+  /// run() gives up at so many bytes of windows: 1.5 GiB.
   static constexpr std::size_t kMaxBytes = std::size_t{3} << 29;
 
   /// Keeps a reference.
   explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMaxBytes);
 
-  /// Starts from the seeds and runs to the end; once. Lengths as those of the surface; until the
-  /// end they are measured from the least offset, so that they keep their digits. `progress` is
-  /// asked now and then, as stage "solve". Errors: kCancelled, kBudgetEnded (windows that multiply
-  /// without end), kOutOfMemory. Throws std::bad_alloc.
+  /// Propagates from the seeds to the end; to be called once. Lengths as those of the surface;
+  /// until the end they are measured from the least offset, so that they keep their digits.
+  /// `progress` is asked now and then, as stage "solve". Errors: kCancelled, kBudgetEnded (windows
+  /// that multiply without end), kOutOfMemory. Throws std::bad_alloc.
   Result<void> run(const SourceSeeds& seeds, const Progress& progress);
 
   const std::vector<VertexState>& vertices() const { return vertices_; }
@@ -62,7 +62,7 @@ class Propagation {
   std::vector<VertexState> vertices_;
   std::vector<Leader> leaders_;                   ///< of sides
   std::vector<Window*> waiting_;                  ///< of sides: the last window in the queue
-  std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what has crossed
+  std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what crossed them
   std::int64_t windows_ = 0;
   std::int64_t work_ = 0, next_check_ = 1 << 18;
   Index reached_ = 0;

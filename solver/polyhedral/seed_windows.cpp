@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first windows of sources that are no vertices.
+// The first windows of sources that are not vertices.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ struct SideAxes {
         inward(-along.y(), along.x()) {}
 };
 
-/// Cuts the places outside of which lower + slope * place < 0 off an interval.
+/// Trims an interval to the places where lower + slope * place >= 0.
 void keep_above_zero(double lower, double slope, double& begin, double& end) {
   if (slope > 0) begin = std::max(begin, -lower / slope);
   if (slope < 0) end = std::min(end, -lower / slope);

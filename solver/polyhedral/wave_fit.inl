@@ -9,11 +9,12 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Below this share of h^2 the values along an edge fall as fast as they can: the wave runs along
-/// the edge, straight lines from its ends say all, and the fit divides by nothing.
+/// the edge, straight lines from its ends give the distances, and a fit would divide by zero.
 constexpr double kAlongEdge = 1e-5;
 /// The same for the square of the wave's component across the edge.
 constexpr double kGrazing = 1e-7;
-/// A wave that converges more than this (curvature times h) is none: two fronts meet on the edge.
+/// Where a fit converges more than this (curvature times h), two fronts meet on the edge, and it is
+/// discarded.
 constexpr double kKink = -0.3;
 /// A ray may miss its edge by this share of the half length: neighbours share the ray at their
 /// ends.
@@ -122,7 +123,8 @@ inline double plane_wave(double at_0, double at_length, double length, double x,
   return at_0 + ux * x + uy * y;
 }
 
-/// An edge as one of its faces sees it: a and b where its side begins and ends.
+/// The data of an edge as seen from one of its faces: a and b are the values where its side begins
+/// and ends.
 template <int Samples>
 struct Front {
   double a, b;
@@ -166,8 +168,8 @@ inline double kinked(const Fit& fit, double at, double y) {
                plane_wave(fit.middle, fit.right, fit.half, x, y));
 }
 
-/// The shortest of all ways over the edge, for every target of a register. `nearest`: the least of
-/// the front's values.
+/// The least distance over all paths across the edge, for every target of a register. `nearest`:
+/// the least of the front's values.
 template <int Width, int Samples>
 typename Register<Width>::Values arrival(const Front<Samples>& front, double half,
                                          const typename Register<Width>::Values& x,
@@ -207,7 +209,7 @@ Index label_of(const Front<Samples>& front, double half, double x, double y, dou
   if (front.b + __builtin_sqrt((x - half) * (x - half) + y * y) <= value + margin) {
     return front.label_b;
   }
-  double at = 0;  // where it crosses, from -half to half
+  double at = 0;  // where the path crosses, from -half to half
   for (const Fit& fit : front.fits) {
     if (fit.kind == Fit::Kind::kKinked) {
       const double from = x - fit.centre;

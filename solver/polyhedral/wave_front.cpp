@@ -8,7 +8,7 @@
 namespace geotherm {
 namespace {
 
-/// Distances above this many buckets are all in one; offsets can be that large.
+/// Bucket numbers are capped at this, since offsets can be of any size.
 constexpr double kLast = 1e18;
 constexpr std::int64_t kMin = 64;
 
@@ -18,8 +18,8 @@ constexpr double kBucketWidth = 0.5;
 constexpr double kRingSpan = 4;
 /// Visits between two calls of progress: a few milliseconds.
 constexpr std::size_t kVisitsBetweenCalls = 1 << 14;
-/// Visits of an edge, on average, and of few edges together, after which a wave is given up. Broken
-/// meshes take up to some dozens.
+/// A wave ends as kEndless after so many visits for each edge, and at least so many in all. Broken
+/// meshes take up to some dozens an edge.
 constexpr std::size_t kMaxVisits = 500, kMaxOfFew = 1 << 20;
 
 using Point2 = Eigen::Vector2d;
@@ -167,7 +167,7 @@ void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
   ring_.add_seeds(keys_);
 }
 
-/// Straight distances to the piece for everything that its face holds.
+/// Lowers the distances at the vertices and samples of the piece's face to the straight ones.
 void WaveFront::seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece) {
   const WaveFace& face = tables_.faces[tables_.rank_of_face[piece.face]];
   const auto at = corners_of(lay_out(surface.base.intrinsic.lengths[piece.face]));

@@ -12,18 +12,18 @@
 
 namespace geotherm {
 
-/// A queue of edges by distance: a ring of buckets, each first in first out. First out matters: the
-/// last in would be revisited, and with a third more error (measured). Keys beyond the ring go to
-/// its last bucket.
+/// A queue of edges by distance: a ring of buckets, each first in, first out. A last-in bucket
+/// would visit edges more often and, by measurement, give a third more error. Keys beyond the ring
+/// go to its last bucket.
 class BucketRing {
  public:
   /// `width` of a bucket; the ring spans at least `span`, or kMax buckets.
   BucketRing(double width, double span);
 
-  /// Makes it empty and connects it to a pass, which then holds its state.
+  /// Empties the ring and connects it to a pass, which then holds its state.
   void begin(WavePass& pass);
 
-  /// Adds edges with keys, which may be anywhere: beyond the ring they wait outside.
+  /// Adds edges with their keys; those beyond the ring wait outside of it.
   void add_seeds(const std::vector<std::pair<double, Index>>& seeds);
 
   /// Goes on to the next bucket that holds something, or to what waits outside; false when all is
@@ -43,7 +43,8 @@ class BucketRing {
   std::size_t let_in_ = 0;                               ///< of `outside_`, so many are in
 };
 
-/// One wave at a time from sources to everywhere, with memory that is kept for the next.
+/// Runs one wave at a time from sources over the whole surface, and keeps its memory for the next
+/// one.
 class WaveFront {
  public:
   /// Keeps a reference. `samples`: 1 or 3 on each edge.
@@ -51,11 +52,11 @@ class WaveFront {
 
   enum class Outcome {
     kDone,
-    kCancelled,  ///< `progress` (stage "solve") said stop
-    kEndless,    ///< values went on falling when each edge had been visited hundreds of times
+    kCancelled,  ///< `progress` (stage "solve") returned false
+    kEndless,    ///< distances still fell after hundreds of visits of each edge
   };
 
-  /// Lets the wave run.
+  /// Runs the wave.
   Outcome run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
               const Progress& progress);
 
@@ -65,9 +66,9 @@ class WaveFront {
   std::span<const Index> labels() const { return label_; }
   /// The least of the distances at an edge's ends and samples, in the same units.
   double least_on(Index edge) const;
-  /// What has to be added to every distance: the least offset.
+  /// The least offset, which has to be added to every distance.
   double base() const { return base_; }
-  /// The work: edges that were visited, and corners where fans touch.
+  /// The number of visits of edges, and of corners where fans touch.
   std::size_t visits() const { return visits_; }
 
  private:

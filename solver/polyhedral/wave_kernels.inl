@@ -12,11 +12,11 @@ using WaveKernel = std::size_t (*)(WavePass&, std::size_t);
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
-/// An edge is visited again when a value of it fell by this share of the face's longest side.
+/// An edge is visited again when one of its values fell by this share of the face's longest side.
 constexpr double kNotice = 1e-4;
-/// Behind an edge so many times as long as its face is high nothing is reached before the edge: a
-/// fitted wave may be lower between the samples, and handed from one such face to the next, round
-/// where they lie on each other, it would fall for ever.
+/// Where a face is lower than this share of its edge, values behind the edge are at least the least
+/// one of the edge. A fitted wave may be lower between the samples; passed round a ring of such
+/// faces, values would fall for ever.
 constexpr double kThin = 1e-2;
 
 template <int Samples, bool Labels>
@@ -40,8 +40,9 @@ class Wave {
   }
 
  private:
-  /// Each step needs what the one before brought: first the sides, then the faces, then the values.
-  /// Inlined by force: the compiler takes a function that only fetches for one that does nothing.
+  /// Prefetches in three steps, each of which needs the data of the one before: the sides, then the
+  /// faces, then the values. Inlining is forced, because the compiler drops a function that only
+  /// prefetches.
   [[gnu::always_inline]] void fetch_ahead(const WaveBucket& bucket, std::int64_t place) const {
     if (place + 8 < bucket.size) __builtin_prefetch(&p_.sides[bucket.edges[place + 8]]);
     if (place + 4 < bucket.size) {
@@ -63,7 +64,7 @@ class Wave {
     }
   }
 
-  /// Returns how much work it was, in visits.
+  /// Returns the work done, in visits.
   std::size_t visit(Index edge) {
     const auto& sides = p_.sides[edge];
     const WaveFace& face = p_.faces[face_of_code(sides[0])];
@@ -131,7 +132,7 @@ class Wave {
     }
     if (p_.distance[vc] < least(front.a, front.b) && vc != face.vertex[k] &&
         vc != face.vertex[next] && face.vertex[k] != face.vertex[next]) {
-      return;  // it came from there; with an offset beyond all digits every distance is the same
+      return;  // the wave came from there; large offsets can make all distances equal
     }
     const double length = face.length[k], half = length / 2, inverse = 1 / length;
     const double to_b = face.length[next], to_a = face.length[previous];
@@ -165,8 +166,8 @@ class Wave {
                   most(dc, front.b));
   }
 
-  /// Hands the value of a vertex to all its faces, where no edge does it (WaveFace::touching);
-  /// unless all have had it, but for what none would notice. Returns the number of corners.
+  /// Passes the value of a vertex on to all its faces, where no edge does so (WaveFace::touching),
+  /// unless they have it already but for a negligible difference. Returns the number of corners.
   std::size_t spread(Index vertex) {
     if (!(p_.distance[vertex] < p_.spread_below[vertex])) return 0;
     const double value = p_.distance[vertex];

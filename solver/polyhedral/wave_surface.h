@@ -42,13 +42,13 @@ struct WaveSurface {
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
 
-/// The same on a triangulation that is there. Precondition: it is Delaunay. What is to be held
-/// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors:
-/// kOutOfMemory, kCancelled. Cost: O(F).
+/// The same on a given triangulation. Preconditions: it is Delaunay and, where distances are
+/// compared with those on the mesh, no tufted cover. Only the wave methods support inserted
+/// vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 
-/// `stage`: what the memory ended in.
+/// The error when memory ran out in `stage`.
 Error wave_out_of_memory(const char* stage, Index faces);
 
 /// A source set as the triangulation sees it. Lengths and places in units of `intrinsic`.

@@ -270,13 +270,13 @@ void list_corners(WaveTables& tables) {
   }
 }
 
-/// A vertex whose longest side is that much longer than its shortest hands its distance on by
-/// itself: samples far out on a long side do not notice when it falls, and faces beyond would never
-/// know.
+/// A vertex whose longest side is longer than its shortest by this factor passes its distance on by
+/// itself: its fall may not change the samples far out on a long side, and would not reach the
+/// faces beyond.
 constexpr double kStretched = 6;
 
 /// Marks corners at vertices whose faces are not all joined by edges at the vertex, where a wave
-/// has to be handed from fan to fan, and at stretched ones.
+/// has to be passed from fan to fan, and at stretched ones.
 class FanMarker {
  public:
   explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}

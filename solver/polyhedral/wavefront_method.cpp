@@ -20,8 +20,8 @@ constexpr double kFaceNanoseconds = 100;
 /// What the tables take for each face.
 constexpr double kSetUpNanoseconds = 250;
 
-/// Fronts kept between queries: fresh memory would be handed out and cleared page by page, which at
-/// a million faces takes as long as a tenth of the query. Grows to one for each thread.
+/// Fronts that are kept between queries: at a million faces the system's clearing of fresh memory
+/// takes as long as a tenth of the query. Grows to one for each thread.
 class FrontPool {
  public:
   FrontPool(const WaveTables& tables, int samples) : tables_(tables), samples_(samples) {}

@@ -8,7 +8,7 @@
 namespace geotherm {
 namespace {
 
-/// Windows narrower than this are lit by their neighbours, relative to the side: round-off.
+/// Windows narrower than this, relative to the side, are round-off and covered by their neighbours.
 constexpr double kNarrow = 1e-14;
 
 /// Where on the side the window's distance is that from the origin. The difference of the two
@@ -25,11 +25,11 @@ bool lies_inside(const Window& w, double x, double y) {
   return turn(w.begin) < 0 && turn(w.end) > 0;
 }
 
-/// Windows at edges with many faces grow narrower without end where they run round a vertex; what
-/// is in no order on them is a share of their own width then.
+/// Windows at edges with many faces get narrower without end where they run round a vertex; the
+/// tolerance is therefore also a share of their own width.
 constexpr double kShareOfWindow = 1e-3;
 
-/// Places where two windows may change order; more than there are do no harm.
+/// Places where the order of two windows may change; superfluous ones do no harm.
 struct Places {
   std::array<double, 2> at{};
   int count = 0;

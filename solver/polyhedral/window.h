@@ -66,18 +66,19 @@ struct Window {
 /// Distances closer than this to each other count as equal, relative to themselves: round-off.
 inline constexpr double kTie = 1e-13;
 
-/// Places on a side closer than this to each other stand in no order, relative to the side.
+/// Places on a side closer than this to each other, relative to its length, count as one.
 inline constexpr double kOrder = 1e-9;
 
 /// Whether the places, unfolded, and the distances of two windows' sources are one but for
 /// round-off.
 bool have_same_source(const Window& a, const Window& b);
 
-/// Cuts off a window what its side's ends, at these distances, reach sooner along the side (Xin,
-/// Wang 2009, theorem 3.2; and in part). False: nothing is left. Ties stay.
+/// Trims the parts of a window that its side's ends, at these distances, reach sooner along the
+/// side (Xin, Wang 2009, theorem 3.2, applied to parts of windows as well). Returns false when
+/// nothing is left. Ties stay.
 bool trim_by_ends(Window& window, double length, double at_origin, double at_length);
 
-/// What Propagation knows of the shortest line yet to the corner opposite to a side.
+/// The shortest line so far to the corner opposite to a side, and the window that it lies in.
 struct Leader {
   double distance = kUnreached;
   double crossing = 0;  ///< where the line crosses the side
@@ -89,15 +90,16 @@ struct Passage {
   bool left, right;
 };
 
-/// Cuts off what crosses a shorter line to the corner at (apex_x, apex_y) (Chen, Han 1990: one
-/// angle, one split), and makes a window the leader that has a shorter one. `passage` is where the
-/// window goes; both: it has a line to the corner. False: nothing is left.
+/// Trims the part of a window that crosses a shorter line to the corner at (apex_x, apex_y) (Chen,
+/// Han 1990: one angle, one split); a window with a shorter line becomes the leader. `passage`: the
+/// sides to which the window goes, both where it has a line to the corner. Returns false when
+/// nothing is left.
 bool yield_to_leader(Window& window, double length, double apex_x, double apex_y, Leader& leader,
                      Passage& passage);
 
-/// Cuts off the ends of a window where another window on the same edge is as early. Both stand in
-/// one frame of the edge, from any of its faces. False: nothing is left. A later part in the middle
-/// stays. (In whole: the trimming of Mitchell, Mount, Papadimitriou 1987.)
+/// Trims the ends of a window where another window on the same edge gives no larger distances. Both
+/// are in one frame of the edge, from any of its faces. Returns false when nothing is left. A
+/// dominated part in the middle stays. (Complete trimming: Mitchell, Mount, Papadimitriou 1987.)
 bool trim_dominated_ends(Window& window, const Window& other, double length);
 
 }  // namespace geotherm

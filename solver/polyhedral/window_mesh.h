@@ -8,7 +8,7 @@
 
 namespace geotherm {
 
-/// A surface as window propagation reads it: what is needed at a side stands together. Immutable.
+/// A surface as window propagation reads it, with the data of each side in one place. Immutable.
 /// Cost of building it: O(F).
 class WindowMesh {
  public:

@@ -10,22 +10,24 @@
 
 namespace geotherm {
 
-/// Windows in the order of their keys up to the width of a bucket. A turn of buckets holds what is
-/// near, a heap what is far. Within a bucket coarse windows go first in, first out; fine ones, in
-/// faces far smaller than the bucket is wide, follow in the order of their keys: as they come, they
-/// would take ways that are not the shortest, and take them again each time these grow shorter.
-/// Cost: O(1) for a near coarse window, O(log m) for one of m fine ones in a bucket, O(log n) for a
-/// far one. Source: Xu, Wang, Wei, Wang, He, Liu 2015 (buckets).
+/// A queue of windows in the order of their keys, up to the width of a bucket. An array of buckets
+/// holds the near windows, a heap the far ones. Within a bucket coarse windows leave first in,
+/// first out; fine ones, in faces far smaller than the bucket is wide, follow in the order of their
+/// keys: in order of arrival they would be followed along paths that are not the shortest, and
+/// again each time these get shorter. Cost: O(1) for a near coarse window, O(log m) for one of m
+/// fine ones in a bucket, O(log n) for a far one. Source: Xu, Wang, Wei, Wang, He, Liu 2015
+/// (buckets).
 class WindowQueue {
  public:
   /// `width` > 0, in units of the keys.
   explicit WindowQueue(double width);
 
-  /// A key below the present bucket's goes into that. Precondition: `key` is finite. Where the
-  /// window stands until it is popped; nullptr where it may be moved before. Throws std::bad_alloc.
+  /// A window with a key below the present bucket goes into that bucket. Precondition: `key` is
+  /// finite. Returns the address of the window until it is popped; nullptr where it may be moved
+  /// before. Throws std::bad_alloc.
   Window* push(const Window& window, double key, bool fine);
 
-  /// Where the next window stands, until something is pushed; nullptr: none is left.
+  /// The next window, valid until something is pushed; nullptr when none is left.
   const Window* pop();
 
   std::size_t size() const { return size_; }

@@ -12,7 +12,7 @@
 namespace geotherm {
 namespace {
 
-/// From this many operations on, a single front is worth several threads.
+/// A front with more operations than this is eliminated by several threads.
 constexpr double kLargeFront = 2e7;
 constexpr std::int64_t kSlabsAPiece = 6;
 
@@ -92,7 +92,7 @@ class Factorizer {
     return {};
   }
 
-  /// The entries of the front's columns; nothing else is in it yet.
+  /// Clears the front and writes the matrix entries of its columns into it.
   void gather(const FrontPanel& front, Index s, double* update) const {
     const std::int64_t rows = slabs(front.width) + slabs(front.below);
     std::fill_n(front.values, rows * front.slab_size(), 0.0);
@@ -103,7 +103,7 @@ class Factorizer {
     }
   }
 
-  /// Adds what children of the same task left; the one that came last is taken first.
+  /// Adds the updates of the children that belong to the same task, the last child first.
   void take_updates(const FrontPanel& front, Index s, double* update, Worker& worker) const {
     const int other = 1 - tree_.stack[s];
     std::vector<Index>& held = worker.held[other];

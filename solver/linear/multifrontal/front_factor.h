@@ -24,10 +24,10 @@ struct FrontFactor {
   }
 };
 
-/// What ended a factorisation.
+/// Why a factorisation failed, if it did.
 struct FactorFailure {
   Index column = kNoIndex;  ///< its pivot is not positive or not finite
-  bool narrow = false;      ///< numbers do not fit into the storage
+  bool narrow = false;      ///< a number is too large for the storage
   bool failed() const { return column != kNoIndex || narrow; }
 };
 
@@ -60,7 +60,8 @@ class FrontPasses {
   void backward(double* x, Eigen::Index stride, int threads,
                 std::span<const Index> fronts = {}) const;
 
-  /// The same over a few fronts by this thread, which looks at nothing else.
+  /// The same over a few fronts, on this thread, at a cost that does not depend on the size of the
+  /// tree.
   void forward_along(std::span<const Index> fronts, double* x, Eigen::Index stride) const;
   void backward_along(std::span<const Index> fronts, double* x, Eigen::Index stride) const;
 

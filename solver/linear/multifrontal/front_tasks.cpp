@@ -7,10 +7,10 @@
 namespace geotherm {
 namespace {
 
-/// A subtree with less than this share of all work is one task: enough tasks for many threads, few
-/// enough that handing them out costs nothing.
+/// A subtree with less than this share of all work is one task: this gives enough tasks for many
+/// threads, and few enough that scheduling them costs nothing.
 constexpr double kShareOfTask = 1.0 / 64;
-/// Entries of a factor below which one task does everything: it takes as long as to wake a thread.
+/// A factor with fewer entries is one task: solving with it takes as long as waking a thread.
 constexpr double kSmallFactor = 50'000;
 
 /// Work of every subtree as a share of the whole: the larger of factorising it and solving with it.

@@ -13,8 +13,8 @@
 
 namespace geotherm {
 
-/// Fills the tasks of the tree and how much waits within and between them. The division depends on
-/// the tree alone.
+/// Divides the tree into tasks, and measures the memory that they need for data that waits within
+/// and between them. The division depends on the tree alone.
 void divide_into_tasks(FrontTree& tree);
 
 /// The first exception of several threads.
@@ -33,9 +33,9 @@ class SharedFailure {
   std::exception_ptr failure_;
 };
 
-/// Hands tasks out to threads, each once all those it waits for are done: its children when going
-/// up, its parent when going down. Nobody waits here: who finds no task ready leaves, and whoever
-/// makes several ready calls others.
+/// Hands tasks to threads. A task is ready once those before it are done: its children when going
+/// up, its parent when going down. No thread blocks here: one that finds no ready task leaves, and
+/// one that makes several tasks ready calls others.
 class TaskQueue {
  public:
   enum class Direction { kUp, kDown };
@@ -61,7 +61,8 @@ class TaskQueue {
   bool stopped_ = false;
 };
 
-/// What threads that come and go work with: as many as are in use at once.
+/// Keeps the workers of threads that come and go, so that there are never more of them than threads
+/// at the same time.
 template <class Worker>
 class WorkerShelf {
  public:

@@ -53,8 +53,8 @@ Draft strict_supernodes(const ColumnCounts& counts) {
   return out;
 }
 
-/// Whole subtrees become one supernode where that costs less: they are contiguous, and no row below
-/// is outside of what their root has.
+/// Merges a whole subtree into one supernode where that costs less. Its columns are contiguous, and
+/// all its rows below are among those of its root.
 Draft merge_subtrees(const Draft& strict) {
   const auto count = static_cast<std::size_t>(strict.count());
   std::vector<Index> columns(strict.width);
@@ -92,8 +92,8 @@ Draft merge_subtrees(const Draft& strict) {
   return out;
 }
 
-/// From the roots down: each takes in the supernode before it where that is a child and few zeros
-/// are stored for it.
+/// From the roots down, merges each supernode with the one before it, where that is its child and
+/// the merger stores few zeros.
 Supernodes merge_last_children(Draft draft) {
   std::vector<Index> taken_by(static_cast<std::size_t>(draft.count()), kNoIndex);
   const auto living = [&](Index s) {

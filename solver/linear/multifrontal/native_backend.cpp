@@ -48,7 +48,7 @@ class NativeFactor final : public TriangularFactor {
   }
 
  private:
-  /// Numbers of the factor below which a pass takes less time than it takes to begin one by tasks.
+  /// A pass over fewer numbers of the factor runs on one thread: starting tasks would take longer.
   static constexpr std::int64_t kShort = 1 << 18;
 
   bool is_short(std::span<const Index> nodes) const {
@@ -152,7 +152,7 @@ class NativeBackend final : public Backend {
                                                   int threads) const override try {
     std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
     SymmetricPattern eliminated = permuted(pattern, order, threads);
-    // Subtrees of the elimination tree must be contiguous.
+    // The front tree needs contiguous subtrees, hence a postorder.
     const std::vector<Index> post = postorder(elimination_parents(eliminated));
     std::vector<Index> final_order(order.size());
     for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];

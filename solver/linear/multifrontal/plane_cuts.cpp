@@ -16,7 +16,7 @@ namespace {
 constexpr int kMaxBins = 512;
 /// A direction along which a part has less than this share of its greatest extent is left out.
 constexpr float kThin = 0.3F;
-/// And so is one along which it has next to none, where an inverse would overflow.
+/// The same for a direction with next to no extent, whose inverse would overflow.
 constexpr float kShortest = 1e-30F;
 
 constexpr std::int64_t kVerticesAPiece = 20'000;
@@ -50,14 +50,14 @@ struct Bins {
   int operator[](std::size_t lane) const { return lanes[lane]; }
 };
 
-/// How far a part reaches along a direction.
+/// The extent of a part along a direction.
 struct Extent {
   Point direction{};
   float low = 0, high = 0;
   float length() const { return high - low; }
 };
 
-/// The directions worth a sweep, axes first, at most kLanes: where the part is thin along an axis,
+/// The directions that are swept, axes first, at most kLanes: where the part is thin along an axis,
 /// a diagonal between this axis and another is as good as the other axis.
 std::vector<Extent> find_extents(const GraphPart& part, int threads) {
   constexpr std::size_t kCount = kDirections.size();
@@ -102,7 +102,8 @@ std::vector<Extent> find_extents(const GraphPart& part, int threads) {
   return out;
 }
 
-/// Where the vertices lie along each direction, and how far they and their neighbours reach.
+/// For each vertex and direction the bin that it lies in, and the lowest and highest bin of it and
+/// its neighbours.
 struct Reaches {
   std::vector<Bins> own, lowest, highest;
   std::size_t size() const { return own.size(); }

@@ -14,7 +14,7 @@
 namespace geotherm {
 namespace {
 
-/// Leave the separator for a half.
+/// A move of a vertex from the separator into a half.
 struct Move {
   Index gain, vertex;  ///< gain: by how much the separator shrinks
   std::int8_t to;
@@ -33,7 +33,7 @@ class MoveQueue {
     best_ = std::max(best_, list);
   }
 
-  /// Whether there is one left: it is taken out.
+  /// Takes the best move out of the queue; false where it is empty.
   bool pop(Move& move) {
     while (best_ >= 0 && first_[best_] == kNoIndex) --best_;
     if (best_ < 0) return false;
@@ -134,11 +134,11 @@ void refine_separator(const GraphPart& part, Separator& s) {
 
 namespace {
 
-/// Planes that are refined; the best of the refined separators is taken. Measured: a third is worth
-/// less than its time, and so is a second in parts of few vertices.
+/// The number of planes whose separators are refined; the best of these is taken. By measurement a
+/// third gains less than its time costs, and so does a second in parts of few vertices.
 constexpr int kCandidates = 2;
 constexpr Index kFew = 300;
-/// Passes of moves at most, as long as they gain.
+/// The maximum number of passes of moves; a pass without gain ends them earlier.
 constexpr int kPasses = 2;
 
 /// Parts of fewer vertices are cut by one thread.

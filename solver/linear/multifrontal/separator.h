@@ -32,7 +32,8 @@ struct Separator {
 /// no half grow beyond the rest.
 inline constexpr double kSmallestShare = 0.25;
 
-/// What unequal halves cost, as a factor of the separator's size: measured, to store least.
+/// The cost of unequal halves, as a factor of the separator's size. The formula was chosen by
+/// measuring what the factor stores.
 inline double imbalance(Index on_left, Index size) {
   const double off = static_cast<double>(on_left) / size - 0.5;
   return 1 + 4 * off * off;
