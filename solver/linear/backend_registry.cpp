@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "solver/linear/added_backend.h"
+#include "solver/linear/backend.h"
 #include "solver/linear/backends.h"
+#include "solver/linear/fallback.h"
 
 namespace geotherm {
 namespace {
@@ -44,6 +46,20 @@ class Registry {
       cg_backend(),
   };
 };
+
+bool may_follow(const Backend& backend, FallbackPolicy policy) {
+  switch (policy) {
+    case FallbackPolicy::kNone:
+      return false;
+    case FallbackPolicy::kAny:
+      return true;
+    case FallbackPolicy::kFactored:
+      return !backend.iterative();
+    case FallbackPolicy::kFactorless:
+      return backend.iterative();
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -95,6 +111,45 @@ Result<void> check_pattern(const SymmetricOperator& matrix, std::uint64_t analys
                    " does not have the pattern that was analysed (size " + std::to_string(size) +
                    ")",
                {"analyse its own pattern first"}};
+}
+
+FallbackPolicy policy_after(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::kNumericalFailure:
+      return FallbackPolicy::kAny;
+    case ErrorCode::kBudgetEnded:
+      return FallbackPolicy::kFactored;
+    case ErrorCode::kOutOfMemory:
+      return FallbackPolicy::kFactorless;
+    default:
+      return FallbackPolicy::kNone;
+  }
+}
+
+std::string next_backend(std::span<const Fallback> failed, FallbackPolicy policy) {
+  for (const std::string& name : backend_names()) {
+    if (std::ranges::count(failed, name, &Fallback::backend) > 0) continue;
+    const auto backend = find_backend(name);
+    if (backend && may_follow(**backend, policy)) return name;
+  }
+  return {};
+}
+
+std::string takeover_text(std::span<const Fallback> failed, std::string_view by) {
+  std::string text;
+  for (const Fallback& each : failed)
+    text += each.backend + " failed: " + each.error.message + "; ";
+  return text + std::string(by) + " took over";
+}
+
+Error joint_error(std::span<const Fallback> failed) {
+  const Error& last = failed.back().error;
+  if (failed.size() == 1) return last;
+  Error error{last.code, {}, last.hint};
+  for (const Fallback& each : failed) {
+    error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.error.message;
+  }
+  return error;
 }
 
 }  // namespace geotherm

@@ -13,7 +13,7 @@
 #include "solver/linear/backends.h"
 #include "solver/linear/blas_threads.h"
 #include "solver/linear/multifrontal/fill_order.h"
-#include "solver/linear/panel_factor.h"
+#include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
 namespace {

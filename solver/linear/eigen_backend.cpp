@@ -10,7 +10,7 @@
 #include "solver/core/number_text.h"
 #include "solver/linear/backends.h"
 #include "solver/linear/multifrontal/fill_order.h"
-#include "solver/linear/panel_factor.h"
+#include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
 namespace {

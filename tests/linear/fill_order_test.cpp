@@ -8,7 +8,6 @@
 #include <set>
 
 #include "solver/linear/elimination_tree.h"
-#include "solver/linear/multifrontal/minimum_degree.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/operators.h"
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "solver/core/parallel.h"
-#include "solver/linear/multifrontal/minimum_degree.h"
 #include "solver/linear/multifrontal/separator.h"
 
 namespace geotherm {
@@ -130,6 +129,30 @@ std::vector<Index> minimum_degree(const SymmetricPattern& pattern) {
 }
 
 }  // namespace
+
+void minimum_degree_order(std::span<NeighborMask> neighbors, std::span<Index> order) {
+  const std::size_t n = neighbors.size();
+  std::array<int, kSmallGraph> degree{};
+  for (std::size_t v = 0; v < n; ++v) degree[v] = neighbors[v].count();
+  std::uint64_t alive = n == 64 ? ~0ULL : (1ULL << n) - 1;
+  for (std::size_t step = 0; step < n; ++step) {
+    int best = std::countr_zero(alive);
+    for (std::uint64_t rest = alive; rest != 0; rest &= rest - 1) {
+      const int v = std::countr_zero(rest);
+      if (degree[v] < degree[best]) best = v;
+    }
+    order[step] = best;
+    const std::uint64_t bit = 1ULL << best;
+    alive &= ~bit;
+    const NeighborMask clique = neighbors[best];
+    for (std::uint64_t rest = clique.inner; rest != 0; rest &= rest - 1) {
+      const int v = std::countr_zero(rest);
+      neighbors[v].inner = (neighbors[v].inner | clique.inner) & ~bit & ~(1ULL << v);
+      neighbors[v].halo |= clique.halo;
+      degree[v] = neighbors[v].count();
+    }
+  }
+}
 
 std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
                                      std::span<const Vec3> positions, int threads) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,5 +30,20 @@ inline constexpr Index kDissectFrom = 2000;
 /// about its size.
 std::vector<Index> nested_dissection(const SymmetricPattern& pattern,
                                      std::span<const Vec3> positions, int threads);
+
+inline constexpr Index kSmallGraph = 64;
+
+/// Neighbours of a vertex of a small graph, a bit each: those that are ordered with it, and those
+/// beyond, which are eliminated later.
+struct NeighborMask {
+  std::uint64_t inner = 0, halo = 0;
+
+  int count() const { return std::popcount(inner) + std::popcount(halo); }
+};
+
+/// Exact minimum-degree order of a graph of up to 64 vertices (its neighbours are destroyed).
+/// Neighbours in the halo count, since eliminating a vertex joins them too. Writes local vertex
+/// numbers in order of elimination. Sources: Rose 1972; the halo: Pellegrini, Roman, Amestoy 2000.
+void minimum_degree_order(std::span<NeighborMask> neighbors, std::span<Index> order);
 
 }  // namespace geotherm
