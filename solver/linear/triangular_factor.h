@@ -10,8 +10,8 @@
 namespace geotherm {
 
 /// A Cholesky factor in elimination order, M = L L^T or L D L^T, with the two triangular passes
-/// over some or all of its nodes. What a direct backend hands back once it, or the library behind
-/// it, has computed the numbers.
+/// over some or all of its nodes. A direct backend makes one once it, or the library behind it, has
+/// computed the numbers.
 class TriangularFactor {
  public:
   virtual ~TriangularFactor() = default;
@@ -29,11 +29,12 @@ class TriangularFactor {
                         int threads) const = 0;
 };
 
-/// A Factorization over a triangular factor: sparse right sides walk only their path forward,
-/// blocks are cut into groups of 16, 8, 4, 2 and 1 columns that each stream the factor once.
+/// A Factorization that solves with a triangular factor. Sparse right sides visit only their path
+/// on the way forward; blocks are cut into groups of 16, 8, 4, 2 and 1 columns, each of which reads
+/// the factor once.
 std::unique_ptr<Factorization> make_direct_factorization(std::unique_ptr<TriangularFactor> factor);
 
-/// Which columns form supernodes and which rows each has: shared by every factor of a pattern.
+/// The columns and rows of each supernode, shared by all factors of a pattern.
 struct SupernodalStructure {
   std::vector<Index> first = {0};               ///< S + 1: first column of each supernode
   std::vector<std::int64_t> row_start = {0};    ///< S + 1, into `rows`

@@ -21,8 +21,9 @@ struct FrontPanel {
   double* below_values() const { return values + slabs(width) * slab_size(); }
 };
 
-/// Dense work on fronts: M = L L^T. Left-looking by blocks of eight columns, each block's diagonal
-/// inverted (D = L11^-1), so that what is solved with later are products alone.
+/// The dense kernels of the factorisation M = L L^T of a front. They work left-looking by blocks of
+/// eight columns and invert each block's diagonal (D = L11^-1), so that solves consist of products
+/// alone.
 struct FrontKernels {
   /// L of the own rows, in place (the upper part of a diagonal block is of no use), and the inverse
   /// of each diagonal block by rows, 64 doubles each. Returns the first column whose pivot is not
@@ -41,7 +42,8 @@ struct FrontKernels {
   bool (*store)(const FrontPanel& front, const double* inverses, FactorStorage storage, void* to);
 };
 
-/// Asking for a set that this build or processor lacks gives the best lower one.
+/// The kernels for an instruction set; one that this build or processor lacks is replaced by the
+/// best lower one.
 const FrontKernels& front_kernels(InstructionSet set = best_instruction_set());
 
 /// Bytes of a number.
@@ -52,7 +54,7 @@ constexpr std::int64_t bytes_of(FactorStorage storage) {
 /// Numbers that may be read after the last one.
 inline constexpr std::int64_t kStoredPadding = 16;
 
-/// One front as solves see it.
+/// The stored numbers of one front, as solves read them.
 struct StoredFront {
   Index width, below;
   const void* values;

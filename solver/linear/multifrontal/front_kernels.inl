@@ -17,7 +17,7 @@ namespace {
 using Slab = Group<kSlab>;
 constexpr Index kTile = kSlab * kSlab;
 
-/// The tile of sums that stays in registers: so many slabs of rows by so many columns.
+/// The size of the tile of sums that stays in registers, in slabs of rows and in columns.
 constexpr int kTileSlabs = kLanes == 8 ? 3 : 1;
 constexpr int kTileColumns = kLanes == 8 ? 8 : kLanes == 4 ? 4 : 2;
 
@@ -124,8 +124,8 @@ inline void tile_to_solve_with(const double* tile, Index columns, const double* 
 
 Index block_columns(Index width, Index block) { return std::min(kSlab, width - block * kSlab); }
 
-/// Columns are worked off in strips of so many: three slabs of a strip and one more stay in the
-/// nearest cache while they meet all others.
+/// The columns of a strip: three of its slabs and one more stay in the first-level cache while they
+/// are multiplied with all others.
 constexpr Index kStrip = 96;
 
 Index factor_own(const FrontPanel& front, double* inverses) {

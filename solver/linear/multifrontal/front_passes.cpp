@@ -23,7 +23,7 @@ inline void copy_groups(const double* from, std::ptrdiff_t from_stride, int grou
   }
 }
 
-/// A front on a path, whose vector its parent or its child still needs.
+/// The vector of a front on a path, which its parent or child still needs.
 struct HeldVector {
   Index front;
   Doubles vector;
@@ -38,7 +38,7 @@ FrontPasses::FrontPasses(const FrontTree& tree, const FrontFactor& factor, int g
       group_(group),
       solves_(front_solves(factor.storage, group, set)) {}
 
-/// What happens at one front; y is its vector, a group at each of its places.
+/// The steps at one front; y is its vector, with a group at each of its places.
 class FrontPasses::Steps {
  public:
   Steps(const FrontPasses& passes, double* x, Eigen::Index stride)
@@ -47,13 +47,14 @@ class FrontPasses::Steps {
   std::int64_t vector_size(Index s) const { return std::int64_t{tree_.places(s)} * group_; }
   std::int64_t own_size(Index s) const { return std::int64_t{padded(tree_.width(s))} * group_; }
 
-  /// Forward: the right side at its own rows; below nothing, which a fresh front need not see.
+  /// Forward: copies the right side at the front's own rows, and clears the rows below unless the
+  /// front is fresh.
   void start(Index s, double* y, bool fresh) const {
     copy_groups(rows(s), stride_, group_, tree_.width(s), y, group_);
     if (!fresh) std::fill(y + own_size(s), y + vector_size(s), 0.0);
   }
 
-  /// Forward: adds what a child leaves to the rows below it.
+  /// Forward: adds the contribution of a child to the rows of its parent.
   void take(Index child, const double* left, double* y) const {
     p_.solves_.take(left, tree_.places_in_parent(child), tree_.below(child), y);
   }
@@ -107,7 +108,7 @@ class FrontPasses::Upwards {
         steps_(steps),
         stack_{uncleared(tree.vector_stack[0] * group), uncleared(tree.vector_stack[1] * group)} {}
 
-  /// `left`: what the last fronts of other tasks leave to theirs.
+  /// `left`: the contributions of the last fronts of tasks to their parents in other tasks.
   void run(const FrontTask& task, Index number, const Visits& visits, std::vector<Doubles>& left) {
     for (int k = 0; k < 2; ++k) {
       top_[k] = stack_[k].get();
@@ -156,7 +157,8 @@ class FrontPasses::Upwards {
   std::vector<Index> held_[2];  ///< fronts whose vectors wait, on each stack
 };
 
-/// The backward pass over the fronts of a task: the vectors of all fronts above one wait.
+/// The backward pass over the fronts of a task: the vectors of all fronts above the current one are
+/// kept.
 class FrontPasses::Downwards {
  public:
   Downwards(const FrontTree& tree, int group, const Steps& steps)

@@ -16,16 +16,17 @@ namespace {
 
 // Products with the tiles that a front is stored in, eight rows by the columns of a block. With one
 // right side the rows of a tile are the vector dimension. The last rows are read together with what
-// follows them: into lanes that are never looked at (forward), or times zero (backward).
+// follows them: into lanes that are never used (forward), or multiplied by zero (backward).
 
 using Slab = Group<kSlab>;
 
-/// Bytes ahead of the numbers in use that are asked for, into the second cache: panels are short,
-/// and the processor guesses their ends badly (a quarter of the time at a million faces).
+/// Distance in bytes by which numbers are prefetched into the second-level cache. Panels are short,
+/// and the hardware prefetcher misses where they begin (a quarter of the time at a million faces).
 constexpr std::ptrdiff_t kAhead = 6144;
 
-/// A tile in doubles, in memory: from there a processor multiplies with one number at no cost, from
-/// within registers it has to be moved about, which compilers prefer unless kept from it.
+/// Widens a tile to doubles in memory. A processor broadcasts a factor from memory at no cost, but
+/// has to shuffle one out of a register; the empty assembly statement keeps the compiler from doing
+/// the latter.
 template <int N, class T>
 inline void widen_tile(const T* values, Index rows, double* out) {
 #pragma GCC unroll 8
@@ -40,7 +41,7 @@ inline void add_tile(const T* values, Index rows, const Slab (&x)[N], Slab& sum)
   for (int c = 0; c < N; ++c) sum.add(Slab::load(values + c * rows), x[c]);
 }
 
-/// y += tile x for all tiles of these rows, or = where nothing is in y yet.
+/// y += tile x for all tiles of these rows; y = tile x where `fresh`.
 template <int N, class T>
 inline const T* add_rows(const T* values, Index rows, const Slab (&x)[N], double* y, bool fresh) {
   for (; rows > 0; rows -= kSlab, y += kSlab) {
@@ -88,12 +89,13 @@ inline const T* forward_block(const T* values, Index own_rows, Index below, doub
     Slab x[N];
 #pragma GCC unroll 8
     for (int c = 0; c < N; ++c) x[c] = Slab::all(own[c]);
-    // The first tile is D: it gives what comes to stand in place of x.
+    // The first tile is D, whose product replaces x.
     values = add_rows<N>(values, N, x, own, true);
     values = add_rows<N>(values, own_rows - N, x, own + kSlab, false);
     return add_rows<N>(values, below, x, under, fresh);
   } else {
-    // Several right sides: they are the vector dimension, and the tile's numbers single factors.
+    // With several right sides these are the vector dimension, and the tile's numbers scalar
+    // factors.
     Group<K> x[N];
 #pragma GCC unroll 8
     for (int c = 0; c < N; ++c) x[c] = Group<K>::load(own + c * K);
@@ -233,7 +235,7 @@ inline void gather(const double* from, const Index* place, Index count, double* 
   }
 }
 
-/// As a rule the first number tells.
+/// Usually the first number decides.
 inline bool is_zero(const double* x, std::int64_t count) {
   for (std::int64_t i = 0; i < count; ++i) {
     if (x[i] != 0) return false;
@@ -245,7 +247,7 @@ template <int K, class T>
 void backward(const StoredFront& front, double* x, const double* above, const Index* place) {
   double* const under = x + static_cast<std::ptrdiff_t>(padded(front.width)) * K;
   gather<K>(above, place, front.below, under);
-  // Heat that has underflowed on the way here: 0 stays 0, and no number of the factor is read.
+  // Where the heat has underflowed, 0 stays 0 and no number of the factor is read.
   if (is_zero(under, std::int64_t{front.below} * K) && is_zero(x, std::int64_t{front.width} * K)) {
     return;
   }

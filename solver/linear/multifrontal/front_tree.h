@@ -20,7 +20,7 @@ struct Supernodes {
   Index width(Index s) const { return first[s + 1] - first[s]; }
 };
 
-/// Rows of a front come in slabs of so many: the doubles of the widest register.
+/// The rows of a front come in slabs of this size: the doubles of the widest register.
 inline constexpr Index kSlab = 8;
 
 inline constexpr Index slabs(Index rows) { return (rows + kSlab - 1) / kSlab; }
@@ -31,7 +31,7 @@ inline constexpr std::int64_t triangle_size(std::int64_t slab_count) {
   return kSlab * kSlab * slab_count * (slab_count + 1) / 2;
 }
 
-/// Doubles that are not cleared when they are made: what a front works on.
+/// Uninitialised doubles, for the work on a front.
 using Doubles = std::unique_ptr<double[]>;
 inline Doubles uncleared(std::int64_t count) {
   return std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(count));
@@ -76,9 +76,9 @@ struct FrontTree {
   const Index* places_in_parent(Index s) const { return place_in_parent.data() + below_start[s]; }
 };
 
-/// Where largest_panel is beyond what an Index counts, the rest is not filled.
-/// `pattern`: in elimination order, which must be a postorder; counts of it. The result does not
-/// depend on `threads`. Cost: O(entries of the pattern + rows of all fronts).
+/// Builds the fronts of a pattern. Where largest_panel is beyond what an Index counts, the rest is
+/// not filled. `pattern`: in elimination order, which must be a postorder; `counts`: of it. The
+/// result does not depend on `threads`. Cost: O(entries of the pattern + rows of all fronts).
 FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,
                            int threads);
 
