@@ -9,7 +9,7 @@
 #include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
 #include "solver/method/mapped_method.h"
-#include "solver/wave/wave_surface.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "geotherm/distance_method.h"
 #include "solver/accuracy/distance_bounds.h"
-#include "solver/wave/wave_surface.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 

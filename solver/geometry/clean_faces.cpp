@@ -1,18 +1,150 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/clean_faces.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "solver/core/parallel.h"
-#include "solver/geometry/orient_by_shape.h"
+#include "solver/core/sorting.h"
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm {
 namespace {
 
-/// Edges or faces a thread must have to be worth starting.
+/// The lexicographic order of positions.
+bool less(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+/// The sum of the cotangents opposite to an edge of two faces, at 0 and below the less Delaunay; of
+/// faces without area that of any sign.
+double cotangents_at(std::span<const Vec3> positions, const std::vector<Face>& faces,
+                     std::span<const Side> sides) {
+  double sum = 0;
+  for (const Side side : sides) {
+    const Face& face = faces[face_of(side)];
+    const int k = corner_of(side);
+    const Vec3& apex = positions[face[previous_corner(k)]];
+    const Vec3 a = (positions[face[k]] - apex).stableNormalized();
+    const Vec3 b = (positions[face[next_corner(k)]] - apex).stableNormalized();
+    sum += a.dot(b) / std::max(a.cross(b).norm(), std::numeric_limits<double>::min());
+  }
+  return sum;
+}
+
+/// Disjoint sets of faces that also know, for each face, whether it is turned relative to the root
+/// of its set.
+class TurnedFaces {
+ public:
+  explicit TurnedFaces(std::size_t count) : parent_(count), size_(count, 1), turned_(count, 0) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  bool is_turned(Index f) const {
+    char turned = 0;
+    for (; parent_[f] != f; f = parent_[f]) turned = static_cast<char>(turned ^ turned_[f]);
+    return turned != 0;
+  }
+  /// The root of the set that the face belongs to.
+  Index root(Index f) const {
+    while (parent_[f] != f) f = parent_[f];
+    return f;
+  }
+  /// Joins the sets of `a` and `b` so that the two faces agree; does nothing where both are in one
+  /// set.
+  void join(Index a, Index b, bool disagree) {
+    const bool turn = is_turned(a) != is_turned(b);
+    const Index root_a = root(a), root_b = root(b);
+    if (root_a == root_b) return;
+    const bool swapped = size_[root_a] < size_[root_b];  // paths stay short
+    const Index above = swapped ? root_b : root_a, below = swapped ? root_a : root_b;
+    parent_[below] = above;
+    size_[above] += size_[below];
+    turned_[below] = static_cast<char>(turn != disagree);
+  }
+
+ private:
+  std::vector<Index> parent_, size_;
+  std::vector<char> turned_;  ///< relative to the parent
+};
+
+/// The positions of a face's corners in their cyclic order, the least by coordinates first.
+std::array<Vec3, 3> from_least(std::span<const Vec3> positions, const Face& face) {
+  std::array<Vec3, 3> out = {positions[face[0]], positions[face[1]], positions[face[2]]};
+  std::ranges::rotate(out, std::ranges::min_element(out, less));
+  return out;
+}
+
+/// For each set of faces, whether all of it is to be turned: the face whose positions come first
+/// keeps the orientation in which they ascend.
+std::vector<char> turned_roots(std::span<const Vec3> positions, const std::vector<Face>& faces,
+                               const TurnedFaces& turned) {
+  using Places = std::array<double, 9>;
+  std::vector<Places> least(faces.size());
+  std::vector<char> found(faces.size(), 0), out(faces.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    auto [a, b, c] = from_least(positions, faces[f]);
+    const bool descends = less(c, b);
+    if (descends) std::swap(b, c);
+    const Places places = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
+    const auto root = static_cast<std::size_t>(turned.root(static_cast<Index>(f)));
+    if (found[root] != 0 && !(places < least[root])) continue;
+    found[root] = 1;
+    least[root] = places;
+    out[root] = static_cast<char>(descends != turned.is_turned(static_cast<Index>(f)));
+  }
+  return out;
+}
+
+/// The rank by which edges are made to agree, from the shape alone: first the cotangents, rounded
+/// so that those of a regular mesh are equal, then the position.
+using Rank = std::array<double, 7>;
+Rank rank_of(std::span<const Vec3> positions, const std::vector<Face>& faces,
+             const EdgeTable& edges, Index e) {
+  constexpr double kSteps = 1e6;
+  Vec3 a = positions[edges.low(e)], b = positions[edges.high(e)];
+  if (less(b, a)) std::swap(a, b);
+  return {std::round(kSteps * cotangents_at(positions, faces, edges.sides(e))),
+          a[0],
+          a[1],
+          a[2],
+          b[0],
+          b[1],
+          b[2]};
+}
+
+/// Turns faces round so that neighbours agree where they can, on surfaces with one side, too, where
+/// some edges stay in disagreement and stop flips. Edges that flips need most agree first (a
+/// maximum spanning tree of the faces, Kruskal 1956, by the opposite cotangents): what is flipped,
+/// and the turn of the whole, then follow from the shape and not from the numbering. `edges`: of
+/// `faces`, whose sides it names; it is out of date afterwards. Cost: O(F log F).
+void orient_by_shape(std::span<const Vec3> positions, std::vector<Face>& faces,
+                     const EdgeTable& edges) {
+  std::vector<std::pair<Rank, Index>> order;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    if (edges.sides(e).size() == 2) order.emplace_back(rank_of(positions, faces, edges, e), e);
+  }
+  std::ranges::sort(order);
+  TurnedFaces turned(faces.size());
+  for (const auto& [rank, e] : order) {
+    const auto sides = edges.sides(e);
+    turned.join(face_of(sides[0]), face_of(sides[1]), !sides_agree(faces, sides[0], sides[1]));
+  }
+  const std::vector<char> whole = turned_roots(positions, faces, turned);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto here = static_cast<Index>(f);
+    const bool with_all = whole[static_cast<std::size_t>(turned.root(here))] != 0;
+    if (turned.is_turned(here) != with_all) std::swap(faces[f][1], faces[f][2]);
+  }
+}
+
+/// Minimum edges or faces per thread.
 constexpr std::int64_t kGrain = 1 << 14;
 
 /// The corner of a side's face that is none of its ends.
@@ -25,7 +157,7 @@ bool same_vertices(const std::vector<Face>& faces, Side a, Side b) {
   return opposite(faces, a) == opposite(faces, b);
 }
 
-/// What most meshes have none of, found in one pass over the edges.
+/// Defects that most meshes do not have, found in one pass over the edges.
 struct Flaws {
   bool duplicates = false;    ///< the two faces at an edge have the same vertices
   bool inconsistent = false;  ///< the two faces at an edge disagree
@@ -68,7 +200,7 @@ std::vector<char> find_duplicates(const std::vector<Face>& faces, const EdgeTabl
           break;
         }
       }
-      if (sides.size() > 64 && j > 64) break;  // a fan of hundreds: quadratic work is not worth it
+      if (sides.size() > 64 && j > 64) break;  // bounds the work of fans with hundreds of faces
     }
   }
   return duplicate;
@@ -112,7 +244,7 @@ Index orient(std::vector<Face>& faces, const EdgeTable& edges) {
   return count;
 }
 
-/// Takes the faces of the mesh that repeat no corner.
+/// Copies the faces of the mesh that repeat no corner.
 void take_faces(const TriangleMesh& mesh, int threads, CleanFaces& out) {
   const auto count = static_cast<std::int64_t>(mesh.faces().size());
   const int pieces = piece_count(threads, count, kGrain);
@@ -144,7 +276,7 @@ void list_edges(Index vertex_count, int threads, CleanFaces& out) {
   out.edges = EdgeTable(out.corners, out.faces, threads);
 }
 
-/// Leaves out faces that are there already; false where there are none.
+/// Drops faces that repeat an earlier one; false where there are none.
 bool drop_duplicates(CleanFaces& out) {
   const std::vector<char> duplicate = find_duplicates(out.faces, out.edges);
   std::size_t kept = 0;
@@ -180,6 +312,23 @@ CleanFaces clean_faces(const TriangleMesh& mesh, int threads) {
     }
   }
   out.oriented_manifold = !flaws.inconsistent && !flaws.fans;
+  return out;
+}
+
+FaceComponents face_components(std::span<const Face> faces, Index vertex_count) {
+  DisjointSets sets(static_cast<std::size_t>(vertex_count));
+  for (const Face& face : faces) {
+    sets.join(face[0], face[1]);
+    sets.join(face[1], face[2]);
+  }
+  FaceComponents out;
+  out.of.reserve(faces.size());
+  std::vector<Index> number(static_cast<std::size_t>(vertex_count), kNoIndex);
+  for (const Face& face : faces) {
+    Index& component = number[sets.root(face[0])];
+    if (component == kNoIndex) component = out.count++;
+    out.of.push_back(component);
+  }
   return out;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geotherm/mesh.h"
+#include "geotherm/types.h"
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm {
@@ -28,5 +30,14 @@ inline bool sides_agree(const std::vector<Face>& faces, Side a, Side b) {
 
 /// Cost: O(F).
 CleanFaces clean_faces(const TriangleMesh& mesh, int threads = 1);
+
+/// Which faces hang together through shared vertices: distances never pass between components.
+struct FaceComponents {
+  std::vector<Index> of;  ///< F: number of the face's component, by first appearance
+  Index count = 0;
+};
+
+/// Precondition: corners are below `vertex_count`. Cost: O(V + F).
+FaceComponents face_components(std::span<const Face> faces, Index vertex_count);
 
 }  // namespace geotherm

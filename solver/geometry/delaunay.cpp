@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "solver/geometry/delaunay.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "solver/core/parallel.h"
-#include "solver/geometry/flip_diamond.h"
+#include "solver/geometry/edit.h"
 
 namespace geotherm {
 namespace {
 
 /// Cotangent sums down to this are accepted. Cocircular corners, as in every mesh of rectangles,
-/// would flip to and fro, and as rounding of the coordinates (1e-7 of an edge for a model that
-/// stands a million sizes away) would have it.
+/// would otherwise flip back and forth, driven by the rounding of the coordinates (1e-7 of an edge
+/// for a model that stands a million of its sizes away from the origin).
 constexpr double kTolerance = 1e-6;
 
 /// Flips between two calls of progress: a few milliseconds.
@@ -73,7 +75,7 @@ Edit flip(IntrinsicMesh& mesh, Side side) {
 /// round-off.
 std::size_t most_flips(const IntrinsicMesh& mesh) { return 100 * mesh.twin.size() + 1000; }
 
-/// Takes a side from the queue and flips its edge if that is not Delaunay. Whether it did.
+/// Takes a side from the queue and flips its edge if that is not Delaunay; returns whether it did.
 bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>& edits) {
   const Side side = queue.back();
   queue.pop_back();
@@ -88,10 +90,45 @@ bool flip_next(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector<Edit>&
   return true;
 }
 
+Index add_faces(IntrinsicMesh& mesh, int count) {
+  const Index first = mesh.face_count();
+  mesh.faces.resize(mesh.faces.size() + static_cast<std::size_t>(count));
+  mesh.lengths.resize(mesh.faces.size());
+  mesh.twin.resize(3 * mesh.faces.size(), kNoSide);
+  return first;
+}
+
+/// A face that a vertex p on its side ab cuts in two: it becomes (a, p, c), `fresh` (p, b, c).
+struct Cut {
+  Index face, fresh;
+  int start;  ///< the corner that is a
+  Index a, b, c;
+  double share;  ///< |ap| / |ab|
+  double ap, pb, bc, ca, cp;
+  Side old_bc, old_ca, twin_bc = kNoSide, twin_ca = kNoSide;
+
+  Cut(const IntrinsicMesh& mesh, Side side, double at, Index fresh_face)
+      : face(face_of(side)), fresh(fresh_face), start(corner_of(side)), share(at) {
+    const int i = start, j = next_corner(i), k = previous_corner(i);
+    a = mesh.faces[face][i];
+    b = mesh.faces[face][j];
+    c = mesh.faces[face][k];
+    const auto& l = mesh.lengths[face];
+    const FaceLayout p = lay_out({l[i], l[j], l[k]});
+    ap = share * l[i];
+    pb = (1 - share) * l[i];
+    bc = l[j];
+    ca = l[k];
+    cp = std::hypot(p.x - ap, p.height);
+    old_bc = 3 * face + j;
+    old_ca = 3 * face + k;
+  }
+};
+
 }  // namespace
 
 std::vector<Side> non_delaunay_sides(const IntrinsicMesh& mesh, int threads) {
-  constexpr std::int64_t kGrain = 1 << 15;  // sides a thread must have to be worth starting
+  constexpr std::int64_t kGrain = 1 << 15;  // minimum sides per thread
   const auto count = static_cast<std::int64_t>(mesh.twin.size());
   const int pieces = piece_count(threads, count, kGrain);
   std::vector<std::vector<Side>> found(static_cast<std::size_t>(pieces));
@@ -139,6 +176,80 @@ bool restore_delaunay(IntrinsicMesh& mesh, std::vector<Side>& queue, std::vector
   const std::size_t most = edits.size() + most_flips(mesh);
   while (!queue.empty() && edits.size() < most) flip_next(mesh, queue, edits);
   return queue.empty();
+}
+
+std::vector<Side> split_side(IntrinsicMesh& mesh, Side side, double share, Index vertex,
+                             std::vector<Edit>& edits) {
+  const Side other = mesh.twin[side];
+  const bool inner = other != kNoSide;
+  const Index first = add_faces(mesh, inner ? 2 : 1);
+  std::vector<Cut> cuts{Cut(mesh, side, share, first)};
+  if (inner) {
+    Cut& beyond = cuts.emplace_back(mesh, other, 1 - share, first + 1);
+    beyond.ap = cuts[0].pb;  // to the last bit
+    beyond.pb = cuts[0].ap;
+  }
+  // A twin may be a side of the two faces themselves, which moves with the cut.
+  const auto moved = [&](Side s) {
+    for (const Cut& cut : cuts) {
+      if (s == cut.old_bc) return Side{3 * cut.fresh + 1};
+      if (s == cut.old_ca) return Side{3 * cut.face + 2};
+    }
+    return s;
+  };
+  for (Cut& cut : cuts) {
+    cut.twin_bc = moved(mesh.twin[cut.old_bc]);
+    cut.twin_ca = moved(mesh.twin[cut.old_ca]);
+  }
+  std::vector<Side> around;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const Cut& cut = cuts[i];
+    const Side beyond_ap = inner ? 3 * cuts[1 - i].fresh : kNoSide;
+    const Side beyond_pb = inner ? 3 * cuts[1 - i].face : kNoSide;
+    mesh.set_face(cut.face, {cut.a, vertex, cut.c}, {cut.ap, cut.cp, cut.ca},
+                  {beyond_ap, 3 * cut.fresh + 2, cut.twin_ca});
+    mesh.set_face(cut.fresh, {vertex, cut.b, cut.c}, {cut.pb, cut.bc, cut.cp},
+                  {beyond_pb, cut.twin_bc, 3 * cut.face + 1});
+    edits.push_back({cut.face,
+                     cut.fresh,
+                     Edit::Kind::kSideSplit,
+                     static_cast<std::int8_t>(cut.start),
+                     0,
+                     {cut.share}});
+    around.push_back(3 * cut.face + 2);
+    around.push_back(3 * cut.fresh + 1);
+  }
+  return around;
+}
+
+std::vector<Side> split_face(IntrinsicMesh& mesh, Index face, const std::array<double, 3>& weights,
+                             Index vertex, std::vector<Edit>& edits) {
+  const Face corners = mesh.faces[face];
+  const auto lengths = mesh.lengths[face];
+  const FaceLayout q = lay_out(lengths);
+  using Point2 = Eigen::Vector2d;
+  const std::array<Point2, 3> at = {Point2(0, 0), Point2(q.base, 0), Point2(q.x, q.height)};
+  const Point2 place = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2];
+  std::array<double, 3> to{};
+  for (int k = 0; k < 3; ++k) to[k] = (place - at[k]).norm();
+  const Index first = add_faces(mesh, 2);
+  const std::array<Index, 3> part = {face, first, first + 1};  // at side k of the face
+  std::array<Side, 3> outer{};
+  for (int k = 0; k < 3; ++k) {
+    const Side twin = mesh.twin[3 * face + k];
+    const bool own = twin != kNoSide && face_of(twin) == face;
+    outer[k] = own ? Side{3 * part[corner_of(twin)]} : twin;
+  }
+  edits.push_back(
+      {face, first, Edit::Kind::kFaceSplit, 0, 0, {weights[0], weights[1], weights[2]}});
+  std::vector<Side> around;
+  for (int k = 0; k < 3; ++k) {
+    const int next = next_corner(k), previous = previous_corner(k);
+    mesh.set_face(part[k], {corners[k], corners[next], vertex}, {lengths[k], to[next], to[k]},
+                  {outer[k], 3 * part[next] + 2, 3 * part[previous] + 1});
+    around.push_back(3 * part[k]);
+  }
+  return around;
 }
 
 }  // namespace geotherm

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "solver/geometry/flip_diamond.h"
 #include "solver/geometry/intrinsic_surface.h"
 
 namespace geotherm {
@@ -14,7 +13,7 @@ namespace {
 using Point2 = Eigen::Vector2d;
 using Weights = std::array<double, 3>;
 
-/// What is at a corner or on a side but for rounding is there.
+/// Snaps weights within rounding of a corner or a side to it.
 Weights snapped(Weights w) {
   for (double& x : w) {
     if (x <= kAtCorner) x = 0;
@@ -29,13 +28,13 @@ Weights between(const Weights& from, const Weights& to, double share) {
   return out;
 }
 
-/// Pieces on their way through one flip.
+/// Carries pieces through one flip.
 class FlipCarrier {
  public:
   explicit FlipCarrier(const Edit& flip)
       : flip_(flip), q_(unfold(flip.numbers)), along_(q_.c - q_.d) {}
 
-  /// Appends the one or two pieces that it becomes.
+  /// Appends the one or two pieces that a piece becomes.
   void carry(const FacePiece& piece, std::vector<FacePiece>& out) const {
     const Point2 from = place(piece.face, piece.from), to = place(piece.face, piece.to);
     const double s = side(from), t = side(to);
@@ -76,8 +75,8 @@ class FlipCarrier {
   Point2 along_;
 };
 
-/// Pieces on their way into the two or three faces that a new vertex makes of one. Part k of the
-/// face is where shares[k], the weight of its corner k over that of the vertex, is the smallest.
+/// Carries pieces into the two or three faces that a new vertex makes of one. Part k of the face is
+/// where shares[k], the weight of its corner k over that of the vertex, is the smallest.
 class SplitCarrier {
  public:
   explicit SplitCarrier(const Edit& split) : split_(split) {
@@ -90,7 +89,7 @@ class SplitCarrier {
     vertex_[next_corner(split.start_f)] = share;
   }
 
-  /// Appends the one to three pieces that it becomes.
+  /// Appends the one to three pieces that a piece becomes.
   void carry(const FacePiece& piece, std::vector<FacePiece>& out) const {
     if (piece.from == piece.to) {
       out.push_back(in_part(part_of(piece.from), piece.from, piece.to, piece.source));
@@ -136,7 +135,7 @@ class SplitCarrier {
     return least;
   }
 
-  /// In the part that has the new vertex in the place of corner k.
+  /// The weights in the part whose corner k is the new vertex.
   FacePiece in_part(int k, const Weights& from, const Weights& to, std::size_t source) const {
     const auto weights = [&](const Weights& w) {
       Weights out = w;
@@ -157,7 +156,7 @@ class SplitCarrier {
     return k == 2 ? split_.f : split_.g + k;
   }
 
-  /// Into the order of the part's corners.
+  /// Reorders weights as the part lists its corners.
   Weights turned(int k, const Weights& w) const {
     if (split_.kind == Edit::Kind::kSideSplit) {
       const int a = split_.start_f;
@@ -179,7 +178,7 @@ std::vector<FacePiece> carry_pieces(std::span<const Edit> edits, Index face_coun
     piece.to = snapped(piece.to);
   }
   if (edits.empty() || pieces.empty()) return pieces;
-  // Most edits are nowhere near a piece: one look at each face decides.
+  // Most edits touch no face with a piece, and a look at the face rules them out.
   std::vector<char> holds(static_cast<std::size_t>(face_count), 0);
   std::unordered_map<Index, std::vector<FacePiece>> in_face;
   std::vector<FacePiece> moved;

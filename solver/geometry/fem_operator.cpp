@@ -9,10 +9,10 @@
 namespace geotherm {
 namespace {
 
-/// Vertices a thread must have to be worth starting.
+/// Minimum vertices per thread.
 constexpr std::int64_t kGrain = 1 << 12;
 
-/// Share of a face's stiffness coupling that its mass coupling may take away.
+/// The consistent mass may cancel at most this share of a face's stiffness coupling.
 constexpr double kMaxOfStiffness = 0.5;
 
 }  // namespace
@@ -47,7 +47,8 @@ RawVector<double> FemOperator::side_weights() const {
   return weight;
 }
 
-/// Row sums are the masses; what a consistent mass gives the pairs of corners is theirs no more.
+/// The row sums of the mass matrix are the lumped masses; a consistent mass moves a part of them
+/// from the diagonal to the pairs of corners.
 void FemOperator::set_diagonal() {
   const bool lumped = !(consistent_share_.most() > 0);
   const RawVector<double> weight = lumped ? RawVector<double>() : side_weights();
@@ -185,8 +186,8 @@ void FemOperator::assemble_column(Index j, const RawVector<double>& weight) cons
   const Index* const rows = assembled_.row.data() + begin;
   double* const values = assembled_.value.data() + begin;
   const auto count = static_cast<std::size_t>(assembled_.start[j + 1] - begin);
-  // Where a row stands is counted, and what belongs to earlier columns falls on the diagonal, which
-  // is set in the end: a processor would guess comparisons wrong.
+  // Places are found by counting, without branches that a processor would mispredict; entries of
+  // earlier columns land on the diagonal, which is set last.
   const auto subtract = [&](Index row, Side side) {
     std::size_t entry = 1;
     for (std::size_t e = 1; e < count; ++e) entry += rows[e] < row ? 1 : 0;

@@ -30,8 +30,8 @@ struct IntrinsicMesh {
 
   Index face_count() const { return static_cast<Index>(faces.size()); }
 
-  /// Face f gets these corners, lengths and twins, and the twins are told. Precondition: f is below
-  /// face_count().
+  /// Sets the corners, lengths and twins of face f, and the entries of its twins. Precondition: f
+  /// is below face_count().
   void set_face(Index f, const Face& corners, const std::array<double, 3>& sides,
                 const std::array<Side, 3>& twins) {
     faces[f] = corners;
@@ -79,8 +79,8 @@ FaceLayout lay_out(const std::array<double, 3>& lengths);
 /// Twice the cotangent weight of a side's own face: the cotangent of the angle opposite to it.
 double opposite_cotangent(const std::array<double, 3>& lengths, int side);
 
-/// Whether that is negative beyond doubt or round-off: false only where the angle is at most a
-/// right one. Costs no root.
+/// False only where the angle opposite to the side is at most a right one, and the cotangent
+/// therefore not negative. A cheap test that takes no square root.
 inline bool may_be_obtuse(const std::array<double, 3>& l, int side) {
   const double a = l[side], b = l[next_corner(side)], c = l[previous_corner(side)];
   return !(b * b + (c - a) * (c + a) >= 0);

@@ -10,8 +10,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/delaunay.h"
-#include "solver/geometry/flip_diamond.h"
-#include "solver/geometry/split_faces.h"
+#include "solver/geometry/edit.h"
 
 namespace geotherm {
 namespace {
@@ -55,7 +54,7 @@ bool is_obtuse_border(const IntrinsicMesh& mesh, Side side) {
          opposite_cotangent(lengths, corner_of(side)) < kObtuse;
 }
 
-/// What there is to do before anything is inserted.
+/// The faces and border edges that need a vertex at the start.
 struct Needs {
   std::vector<Index> large;  ///< faces
   std::vector<Side> obtuse;  ///< border sides
@@ -63,7 +62,7 @@ struct Needs {
 
 Needs find_needs(const IntrinsicMesh& mesh, const Components& parts,
                  std::span<const double> part_edge, int threads) {
-  constexpr std::int64_t kGrain = 1 << 15;  // faces a thread must have to be worth starting
+  constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
   const auto count = static_cast<std::int64_t>(mesh.faces.size());
   const int pieces = piece_count(threads, count, kGrain);
   std::vector<Needs> found(static_cast<std::size_t>(pieces));
@@ -162,8 +161,8 @@ struct Place {
   Side border = kNoSide;
 };
 
-/// Walks straight from the middle of a face to its circumcentre. A place without face and border:
-/// rounding has led the walk astray.
+/// Walks straight from the middle of a face to its circumcentre. Neither a face nor a border side
+/// is returned where rounding has led the walk astray.
 Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   constexpr int kMaxSteps = 1000;  // walks within the circumcircle are a few faces long
   const FaceLayout p = lay_out(mesh.lengths[face]);
@@ -266,8 +265,8 @@ class Refiner {
     }
   }
 
-  /// At the foot of the opposite corner, where both halves are opposite at most a right angle; not
-  /// beside an end, where that would leave a needle.
+  /// Splits a border edge at the foot of the opposite corner, where both halves lie opposite at
+  /// most a right angle; but not close to an end, where that would leave a needle.
   void split_obtuse(Side side) {
     constexpr double kFromEnd = 0.1;
     const auto& l = mesh_.lengths[face_of(side)];
@@ -276,7 +275,7 @@ class Refiner {
     insert_on_side(side, std::clamp(p.x / p.base, kFromEnd, 1 - kFromEnd));
   }
 
-  /// By its circumcentre, or by the border edge in the way to that.
+  /// Splits a face at its circumcentre, or the border edge on the way to that.
   void split_large(Index face) {
     const Place place = find_circumcentre(mesh_, face);
     if (place.border != kNoSide) return insert_on_side(place.border, 0.5);

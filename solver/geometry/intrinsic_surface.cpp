@@ -7,13 +7,13 @@
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
-#include "solver/geometry/face_components.h"
+#include "solver/geometry/clean_faces.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
 
-/// Faces a thread must have to be worth starting.
+/// Minimum faces per thread.
 constexpr std::int64_t kGrain = 1 << 15;
 
 /// Vertices are inserted up to as many as there are, and so many more on small meshes.

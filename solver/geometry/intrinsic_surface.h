@@ -34,7 +34,8 @@ struct SurfaceRules {
 };
 
 /// A mesh made ready for numerical work: cleaned, and triangulated intrinsically. Immutable; every
-/// distance method begins with one; only the heat method asks for covers.
+/// distance method starts from one; only the heat method asks for covers. Surface (heat/) extends
+/// it by matrices and an elimination order, WaveSurface (polyhedral/) by edges.
 struct IntrinsicSurface {
   std::shared_ptr<const TriangleMesh> mesh;
   std::vector<Face> clean_faces;     ///< before flips, as CleanFaces

@@ -2,22 +2,48 @@
 #include "solver/geometry/operator_mesh.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 
 namespace geotherm {
+
+SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& corners,
+                                 std::span<const Index> used, std::span<const Index> local,
+                                 int threads) {
+  const auto add_neighbors = [&](Index i, std::vector<Index>& row) {
+    const Index vertex = used[i];
+    const auto begin = static_cast<std::ptrdiff_t>(row.size());
+    for (const Side corner : corners.at(vertex)) {
+      const Face& face = mesh.faces[face_of(corner)];
+      const int k = corner_of(corner);
+      row.push_back(local[face[next_corner(k)]]);
+      const Side ending = corner - k + previous_corner(k);
+      if (mesh.twin[ending] == kNoSide) row.push_back(local[face[previous_corner(k)]]);
+    }
+    short_sort(row.data() + begin, row.data() + row.size());
+    // Two edges may join the same vertices, and one a vertex with itself.
+    const auto end = std::unique(row.begin() + begin, row.end());
+    row.erase(std::remove(row.begin() + begin, end, i), row.end());
+  };
+  SymmetricPattern pattern;
+  list_rows(static_cast<Index>(used.size()), threads, add_neighbors, pattern.start,
+            pattern.neighbor);
+  return pattern;
+}
+
 namespace {
 
-/// Faces or vertices a thread must have to be worth starting.
+/// Minimum faces or vertices per thread.
 constexpr std::int64_t kGrain = 1 << 13;
 
 /// Rows of a range: some 0.1 ms of work for a pass over its faces, several times what it takes to
 /// start a thread. Eliminated one after the other, they are a patch or a few: 2 to 5 % of the faces
 /// cross.
 constexpr Index kRowsOfRange = 8192;
-/// More would feed no more cores than people have, and let more faces cross.
+/// The maximum number of ranges: more would make more faces cross without keeping more cores busy.
 constexpr Index kMaxRanges = 32;
 
 Index range_count(Index size) { return std::clamp<Index>(size / kRowsOfRange, 1, kMaxRanges); }
@@ -83,7 +109,7 @@ class Builder {
     out_.corners = CornerTable(static_cast<Index>(size_), out_.faces, threads_);
   }
 
-  /// Every vertex adds up what its faces give it, in their order.
+  /// Sums the contributions of the faces at each vertex, in their order.
   void add_up_faces() {
     out_.mass.resize(size_);
     out_.stiffness_diagonal.resize(size_);

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <ranges>
+#include <span>
 #include <vector>
 
 #include "geotherm/backend.h"
@@ -13,6 +14,14 @@
 #include "solver/mesh/connectivity.h"
 
 namespace geotherm {
+
+/// The pattern of any operator on a surface, which is pattern_of_faces() of its faces: from each
+/// vertex the sides that begin there lead to its neighbours, and those that end there and have no
+/// twin. `corners`: of mesh.faces. `used`: the vertices that faces use, ascending; `local`: for
+/// every vertex its number among them. Cost: O(F), by all threads.
+SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& corners,
+                                 std::span<const Index> used, std::span<const Index> local,
+                                 int threads);
 
 /// Faces whose corners all lie in one range of rows: what they add to their corners meets nothing
 /// that another range's faces add, so that ranges can be walked side by side.

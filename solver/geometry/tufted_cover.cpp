@@ -22,7 +22,7 @@ constexpr double kSameAngle = 1e-6;
 
 /// The sides of an edge in their order round it, counterclockwise seen against the way from its low
 /// to its high end; where angles are the same, by number. Faces without a direction stand together
-/// where they are in nobody's way, in the widest gap between the others. Rounding decides nothing.
+/// in the widest gap between the others, so that rounding decides nothing.
 class SidesInOrder {
  public:
   SidesInOrder(std::span<const Vec3> positions, const CleanFaces& clean)

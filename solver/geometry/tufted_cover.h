@@ -6,7 +6,6 @@
 
 #include "geotherm/sources.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/geometry/face_components.h"
 #include "solver/geometry/intrinsic_mesh.h"
 
 namespace geotherm {

@@ -71,7 +71,7 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
                              backend_name(options));
 }
 
-Trial<HeatMethod> HeatMethod::State::substitute(const std::string& name,
+Attempt<HeatMethod> HeatMethod::State::substitute(const std::string& name,
                                                 std::span<const Fallback> failed,
                                                 const Progress& progress) const {
   constexpr std::chrono::milliseconds kBetweenLooks(2);
@@ -82,7 +82,7 @@ Trial<HeatMethod> HeatMethod::State::substitute(const std::string& name,
   }
   auto& methods = substitutes->methods;
   if (const auto known = methods.find(name); known != methods.end()) return known->second;
-  Trial<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), failed, progress);
+  Attempt<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), failed, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
   if (!cancelled) methods.emplace(name, made);
   return made;
@@ -99,12 +99,12 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
   std::vector<Fallback> failed = state_->failed;
   auto results = first_that_works<Results>(
       at_work, state_->options.strict, failed,
-      [&](const std::string& tried, std::span<const Fallback> before) -> Trial<Results> {
+      [&](const std::string& tried, std::span<const Fallback> before) -> Attempt<Results> {
         backend = tried;
         if (tried == at_work) return state_->ask(sets, query, watched);
         constexpr double kSetUpShare = 0.5;
         const auto other = state_->substitute(tried, before, part_of(watched, 0.0, kSetUpShare));
-        if (!other.outcome) return {other.outcome.error(), other.successor};
+        if (!other.outcome) return {other.outcome.error(), other.policy};
         return other.outcome->state_->ask(sets, query, part_of(watched, kSetUpShare, 1.0));
       });
   shared.rethrow();

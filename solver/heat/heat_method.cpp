@@ -67,7 +67,7 @@ Error out_of_memory_error(const std::string& stage, Index faces, const std::stri
           backend};
 }
 
-Trial<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
                                             const HeatOptions& options,
                                             std::span<const Fallback> failed,
                                             const Progress& progress) try {
@@ -75,7 +75,7 @@ Trial<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Triangle
   if (!backend) return {backend.error()};
   auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
                                part_of(progress, 0.0, kSurfaceShare));
-  if (!surface) return {surface.error(), successor_of(surface.error())};
+  if (!surface) return {surface.error(), policy_after(surface.error())};
   auto state = std::make_shared<State>();
   state->backend = *backend;
   state->surface = std::move(*surface);
@@ -89,10 +89,10 @@ Trial<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Triangle
   return {HeatMethod(std::move(timed))};
 } catch (const std::bad_alloc&) {
   return {out_of_memory_error("set-up", mesh->face_count(), options.backend),
-          Successor::kFactorless};
+          FallbackPolicy::kFactorless};
 }
 
-Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
+Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
                                                 std::span<const Fallback> failed,
                                                 const Progress& progress) try {
   if (!report(progress, "factorize", 0.0)) return {cancelled_error()};
@@ -118,7 +118,7 @@ Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOpt
   if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend,
                                             options.precision, plan, options.memory_limit_mb);
       !fits) {
-    return {fits.error(), Successor::kAny};
+    return {fits.error(), FallbackPolicy::kAny};
   }
   Result<void> heat_done, poisson_done;
   const int of_heat = next->poisson ? threads : std::max(1, threads / 2);
@@ -151,10 +151,10 @@ Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOpt
     const Error error =
         with_time_hint(heat_done.error(), next->times.extreme, options.time_step.rule);
     return {error, is_extreme_time(next->times.extreme) && error.code != ErrorCode::kOutOfMemory
-                       ? Successor::kNone
-                       : successor_of(error)};
+                       ? FallbackPolicy::kNone
+                       : policy_after(error)};
   }
-  if (!poisson_done) return {poisson_done.error(), successor_of(poisson_done.error())};
+  if (!poisson_done) return {poisson_done.error(), policy_after(poisson_done.error())};
   next->warnings = next->surface->warnings;
   const HeatMethod made(next);
   const double held = made.memory_mb(), foreseen = made.forecast_mb();
@@ -172,7 +172,7 @@ Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOpt
                 {"raise ", SettingHint{"memory-limit"}, " or try ", SettingHint{"backend", {"cg"}},
                  ", which holds no factor"},
                 options.backend},
-          Successor::kAny};
+          FallbackPolicy::kAny};
     }
     next->warnings.push_back({"the factors are kept in doubles (" + rounded_text(held) +
                               " MB, foreseen " + rounded_text(foreseen) +
@@ -184,10 +184,10 @@ Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOpt
   return {HeatMethod(std::move(next))};
 } catch (const std::bad_alloc&) {
   return {out_of_memory_error("factorisation", from.surface->mesh->face_count(), options.backend),
-          Successor::kFactorless};
+          FallbackPolicy::kFactorless};
 }
 
-Trial<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const SourceSet> sets,
+Attempt<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const SourceSet> sets,
                                                           const QueryOptions& query,
                                                           const Progress& progress) const try {
   const QueryPipeline pipeline{*surface, *heat, *poisson, options, times, *pool, *helpers};
@@ -195,7 +195,7 @@ Trial<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const Source
 } catch (const std::bad_alloc&) {
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
   return {out_of_memory_error(queries, surface->mesh->face_count(), options.backend),
-          Successor::kFactorless};
+          FallbackPolicy::kFactorless};
 }
 
 const HeatOptions& HeatMethod::options() const { return state_->options; }

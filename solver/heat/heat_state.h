@@ -35,7 +35,7 @@ struct QueryPipeline {
 /// `progress` is called by one thread at a time, with shares that do not fall.
 /// A query that makes a factor of its own is held against the memory limit before; threads that
 /// would have one more each are fewer then. Throws std::bad_alloc.
-Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
                                                std::span<const SourceSet> sets,
                                                const QueryOptions& query, const Progress& progress);
 
@@ -44,7 +44,7 @@ struct HeatMethod::State {
   /// Methods that answer where this one fails, by their backends, and why there is none.
   struct Substitutes {
     std::mutex mutex;
-    std::map<std::string, Trial<HeatMethod>> methods;
+    std::map<std::string, Attempt<HeatMethod>> methods;
   };
 
   HeatOptions options;  ///< with the backend at work
@@ -61,19 +61,19 @@ struct HeatMethod::State {
   std::vector<Fallback> failed;  ///< before the backend at work
 
   /// Everything with one backend, `options.backend`.
-  static Trial<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+  static Attempt<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
                                   const HeatOptions& options, std::span<const Fallback> failed,
                                   const Progress& progress);
 
   /// What is still missing for these options, on the surface and with the backend of `from`.
-  static Trial<HeatMethod> factorised(const State& from, const HeatOptions& options,
+  static Attempt<HeatMethod> factorised(const State& from, const HeatOptions& options,
                                       std::span<const Fallback> failed, const Progress& progress);
 
-  Trial<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
+  Attempt<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
                                          const Progress& progress) const;
 
   /// The method that answers with another backend. Waits for a thread that sets the same one up.
-  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
+  Attempt<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
                                const Progress& progress) const;
 
   /// The backend that was asked for.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geotherm/error.h"
-#include "solver/geometry/per_component.h"
+#include "solver/geometry/fem_operator.h"
 #include "solver/heat/diffuse.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/source_anchors.h"

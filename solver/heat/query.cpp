@@ -75,11 +75,11 @@ double extreme_time(const DiffusionTimes& times, const std::vector<SourceAnchors
 }
 
 /// Who may answer a group of sources after this error.
-Successor successor_in_query(const Error& error, double extreme) {
-  if (error.code == ErrorCode::kOutOfMemory) return Successor::kFactorless;
+FallbackPolicy policy_after_query(const Error& error, double extreme) {
+  if (error.code == ErrorCode::kOutOfMemory) return FallbackPolicy::kFactorless;
   const bool helpless = error.code == ErrorCode::kNumericalFailure && is_extreme_time(extreme);
-  return helpless || successor_of(error) == Successor::kNone ? Successor::kNone
-                                                             : Successor::kFactored;
+  return helpless || policy_after(error) == FallbackPolicy::kNone ? FallbackPolicy::kNone
+                                                                  : FallbackPolicy::kFactored;
 }
 
 /// As many threads as memory allows, up to `threads`, where each may hold a factor of its own.
@@ -228,7 +228,7 @@ class GroupRunner {
 
   /// `threads`: for groups side by side, up to those of the query. What ended for want of memory is
   /// thrown.
-  std::optional<Trial<std::vector<DistanceResult>>> run(int threads) {
+  std::optional<Attempt<std::vector<DistanceResult>>> run(int threads) {
     const int workers =
         static_cast<int>(std::clamp<std::ptrdiff_t>(std::ssize(groups_), 1, std::max(threads, 1)));
     threads_of_group_ = std::max(1, threads_ / workers);
@@ -237,7 +237,7 @@ class GroupRunner {
     progress_.rethrow();
     if (memory_ended_) throw std::bad_alloc();
     if (!failure_) return std::nullopt;
-    return Trial<std::vector<DistanceResult>>{*failure_, successor_};
+    return Attempt<std::vector<DistanceResult>>{*failure_, policy_};
   }
 
  private:
@@ -264,7 +264,7 @@ class GroupRunner {
   void fail(Error error, double extreme) {
     const std::lock_guard lock(mutex_);
     if (!failure_) {
-      successor_ = successor_in_query(error, extreme);
+      policy_ = policy_after_query(error, extreme);
       failure_ = std::move(error);
     }
     progress_.stop();
@@ -283,15 +283,15 @@ class GroupRunner {
   std::mutex mutex_;
   std::atomic<bool> memory_ended_{false};
   std::optional<Error> failure_;
-  Successor successor_ = Successor::kNone;
+  FallbackPolicy policy_ = FallbackPolicy::kNone;
 };
 
 }  // namespace
 
-Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
-                                               std::span<const SourceSet> sets,
-                                               const QueryOptions& query,
-                                               const Progress& progress) {
+Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
+                                                 std::span<const SourceSet> sets,
+                                                 const QueryOptions& query,
+                                                 const Progress& progress) {
   const Stopwatch watch;
   const auto groups = cut_into_groups(pipeline, sets);
   if (!groups) return {groups.error()};
@@ -303,7 +303,7 @@ Trial<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
   GroupRunner runner(pipeline, sets, *groups, query, worth, results, progress);
   const auto fitting =
       threads_in_memory(pipeline, *groups, std::min<int>(worth, static_cast<int>(groups->size())));
-  if (!fitting) return {fitting.error(), Successor::kFactorless};
+  if (!fitting) return {fitting.error(), FallbackPolicy::kFactorless};
   const int threads = *fitting;
   if (auto failure = runner.run(threads)) return *std::move(failure);
   // Threads work side by side: a set's share of the wall clock is that much smaller.

@@ -6,7 +6,7 @@
 
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
-#include "solver/geometry/surface_pattern.h"
+#include "solver/geometry/operator_mesh.h"
 
 namespace geotherm {
 namespace {

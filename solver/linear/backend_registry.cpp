@@ -6,6 +6,7 @@
 
 #include "geotherm/backend.h"
 #include "solver/linear/backends.h"
+#include "solver/linear/fallback.h"
 
 namespace geotherm {
 namespace {
@@ -45,6 +46,20 @@ class Registry {
   };
 };
 
+bool may_follow(const Backend& backend, FallbackPolicy policy) {
+  switch (policy) {
+    case FallbackPolicy::kNone:
+      return false;
+    case FallbackPolicy::kAny:
+      return true;
+    case FallbackPolicy::kFactored:
+      return !backend.iterative();
+    case FallbackPolicy::kFactorless:
+      return backend.iterative();
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<std::string> backend_names() {
@@ -69,5 +84,71 @@ AddedBackend::AddedBackend(std::unique_ptr<const Backend> backend) : backend_(st
 }
 
 AddedBackend::~AddedBackend() { Registry::instance().remove(backend_.get()); }
+
+Result<Eigen::MatrixXd> Factorization::inverse_entries(std::span<const Index> rows) const {
+  constexpr Eigen::Index kColumnsAtOnce = 16;
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd entries(count, count);
+  for (Eigen::Index first = 0; first < count; first += kColumnsAtOnce) {
+    const Eigen::Index columns = std::min(kColumnsAtOnce, count - first);
+    Block x = Block::Zero(size(), columns);
+    for (Eigen::Index c = 0; c < columns; ++c) x(rows[first + c], c) = 1;
+    const auto solved =
+        solve(x, rows.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(columns)));
+    if (!solved) return solved.error();
+    for (Eigen::Index r = 0; r < count; ++r) {
+      entries.block(r, first, 1, columns) = x.row(rows[static_cast<std::size_t>(r)]);
+    }
+  }
+  return entries;
+}
+
+Result<void> check_pattern(const SymmetricOperator& matrix, std::uint64_t analysed, Index size) {
+  if (matrix.pattern() == analysed) return {};
+  return Error{ErrorCode::kBadInput,
+               "the matrix of size " + std::to_string(matrix.size()) +
+                   " does not have the pattern that was analysed (size " + std::to_string(size) +
+                   ")",
+               {"analyse its own pattern first"}};
+}
+
+FallbackPolicy policy_after(const Error& error) {
+  switch (error.code) {
+    case ErrorCode::kNumericalFailure:
+      return FallbackPolicy::kAny;
+    case ErrorCode::kBudgetEnded:
+      return FallbackPolicy::kFactored;
+    case ErrorCode::kOutOfMemory:
+      return FallbackPolicy::kFactorless;
+    default:
+      return FallbackPolicy::kNone;
+  }
+}
+
+std::string next_backend(std::span<const Fallback> failed, FallbackPolicy policy) {
+  for (const std::string& name : backend_names()) {
+    if (std::ranges::count(failed, name, &Fallback::backend) > 0) continue;
+    const auto backend = find_backend(name);
+    if (backend && may_follow(**backend, policy)) return name;
+  }
+  return {};
+}
+
+std::string takeover_text(std::span<const Fallback> failed, std::string_view by) {
+  std::string text;
+  for (const Fallback& each : failed)
+    text += each.backend + " failed: " + each.error.message + "; ";
+  return text + std::string(by) + " took over";
+}
+
+Error joint_error(std::span<const Fallback> failed) {
+  const Error& last = failed.back().error;
+  if (failed.size() == 1) return last;
+  Error error{last.code, {}, last.hint};
+  for (const Fallback& each : failed) {
+    error.message += (error.message.empty() ? "" : ", ") + each.backend + ": " + each.error.message;
+  }
+  return error;
+}
 
 }  // namespace geotherm

@@ -5,8 +5,8 @@
 
 namespace geotherm {
 
-/// Multifrontal Cholesky of our own (Duff, Reid 1983) with narrow factors: no library beyond the
-/// standard one.
+/// The multifrontal Cholesky factorisation of this project (Duff, Reid 1983), with factors stored
+/// in narrow numbers. It needs no library beyond the standard one.
 const Backend* native_backend();
 
 /// Supernodal or simplicial Cholesky of SuiteSparse (Chen, Davis, Hager, Rajamanickam 2008).

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <cholmod.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <new>
 #include <numeric>
 #include <string>
@@ -8,14 +12,62 @@
 
 #include "solver/linear/backends.h"
 #include "solver/linear/blas_threads.h"
-#include "solver/linear/cholmod_api.h"
-#include "solver/linear/column_factor.h"
-#include "solver/linear/counted_factor.h"
-#include "solver/linear/fill_order.h"
-#include "solver/linear/supernodal_factor.h"
+#include "solver/linear/multifrontal/fill_order.h"
+#include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
 namespace {
+
+/// CHOLMOD's two families of functions under one name: `int` indices where they suffice, 64-bit
+/// ones (cholmod_l_*) for factors of more than 2^31 entries.
+template <class Int>
+struct CholmodApi;
+
+template <>
+struct CholmodApi<int> {
+  static constexpr int kType = CHOLMOD_INT;
+  static constexpr auto start = cholmod_start;
+  static constexpr auto finish = cholmod_finish;
+  static constexpr auto analyze = cholmod_analyze_p;
+  static constexpr auto copy = cholmod_copy_factor;
+  static constexpr auto factorize = cholmod_factorize;
+  static constexpr auto free_factor = cholmod_free_factor;
+};
+
+template <>
+struct CholmodApi<SuiteSparse_long> {
+  static constexpr int kType = CHOLMOD_LONG;
+  static constexpr auto start = cholmod_l_start;
+  static constexpr auto finish = cholmod_l_finish;
+  static constexpr auto analyze = cholmod_l_analyze_p;
+  static constexpr auto copy = cholmod_l_copy_factor;
+  static constexpr auto factorize = cholmod_l_factorize;
+  static constexpr auto free_factor = cholmod_l_free_factor;
+};
+
+/// A factor together with the workspace it was made in: CHOLMOD counts memory per workspace, so
+/// both must go together.
+template <class Int>
+class CholmodFactor {
+ public:
+  CholmodFactor() {
+    CholmodApi<Int>::start(&common);
+    common.print = 0;
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    common.postorder = 1;
+    common.final_pack = 1;
+  }
+  ~CholmodFactor() {
+    if (factor != nullptr) CholmodApi<Int>::free_factor(&factor, &common);
+    CholmodApi<Int>::finish(&common);
+  }
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+};
 
 constexpr const char* kName = "cholmod";
 
@@ -169,10 +221,11 @@ class CholmodAnalysis final : public Analysis {
         return not_definite(static_cast<std::size_t>(bad - inverse.begin()), inverse.size(),
                             status);
       }
-      return make_direct_factorization(counted(make_column_factor(columns)));
+      return make_direct_factorization(make_column_factor(columns, operations()));
     }
     const auto* values = static_cast<const double*>(numeric->factor->x);
-    return make_direct_factorization(counted(make_supernodal_factor(structure_, values, numeric)));
+    return make_direct_factorization(
+        make_supernodal_factor(structure_, values, numeric, operations()));
   }
 
  private:
@@ -182,9 +235,7 @@ class CholmodAnalysis final : public Analysis {
   static constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Int);
 
   /// CHOLMOD counts while it analyses: the sum of the squared columns, stored zeros left out.
-  std::unique_ptr<TriangularFactor> counted(std::unique_ptr<TriangularFactor> factor) const {
-    return std::make_unique<CountedFactor>(std::move(factor), std::llround(symbolic_->common.fl));
-  }
+  std::int64_t operations() const { return std::llround(symbolic_->common.fl); }
 
   /// The assembled matrix, and CHOLMOD's transpose of it for factors by columns.
   static std::int64_t matrix_bytes(const SymmetricPattern& pattern) {

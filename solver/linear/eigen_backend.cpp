@@ -9,9 +9,8 @@
 
 #include "solver/core/text.h"
 #include "solver/linear/backends.h"
-#include "solver/linear/column_factor.h"
-#include "solver/linear/counted_factor.h"
-#include "solver/linear/fill_order.h"
+#include "solver/linear/multifrontal/fill_order.h"
+#include "solver/linear/triangular_factor.h"
 
 namespace geotherm {
 namespace {
@@ -21,8 +20,8 @@ constexpr const char* kName = "eigen-ldlt";
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Eigen's LDL^T with its analysis kept apart from its numbers. The ordering is ours and already
-/// applied, so that Eigen's own (most of its analysis) is the natural one.
+/// Eigen's LDL^T with its analysis kept apart from its numbers. The matrix arrives in elimination
+/// order, so that Eigen is asked for the natural one and most of its analysis falls away.
 class EigenAnalysis final : public Analysis {
  public:
   EigenAnalysis(std::vector<Index> order, const SymmetricPattern& pattern)
@@ -33,7 +32,8 @@ class EigenAnalysis final : public Analysis {
     entries_ = std::max(lower, below);
     for (const std::int64_t entries : counts.below) operations_ += (entries + 1) * (entries + 1);
     factor_bytes_ = column_factor_bytes(counts);
-    work_bytes_ = kEntryBytes * (2 * lower + 2 * below);  // ours and Eigen's copy, of both
+    // Matrix and factor, each with Eigen's copy.
+    work_bytes_ = kEntryBytes * (2 * lower + 2 * below);
   }
 
   std::span<const Index> order() const override { return order_; }
@@ -85,8 +85,7 @@ class EigenAnalysis final : public Analysis {
     data.value.assign(factor.valuePtr(), factor.valuePtr() + data.start.back());
     data.inverse_pivot.resize(static_cast<std::size_t>(lower.size()));
     for (Index j = 0; j < lower.size(); ++j) data.inverse_pivot[j] = 1 / pivots[j];
-    return make_direct_factorization(
-        std::make_unique<CountedFactor>(make_column_factor(data), operations_));
+    return make_direct_factorization(make_column_factor(data, operations_));
   }
 
  private:

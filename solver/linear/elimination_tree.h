@@ -28,8 +28,18 @@ struct EliminationTree {
 std::vector<Index> elimination_parents(const SymmetricPattern& pattern);
 
 /// order[k]: the node that comes k-th when every subtree is contiguous and children come before
-/// their parent, brothers in the order of their numbers. Precondition: parents have larger numbers.
+/// their parent, siblings in the order of their numbers. Precondition: parents have larger numbers.
 /// Cost: O(n).
 std::vector<Index> postorder(std::span<const Index> parent);
+
+/// How large the columns of a Cholesky factor will be.
+struct ColumnCounts {
+  std::vector<Index> parent;  ///< n: the row of a column's first entry below the diagonal; kNoIndex
+  std::vector<Index> below;   ///< n: entries below the diagonal
+};
+
+/// Of a matrix with this pattern, eliminated in the order of its numbers. Cost: nearly O(entries of
+/// the pattern), whatever the factor's (Gilbert, Ng, Peyton 1994).
+ColumnCounts count_columns(const SymmetricPattern& pattern);
 
 }  // namespace geotherm

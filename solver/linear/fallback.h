@@ -11,48 +11,55 @@
 
 namespace geotherm {
 
-/// Which backend may do what another one could not.
-enum class Successor {
-  kNone,        ///< none: input, options or the caller are the reason
-  kAny,         ///< the next one
-  kFactored,    ///< the next one that factorises
-  kFactorless,  ///< the next one that holds no factor: the memory has ended
+/// A backend that failed, and its error.
+struct Fallback {
+  std::string backend;
+  Error error;  ///< the error that the backend gave
 };
 
-/// Who may follow after an error of a backend.
-Successor successor_of(const Error& error);
+/// Which backends may take over from one that failed.
+enum class FallbackPolicy {
+  kNone,        ///< none: the input, the options or the caller are the cause
+  kAny,         ///< the next one
+  kFactored,    ///< the next one that factorises
+  kFactorless,  ///< the next one that holds no factor, because memory ran out
+};
 
-/// What one backend made of the work. `successor` counts where that is an error.
+/// The policy after this error of a backend.
+FallbackPolicy policy_after(const Error& error);
+
+/// The outcome of one backend; `policy` matters where it is an error.
 template <class Value>
-struct Trial {
+struct Attempt {
   Result<Value> outcome;
-  Successor successor = Successor::kNone;
+  FallbackPolicy policy = FallbackPolicy::kNone;
 };
 
 /// The first of backend_names() that has not failed and may follow; empty where there is none.
-std::string next_backend(std::span<const Fallback> failed, Successor successor);
+std::string next_backend(std::span<const Fallback> failed, FallbackPolicy policy);
 
 /// "A failed: MESSAGE; B took over". Precondition: `failed` is not empty.
 std::string takeover_text(std::span<const Fallback> failed, std::string_view by);
 
-/// What all of them say, with the code and the hint of the last. Precondition: not empty.
+/// One error with the messages of all failures, the code and the hint of the last. Precondition:
+/// not empty.
 Error joint_error(std::span<const Fallback> failed);
 
 /// Tries `backend`, and where it fails the others in the order of backend_names(), as far as they
-/// may follow, once each. `failed`: those that have failed before, added to. `attempt` takes a
+/// may follow, once each. `failed`: those that have failed before, added to. `try_backend` takes a
 /// backend's name and `failed`. With `strict` the first failure is the answer. Errors: kCancelled
 /// and kBadInput, which are nobody's failure; otherwise joint_error() of all that failed.
-template <class Value, class Attempt>
+template <class Value, class TryBackend>
 Result<Value> first_that_works(std::string backend, bool strict, std::vector<Fallback>& failed,
-                               const Attempt& attempt) {
+                               const TryBackend& try_backend) {
   for (;;) {
-    Trial<Value> trial = attempt(backend, std::as_const(failed));
-    if (trial.outcome) return std::move(trial.outcome);
-    const Error& error = trial.outcome.error();
+    Attempt<Value> attempt = try_backend(backend, std::as_const(failed));
+    if (attempt.outcome) return std::move(attempt.outcome);
+    const Error& error = attempt.outcome.error();
     const bool final = error.code == ErrorCode::kCancelled || error.code == ErrorCode::kBadInput;
     if (strict || final) return error;
     failed.push_back({backend, error});
-    backend = next_backend(failed, trial.successor);
+    backend = next_backend(failed, attempt.policy);
     if (backend.empty()) return joint_error(failed);
   }
 }

@@ -3,6 +3,20 @@
 
 #include "solver/core/register.inl"
 
+/// The upper half of a double: its sign, all of its exponent, and the first 20 bits of its
+/// mantissa.
+struct UpperHalf {
+  std::uint32_t bits = 0;
+};
+
+/// Rounds to the nearest number that the storage holds.
+inline void narrow(double x, double& to) { to = x; }
+inline void narrow(double x, float& to) { to = static_cast<float>(x); }
+inline void narrow(double x, UpperHalf& to) {
+  constexpr std::uint64_t kHalf = 1ULL << 31;
+  to.bits = static_cast<std::uint32_t>((std::bit_cast<std::uint64_t>(x) + kHalf) >> 32);
+}
+
 inline void widen(const float* from, Register& to) {
   typedef float Narrow __attribute__((vector_size(4 * kLanes)));
   Narrow narrow;

@@ -25,16 +25,15 @@ struct Panel {
 /// Kernels for one right side read whole registers, up to this many doubles past a column's end.
 inline constexpr std::ptrdiff_t kPanelPadding = 16;
 
-/// The two inner loops of triangular solves for one group of right sides: x has `stride` doubles
-/// a row. `scratch` holds height * group doubles and
-/// kPanelPadding more.
+/// The two inner loops of triangular solves for one group of right sides: x has `stride` doubles a
+/// row. `scratch` has room for height * group doubles and kPanelPadding more.
 struct SolveKernels {
   void (*panel_forward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
   void (*panel_backward)(const Panel&, double* x, std::ptrdiff_t stride, double* scratch);
 };
 
-/// Kernels for a group of 1, 2, 4, 8 or 16 right sides. Asking for a set that this build or
-/// processor lacks gives the best lower one.
+/// Kernels for a group of 1, 2, 4, 8 or 16 right sides. A set that this build or processor lacks is
+/// replaced by the best lower one.
 const SolveKernels& solve_kernels(int group, InstructionSet set = best_instruction_set());
 
 }  // namespace geotherm

@@ -2,8 +2,10 @@
 // The loops of solve_kernels.h, compiled once for each instruction set: the including file sets
 // GEOTHERM_KERNEL_NAMESPACE and its compiler flags. Plain loops over fixed sizes, which the
 // compiler turns into vector code.
+#include <bit>
+#include <cstdint>
+
 #include "solver/linear/solve_kernels.h"
-#include "solver/linear/stored_number.h"
 
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {

@@ -9,7 +9,7 @@
 namespace geotherm {
 namespace {
 
-/// Rows a thread must have to be worth starting.
+/// Minimum rows per thread.
 constexpr std::int64_t kGrain = 1 << 15;
 
 void mix(std::uint64_t x, std::uint64_t& hash) {

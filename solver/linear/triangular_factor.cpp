@@ -3,6 +3,9 @@
 #include "solver/core/processor.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "solver/linear/solve_kernels.h"
 
 namespace geotherm {
 namespace {
@@ -62,10 +65,166 @@ class DirectFactorization final : public Factorization {
   std::unique_ptr<TriangularFactor> factor_;
 };
 
+class SupernodalFactor final : public TriangularFactor {
+ public:
+  SupernodalFactor(std::shared_ptr<const SupernodalStructure> structure, const double* values,
+                   std::shared_ptr<const void> owner, std::int64_t operations)
+      : structure_(std::move(structure)),
+        values_(values),
+        owner_(std::move(owner)),
+        operations_(operations) {
+    inverse_diagonal_.reserve(static_cast<std::size_t>(size()));
+    for (Index s = 0; s < structure_->count(); ++s) {
+      const Index width = structure_->first[s + 1] - structure_->first[s];
+      const std::int64_t height = width + structure_->row_start[s + 1] - structure_->row_start[s];
+      const double* diagonal = values_ + structure_->value_start[s];
+      for (Index c = 0; c < width; ++c) inverse_diagonal_.push_back(1 / diagonal[c * (height + 1)]);
+    }
+  }
+
+  const EliminationTree& tree() const override { return structure_->tree; }
+  Index size() const override { return structure_->first.back(); }
+  FactorStats stats() const override {
+    return {structure_->value_start.back(), supernodal_factor_bytes(*structure_), operations_};
+  }
+
+  void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+               int /*threads*/) const override {
+    const auto run = solve_kernels(columns).panel_forward;
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
+                                kPanelPadding);
+    if (nodes.empty()) {
+      for (Index s = 0; s < structure_->count(); ++s) run(panel(s), x, stride, scratch.data());
+    } else {
+      for (const Index s : nodes) run(panel(s), x, stride, scratch.data());
+    }
+  }
+
+  void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                int /*threads*/) const override {
+    const auto run = solve_kernels(columns).panel_backward;
+    std::vector<double> scratch(static_cast<std::size_t>(structure_->tallest) * columns +
+                                kPanelPadding);
+    if (nodes.empty()) {
+      for (Index s = structure_->count(); s-- > 0;) run(panel(s), x, stride, scratch.data());
+    } else {
+      for (auto s = nodes.rbegin(); s != nodes.rend(); ++s) {
+        run(panel(*s), x, stride, scratch.data());
+      }
+    }
+  }
+
+ private:
+  Panel panel(Index s) const {
+    const SupernodalStructure& t = *structure_;
+    const Index width = t.first[s + 1] - t.first[s];
+    const auto under = static_cast<Index>(t.row_start[s + 1] - t.row_start[s]);
+    return {t.first[s],
+            width,
+            width + under,
+            t.rows.data() + t.row_start[s],
+            values_ + t.value_start[s],
+            inverse_diagonal_.data() + t.first[s],
+            t.value_start[s + 1] + kPanelPadding <= t.value_start.back()};
+  }
+
+  std::shared_ptr<const SupernodalStructure> structure_;
+  const double* values_;
+  std::vector<double> inverse_diagonal_;
+  std::shared_ptr<const void> owner_;
+  std::int64_t operations_;
+};
+
+/// The last column of the fundamental supernode that begins with `column`. It goes on while a
+/// column has exactly one entry more than the next and the next is its parent: then the rest of
+/// both patterns is the same (Liu, Ng, Peyton 1993).
+template <class Below, class Parent>
+Index last_of_supernode(Index column, Index size, const Below& below, const Parent& parent) {
+  for (; column + 1 < size; ++column) {
+    const std::int64_t count = below(column);
+    if (count == 0 || parent(column) != column + 1 || count - 1 != below(column + 1)) break;
+  }
+  return column;
+}
+
 }  // namespace
 
 std::unique_ptr<Factorization> make_direct_factorization(std::unique_ptr<TriangularFactor> factor) {
   return std::make_unique<DirectFactorization>(std::move(factor));
+}
+
+void SupernodalStructure::finish() {
+  const Index nodes = count();
+  tree.parent.assign(static_cast<std::size_t>(nodes), kNoIndex);
+  tree.node_of_row.resize(static_cast<std::size_t>(first.back()));
+  for (Index s = 0; s < nodes; ++s) {
+    for (Index column = first[s]; column < first[s + 1]; ++column) tree.node_of_row[column] = s;
+  }
+  for (Index s = 0; s < nodes; ++s) {
+    const auto under = static_cast<Index>(row_start[s + 1] - row_start[s]);
+    if (under > 0) tree.parent[s] = tree.node_of_row[rows[row_start[s]]];
+    tallest = std::max(tallest, first[s + 1] - first[s] + under);
+  }
+}
+
+std::int64_t supernodal_factor_bytes(const SupernodalStructure& structure) {
+  const std::int64_t numbers = structure.value_start.back() + structure.first.back();
+  return numbers * static_cast<std::int64_t>(sizeof(double));
+}
+
+std::unique_ptr<TriangularFactor> make_supernodal_factor(
+    std::shared_ptr<const SupernodalStructure> structure, const double* values,
+    std::shared_ptr<const void> owner, std::int64_t operations) {
+  return std::make_unique<SupernodalFactor>(std::move(structure), values, std::move(owner),
+                                            operations);
+}
+
+std::unique_ptr<TriangularFactor> make_column_factor(const ColumnFactorData& data,
+                                                     std::int64_t operations) {
+  const auto size = static_cast<Index>(data.inverse_pivot.size());
+  auto structure = std::make_shared<SupernodalStructure>();
+  auto values = std::make_shared<std::vector<double>>();
+  const auto below = [&data](Index c) { return data.start[c + 1] - data.start[c]; };
+  const auto parent = [&data](Index c) { return data.row[data.start[c]]; };
+  for (Index first = 0; first < size;) {
+    const Index last = last_of_supernode(first, size, below, parent);
+    const Index width = last - first + 1;
+    structure->rows.insert(structure->rows.end(), data.row.begin() + data.start[last],
+                           data.row.begin() + data.start[last + 1]);
+    structure->first.push_back(last + 1);
+    structure->row_start.push_back(static_cast<std::int64_t>(structure->rows.size()));
+    structure->value_start.push_back(structure->value_start.back() + width * (width + below(last)));
+    first = last + 1;
+  }
+  values->reserve(static_cast<std::size_t>(structure->value_start.back()));
+  for (std::size_t s = 0; s + 1 < structure->first.size(); ++s) {
+    for (Index column = structure->first[s]; column < structure->first[s + 1]; ++column) {
+      // L L^T from L D L^T; the part above the diagonal is never read.
+      const double scale = std::sqrt(1 / data.inverse_pivot[column]);
+      values->insert(values->end(), static_cast<std::size_t>(column - structure->first[s]), 0.0);
+      values->push_back(scale);
+      for (std::int64_t e = data.start[column]; e < data.start[column + 1]; ++e) {
+        values->push_back(data.value[e] * scale);
+      }
+    }
+  }
+  structure->finish();
+  const double* numbers = values->data();
+  return make_supernodal_factor(std::move(structure), numbers, std::move(values), operations);
+}
+
+std::int64_t column_factor_bytes(const ColumnCounts& counts) {
+  const auto size = static_cast<Index>(counts.below.size());
+  std::int64_t numbers = size;  // the inverse diagonal
+  for (Index first = 0; first < size;) {
+    const Index last = last_of_supernode(
+        first, size, [&counts](Index c) { return std::int64_t{counts.below[c]}; },
+        [&counts](Index c) { return counts.parent[c]; });
+    const std::int64_t width = last - first + 1;
+    numbers += width * (width + counts.below[last]);
+    first = last + 1;
+  }
+  return numbers * static_cast<std::int64_t>(sizeof(double));
 }
 
 }  // namespace geotherm

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geotherm/path.h"
-#include "solver/path/geodesic_ends.h"
+#include "geotherm/sources.h"
 #include "solver/path/path_surface.h"
 
 namespace geotherm {
+
+/// Two points, and the distances of all vertices from each (V, file order, model units).
+struct GeodesicEnds {
+  SurfacePoint from, to;
+  std::span<const double> from_distances, to_distances;
+};
 
 /// Paths over the surface that bend at a few points of each edge and at vertices: the shortest of
 /// them comes near the shortest of all whether that passes vertices or not, and says which faces

@@ -14,10 +14,11 @@
 
 namespace geotherm {
 
-/// A mesh made ready for paths: its clean faces, which faces meet at an edge or a vertex (any
-/// number of them), and positions about the origin in units of order 1. Faces and points are
-/// numbered as clean_faces() leaves them; into() and out_of() lead from and to those of the file.
-/// Immutable. Cost: O(F).
+/// A mesh made ready for paths, which run over the faces of the file rather than over an intrinsic
+/// triangulation as IntrinsicSurface has it: its clean faces, which faces meet at an edge or a
+/// vertex (any number of them), and positions about the origin in units of order 1. Faces and
+/// points are numbered as clean_faces() leaves them; into() and out_of() lead from and to those of
+/// the file. Immutable. Cost: O(F).
 class PathSurface {
  public:
   explicit PathSurface(std::shared_ptr<const TriangleMesh> mesh);

@@ -13,7 +13,7 @@
 
 namespace geotherm {
 
-/// `end`: what has ended. `what`: was worked on.
+/// `end`: which resource ran out. `what`: the task that needed it.
 inline Error ended_error(const char* end, std::string_view what, const TriangleMesh& mesh) {
   return {ErrorCode::kOutOfMemory,
           std::string(end) + " while " + std::string(what) + " was sought on a mesh of " +
@@ -21,8 +21,8 @@ inline Error ended_error(const char* end, std::string_view what, const TriangleM
           {"take a mesh with fewer faces"}};
 }
 
-/// The result of `work`, or kOutOfMemory where the memory, or what else the system lends, ends
-/// before it. `what`: is worked on, for the message.
+/// The result of `work`, or kOutOfMemory where memory, threads or locks run out. `what`: names the
+/// task in the message.
 template <class Work>
 auto within_memory(std::string_view what, const TriangleMesh& mesh, Work&& work)
     -> decltype(work()) {
@@ -35,8 +35,8 @@ auto within_memory(std::string_view what, const TriangleMesh& mesh, Work&& work)
   }
 }
 
-/// The same for work(progress), whose progress may throw anything: that is thrown again, and no
-/// error of the work, but for std::bad_alloc.
+/// The same for work(progress). What the progress callback throws is thrown again and not taken for
+/// an error of the work, except std::bad_alloc.
 template <class Work>
 auto within_memory(std::string_view what, const TriangleMesh& mesh, const Progress& progress,
                    Work&& work) -> decltype(work(progress)) {

@@ -8,7 +8,7 @@
 #include "bench/bench_mesh.h"
 #include "solver/geometry/fem_operator.h"
 #include "solver/heat/surface.h"
-#include "solver/linear/column_counts.h"
+#include "solver/linear/elimination_tree.h"
 
 namespace geotherm::test {
 namespace {

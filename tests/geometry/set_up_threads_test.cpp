@@ -10,7 +10,7 @@
 
 #include "geotherm/mesh_report.h"
 #include "solver/geometry/intrinsic_surface.h"
-#include "solver/geometry/surface_pattern.h"
+#include "solver/geometry/operator_mesh.h"
 #include "tests/support/mesh_defects.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/operators.h"

@@ -22,7 +22,7 @@ TEST(Fallback, GoesThroughTheOthersInTheirOrder) {
   std::vector<Fallback> failed = {Fallback{names.back(), kPivot}};
   std::vector<std::string> tried;
   for (;;) {
-    const std::string next = next_backend(failed, Successor::kAny);
+    const std::string next = next_backend(failed, FallbackPolicy::kAny);
     if (next.empty()) break;
     tried.push_back(next);
     failed.push_back(Fallback{next, kPivot});
@@ -32,9 +32,9 @@ TEST(Fallback, GoesThroughTheOthersInTheirOrder) {
 
 TEST(Fallback, AsksForAFactorOrForNone) {
   const std::vector<Fallback> failed = {Fallback{backend_names().front(), kPivot}};
-  EXPECT_EQ(next_backend(failed, Successor::kFactorless), "cg");
-  EXPECT_FALSE((*find_backend(next_backend({}, Successor::kFactored)))->iterative());
-  EXPECT_EQ(next_backend(failed, Successor::kNone), "");
+  EXPECT_EQ(next_backend(failed, FallbackPolicy::kFactorless), "cg");
+  EXPECT_FALSE((*find_backend(next_backend({}, FallbackPolicy::kFactored)))->iterative());
+  EXPECT_EQ(next_backend(failed, FallbackPolicy::kNone), "");
 }
 
 TEST(Fallback, SaysWhoFailedWhyAndWhoTookOver) {

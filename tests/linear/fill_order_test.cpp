@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/linear/fill_order.h"
+#include "solver/linear/multifrontal/fill_order.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 #include <set>
 
 #include "solver/linear/elimination_tree.h"
-#include "solver/linear/minimum_degree.h"
-#include "solver/linear/nested_dissection.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/operators.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers of a multifrontal factor, and what solving with them gives.
-#include "solver/linear/front_factor.h"
+#include "solver/linear/multifrontal/front_factor.h"
 
 #include <gtest/gtest.h>
 

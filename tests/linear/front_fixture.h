@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/linear/front_passes.h"
+#include "solver/linear/multifrontal/front_factor.h"
 #include "tests/linear/backend_fixture.h"
 #include "tests/support/mesh_zoo.h"
 

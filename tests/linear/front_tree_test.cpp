@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The symbolic side of the multifrontal factorisation, against elimination played through.
-#include "solver/linear/front_tree.h"
+#include "solver/linear/multifrontal/front_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "solver/linear/front_tasks.h"
+#include "solver/linear/multifrontal/front_tasks.h"
 #include "tests/linear/front_fixture.h"
 
 namespace geotherm::test {

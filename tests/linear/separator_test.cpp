@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/linear/separator.h"
+#include "solver/linear/multifrontal/separator.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "solver/linear/plane_cuts.h"
 #include "solver/linear/symmetric_pattern.h"
 #include "tests/support/mesh_zoo.h"
 

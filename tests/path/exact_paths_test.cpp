@@ -6,7 +6,7 @@
 #include <random>
 
 #include "geotherm/io.h"
-#include "solver/path/trace.h"
+#include "solver/path/streamline.h"
 #include "tests/path/path_support.h"
 #include "tests/support/exact_distances.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "solver/path/shorten.h"
-#include "solver/path/trace.h"
+#include "solver/path/streamline.h"
 #include "tests/path/path_support.h"
 #include "tests/support/mesh_zoo.h"
 

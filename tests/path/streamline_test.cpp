@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "solver/path/trace.h"
+#include "solver/path/streamline.h"
 #include "tests/path/path_support.h"
 #include "tests/support/mesh_zoo.h"
 

@@ -17,9 +17,6 @@ constexpr int kLongestFile = 400;
 constexpr std::array kHouse = {"solver", "engine", "shaders", "app",      "ui",           "tests",
                                "bench",  "cmake",  "scripts", "geotherm", "docs/examples"};
 
-/// Headers that one backend keeps to itself.
-constexpr std::string_view kOwnHeaders = "solver/linear/cholmod_";
-
 /// What a condition on a backend has in it, in lower case.
 constexpr const char* kBackendWords[] = {"geotherm_with_", "geotherm_has_", "geotherm_have_",
                                          "geotherm_use_",  "cholmod",       "suitesparse",
@@ -98,7 +95,7 @@ bool starts_with_folder(std::string_view path, std::string_view folder) {
 }
 
 bool is_public_header(std::string_view path) {
-  return (path.ends_with(".h") || path.ends_with(".hpp")) && !path.starts_with(kOwnHeaders);
+  return (path.ends_with(".h") || path.ends_with(".hpp"));
 }
 
 /// Library headers by how they begin.
@@ -216,8 +213,7 @@ std::string refusal(std::string_view path, const Permission& permission, const s
     const bool allowed =
         std::any_of(permission.house.begin(), permission.house.end(),
                     [&](const std::string& folder) { return starts_with_folder(header, folder); });
-    const bool owned = !header.starts_with(kOwnHeaders) || path.starts_with(kOwnHeaders);
-    return allowed && owned ? "" : from + " must not use " + header;
+    return allowed ? "" : from + " must not use " + header;
   }
   const std::string library(library_of(header));
   if (quoted && library == "?") return "\"" + header + "\" is not written from the root";

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "solver/linear/backends.h"
+#include "solver/linear/multifrontal/fill_order.h"
+#include "solver/linear/multifrontal/front_factor.h"
+#include "solver/linear/triangular_factor.h"
+
+namespace geotherm {
+namespace {
+
+constexpr const char* kName = "native";
+
+class NativeFactor final : public TriangularFactor {
+ public:
+  NativeFactor(std::shared_ptr<const FrontTree> tree, FrontFactor factor)
+      : tree_(std::move(tree)), factor_(std::move(factor)) {}
+
+  const EliminationTree& tree() const override { return tree_->tree; }
+  Index size() const override { return tree_->size(); }
+  FactorStats stats() const override {
+    const std::int64_t numbers = tree_->value_start.back();
+    return {numbers, numbers * bytes_of(factor_.storage),
+            static_cast<std::int64_t>(tree_->operations)};
+  }
+
+  void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+               int threads) const override {
+    const FrontPasses passes(*tree_, factor_, columns);
+    if (is_short(nodes)) {
+      passes.forward_along(nodes, x, stride);
+    } else {
+      passes.forward(x, stride, threads, nodes);
+    }
+  }
+
+  void backward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
+                int threads) const override {
+    const FrontPasses passes(*tree_, factor_, columns);
+    if (is_short(nodes)) {
+      passes.backward_along(nodes, x, stride);
+    } else {
+      passes.backward(x, stride, threads, nodes);
+    }
+  }
+
+ private:
+  /// A pass over fewer numbers of the factor runs on one thread: starting tasks would take longer.
+  static constexpr std::int64_t kShort = 1 << 18;
+
+  bool is_short(std::span<const Index> nodes) const {
+    std::int64_t values = nodes.empty() ? kShort : 0;
+    for (const Index s : nodes) values += tree_->value_start[s + 1] - tree_->value_start[s];
+    return values < kShort;
+  }
+
+  std::shared_ptr<const FrontTree> tree_;
+  FrontFactor factor_;
+};
+
+Error out_of_memory(const std::string& what, Index size) {
+  return {ErrorCode::kOutOfMemory,
+          what + " for a matrix of size " + std::to_string(size),
+          {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
+          kName};
+}
+
+class NativeAnalysis final : public Analysis {
+ public:
+  NativeAnalysis(std::vector<Index> order, std::uint64_t pattern,
+                 std::shared_ptr<const FrontTree> tree, int threads)
+      : order_(std::move(order)), pattern_(pattern), tree_(std::move(tree)), threads_(threads) {}
+
+  std::span<const Index> order() const override { return order_; }
+  std::int64_t factor_bytes(FactorStorage storage) const override {
+    return tree_->value_start.back() * bytes_of(storage_for(storage));
+  }
+  std::int64_t work_bytes() const override {
+    // The matrix, and half of what an operator on faces puts it together from: measured, the heap
+    // uses the memory of the other half again.
+    constexpr std::int64_t kWeightBytes = 6;
+    constexpr std::int64_t kEntryBytes = sizeof(double) + sizeof(Index) + kWeightBytes;
+    return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, (threads_ + 1) / 2);
+  }
+
+  Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
+                                                   const FactorOptions& options) const override
+      try {
+    if (const auto same = check_pattern(*matrix, pattern_, static_cast<Index>(order_.size()));
+        !same) {
+      return same.error();
+    }
+    FrontFactor factor;
+    FactorStorage storage = storage_for(options.storage);
+    FactorFailure failure =
+        factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
+    const bool unsafe = failure.narrow || factor.cancellation > kMaxCancellation;
+    if (storage != FactorStorage::kFull && unsafe && failure.column == kNoIndex) {
+      storage = FactorStorage::kFull;
+      factor = {};
+      failure = factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
+    }
+    if (failure.narrow) {
+      return Error{ErrorCode::kNumericalFailure,
+                   "numbers of the factor are beyond what a double holds",
+                   {"scale the model, or try another backend"},
+                   kName};
+    }
+    if (failure.failed()) {
+      return Error{
+          ErrorCode::kNumericalFailure,
+          "the matrix is not positive definite (pivot of column " + std::to_string(failure.column) +
+              " of " + std::to_string(matrix->size()) + ")",
+          {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
+          kName};
+    }
+    return make_direct_factorization(std::make_unique<NativeFactor>(tree_, std::move(factor)));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the factorisation", matrix->size());
+  }
+
+ private:
+  /// Below so many rows the factor stays in the cache whatever its width, and narrow numbers gain
+  /// nothing.
+  static constexpr Index kNarrowFrom = 20'000;
+  /// Good meshes have 2 to 10. Where elimination takes more of a diagonal entry away than all but
+  /// this share, weights differ by so many orders that the rounding of narrow numbers would show.
+  static constexpr double kMaxCancellation = 64;
+
+  FactorStorage storage_for(FactorStorage asked) const {
+    return tree_->size() < kNarrowFrom ? FactorStorage::kFull : asked;
+  }
+
+  std::vector<Index> order_;
+  std::uint64_t pattern_;
+  std::shared_ptr<const FrontTree> tree_;
+  int threads_;
+};
+
+class NativeBackend final : public Backend {
+ public:
+  std::string_view name() const override { return kName; }
+  std::string_view description() const override {
+    return "multifrontal Cholesky made for meshes: nested dissection, narrow factors, all threads";
+  }
+
+  Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
+                                                  std::span<const Vec3> positions,
+                                                  int threads) const override try {
+    std::vector<Index> order = fill_reducing_order(pattern, positions, threads);
+    SymmetricPattern eliminated = permuted(pattern, order, threads);
+    // The front tree needs contiguous subtrees, hence a postorder.
+    const std::vector<Index> post = postorder(elimination_parents(eliminated));
+    std::vector<Index> final_order(order.size());
+    for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];
+    eliminated = permuted(eliminated, post, threads);
+    auto tree = std::make_shared<const FrontTree>(
+        build_front_tree(eliminated, count_columns(eliminated), threads));
+    if (tree->largest_panel > std::numeric_limits<Index>::max()) {
+      return out_of_memory(
+          "would need a front of " + std::to_string(tree->largest_panel) + " numbers",
+          pattern.size());
+    }
+    return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
+        std::move(final_order), pattern_hash(eliminated, threads), std::move(tree), threads));
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the analysis", pattern.size());
+  }
+};
+
+}  // namespace
+
+const Backend* native_backend() {
+  static const NativeBackend kBackend;
+  return &kBackend;
+}
+
+}  // namespace geotherm

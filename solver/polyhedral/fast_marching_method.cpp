@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "geotherm/polyhedral_methods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <queue>
+#include <span>
+#include <vector>
+
+#include "solver/accuracy/check_waves.h"
+#include "solver/core/stopwatch.h"
+#include "solver/method/solve_sets.h"
+#include "solver/polyhedral/wave_surface.h"
+
+namespace geotherm {
+namespace {
+
+/// A triangle through which a plane wave may reach `target`: `left` at the origin, `right` at
+/// (base, 0), the target at (x, y), y > 0.
+struct MarchSupport {
+  Index target, left, right;
+  double base, x, y;
+};
+
+/// What fast marching updates from. A corner has one support, its face; an obtuse one, which a wave
+/// may reach before both other corners, has two that are acute: the faces beyond the opposite side
+/// are unfolded until a vertex splits the angle (Kimmel, Sethian 1998, section 4). Where a border
+/// or an edge with three faces and more is in the way, the face stays its support.
+struct MarchSupports {
+  std::vector<MarchSupport> all;
+  std::vector<std::size_t> start;  ///< V + 1
+  std::vector<Index> at;           ///< supports whose left or right is the vertex
+
+  std::span<const Index> of(Index vertex) const {
+    return {at.data() + start[vertex], at.data() + start[vertex + 1]};
+  }
+  std::size_t bytes() const;
+};
+
+using Point2 = Eigen::Vector2d;
+
+/// Cosines this near to 0 are right angles, which rounding must not make obtuse in one place and
+/// acute in another: grids are full of them.
+constexpr double kRightAngle = 1e-6;
+/// The maximum number of faces that are unfolded at one corner; on a Delaunay triangulation a few
+/// suffice.
+constexpr int kMaxUnfolded = 50;
+
+/// The corner beyond side `k` of a face, on the left of the way from `start` to `end`, where the
+/// side lies.
+Point2 beyond(const Point2& start, const Point2& end, const std::array<double, 3>& lengths, int k) {
+  const FaceLayout layout =
+      lay_out({lengths[k], lengths[next_corner(k)], lengths[previous_corner(k)]});
+  const Point2 along = (end - start) / layout.base;
+  return start + layout.x * along + layout.height * Point2(-along.y(), along.x());
+}
+
+/// A vertex that splits the angle at a corner, and where it is when the corner is the origin and
+/// the next one (first, 0).
+struct Splitter {
+  Index vertex;
+  Point2 at;
+};
+
+bool is_acute(const Point2& a, const Point2& b) {
+  return a.dot(b) > -kRightAngle * a.norm() * b.norm();
+}
+
+std::optional<Splitter> find_splitter(const IntrinsicMesh& mesh, Side opposite, const Point2& first,
+                                      const Point2& second) {
+  Point2 p = first, q = second;
+  Side side = opposite;
+  for (int i = 0; i < kMaxUnfolded; ++i) {
+    const Side twin = mesh.twin[side];
+    if (twin == kNoSide) return std::nullopt;
+    const Index f = face_of(twin);
+    const int k = corner_of(twin);
+    const Point2 apex = beyond(q, p, mesh.lengths[f], k);
+    const bool near_first = is_acute(apex, first), near_second = is_acute(apex, second);
+    if (near_first && near_second) return Splitter{mesh.faces[f][previous_corner(k)], apex};
+    if (near_second) {
+      side = 3 * f + next_corner(k);
+      q = apex;
+    } else {
+      side = 3 * f + previous_corner(k);
+      p = apex;
+    }
+  }
+  return std::nullopt;
+}
+
+MarchSupport support(Index target, Index left, const Point2& at_left, Index right,
+                     const Point2& at_right) {
+  const Point2 side = at_right - at_left;
+  const double base = side.norm();
+  const Point2 along = side / base;
+  return {target,
+          left,
+          right,
+          base,
+          -at_left.dot(along),
+          at_left.x() * along.y() - at_left.y() * along.x()};
+}
+
+/// The supports of corner k of a face, whose plane has the corner as its origin.
+void add_corner(const IntrinsicMesh& mesh, Index f, int k, std::vector<MarchSupport>& out) {
+  const auto& lengths = mesh.lengths[f];
+  const int next = next_corner(k), previous = previous_corner(k);
+  const FaceLayout layout = lay_out({lengths[k], lengths[next], lengths[previous]});
+  const Point2 first(layout.base, 0), second(layout.x, layout.height);
+  const Index target = mesh.faces[f][k];
+  const Index left = mesh.faces[f][next], right = mesh.faces[f][previous];
+  if (!is_acute(first, second)) {
+    if (const auto splitter = find_splitter(mesh, 3 * f + next, first, second)) {
+      out.push_back(support(target, left, first, splitter->vertex, splitter->at));
+      out.push_back(support(target, splitter->vertex, splitter->at, right, second));
+      return;
+    }
+  }
+  out.push_back(support(target, left, first, right, second));
+}
+
+std::size_t MarchSupports::bytes() const {
+  return all.capacity() * sizeof(MarchSupport) + start.capacity() * sizeof(std::size_t) +
+         at.capacity() * sizeof(Index);
+}
+
+/// Vertices are those of the mesh. Cost: O(F).
+MarchSupports build_march_supports(const WaveSurface& surface) {
+  const IntrinsicMesh& mesh = surface.base.intrinsic;
+  MarchSupports out;
+  out.all.reserve(3 * mesh.faces.size());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    for (int k = 0; k < 3; ++k) add_corner(mesh, f, k, out.all);
+  }
+  out.start.assign(surface.base.on_surface.size() + 1, 0);
+  for (const MarchSupport& s : out.all) {
+    ++out.start[s.left + 1];
+    ++out.start[s.right + 1];
+  }
+  for (std::size_t v = 1; v < out.start.size(); ++v) out.start[v] += out.start[v - 1];
+  out.at.resize(2 * out.all.size());
+  std::vector<std::size_t> next(out.start.begin(), out.start.end() - 1);
+  for (std::size_t i = 0; i < out.all.size(); ++i) {
+    for (const Index end : {out.all[i].left, out.all[i].right}) {
+      out.at[next[end]++] = static_cast<Index>(i);
+    }
+  }
+  return out;
+}
+
+/// What a query takes at least for each face.
+constexpr double kFaceNanoseconds = 100;
+
+/// A ray may miss the support by this share of its base.
+constexpr double kRayTolerance = 1e-12;
+/// Accepted vertices between two calls of progress: a few milliseconds.
+constexpr Index kVerticesBetweenCalls = 1 << 13;
+
+/// One march from sources to everywhere; values in units of the intrinsic mesh, above `base`.
+class March {
+ public:
+  March(const WaveSurface& surface, const MarchSupports& supports)
+      : surface_(surface),
+        supports_(supports),
+        distance(surface.base.on_surface.size(), kUnreached),
+        label(distance.size(), kNoIndex),
+        accepted_(distance.size(), 0) {}
+
+  /// False when `progress` returned false.
+  bool run(const SourceSeeds& seeds, const Progress& progress) {
+    seed(seeds);
+    Index count = 0;
+    while (!heap_.empty()) {
+      const auto [key, vertex] = heap_.top();
+      heap_.pop();
+      if (accepted_[vertex]) continue;  // accepted before, with a smaller value
+      accepted_[vertex] = 1;
+      for (const Index s : supports_.of(vertex)) update(supports_.all[s], vertex);
+      if (++count % kVerticesBetweenCalls != 0) continue;
+      const double share = static_cast<double>(count) / static_cast<double>(distance.size());
+      if (!report(progress, "solve", share)) return false;
+    }
+    return true;
+  }
+
+ private:
+  void seed(const SourceSeeds& seeds) {
+    base = least_offset(seeds);
+    for (const auto& vertex : seeds.vertices) {
+      lower(vertex.vertex, vertex.offset - base, vertex.group);
+    }
+    for (const auto& piece : seeds.pieces) {
+      const auto at = corners_of(lay_out(surface_.base.intrinsic.lengths[piece.face]));
+      for (int k = 0; k < 3; ++k) {
+        lower(surface_.base.intrinsic.faces[piece.face][k],
+              piece.offset - base + distance_to(piece, at[k]), piece.group);
+      }
+    }
+  }
+
+  /// Updates the target along the side from `from`, and by a plane wave where the other end is
+  /// known, too.
+  void update(const MarchSupport& s, Index from) {
+    if (accepted_[s.target]) return;
+    const double left = distance[s.left], right = distance[s.right];
+    if (s.left == from) lower(s.target, left + std::hypot(s.x, s.y), label[s.left]);
+    if (s.right == from) lower(s.target, right + std::hypot(s.x - s.base, s.y), label[s.right]);
+    if (!accepted_[s.left] || !accepted_[s.right]) return;
+    const double ux = (right - left) / s.base;
+    const double across = 1 - ux * ux;
+    if (!(across > 0)) return;
+    const double uy = std::sqrt(across);
+    const double crossing = s.x - s.y * ux / uy;  // where the ray to the target leaves the base
+    if (!(crossing >= -kRayTolerance * s.base && crossing <= (1 + kRayTolerance) * s.base)) return;
+    lower(s.target, left + ux * s.x + uy * s.y, label[2 * crossing < s.base ? s.left : s.right]);
+  }
+
+  void lower(Index vertex, double candidate, Index group) {
+    if (!(candidate < distance[vertex])) return;
+    distance[vertex] = candidate;
+    label[vertex] = group;
+    heap_.emplace(candidate, vertex);
+  }
+
+  const WaveSurface& surface_;
+  const MarchSupports& supports_;
+
+ public:
+  std::vector<double> distance;
+  std::vector<Index> label;
+  double base = 0;
+
+ private:
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
+  std::vector<char> accepted_;
+};
+
+Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports& supports,
+                                 const SourceSet& sources, const QueryOptions& query,
+                                 const Progress& progress) {
+  Stopwatch watch;
+  if (!report(progress, "solve", 0.0)) return cancelled_error();
+  const auto seeds = seed_sources(surface, sources);
+  if (!seeds) return seeds.error();
+  March march(surface, supports);
+  if (!march.run(*seeds, progress)) return cancelled_error();
+  DistanceResult result;
+  result.distances = std::move(march.distance);
+  for (double& distance : result.distances) distance += march.base;
+  if (query.nearest) result.nearest_source = std::move(march.label);
+  result.timing.query = watch.lap();
+  if (query.quality) judge_wave(MethodKind::kFastMarching, surface, sources, *seeds, result);
+  watch.lap();
+  for (double& distance : result.distances) distance *= surface.base.mean_edge;
+  result.timing.query += watch.lap();
+  return result;
+}
+
+}  // namespace
+
+struct FastMarchingMethod::State {
+  std::shared_ptr<const WaveSurface> surface;
+  MarchSupports supports;
+  SetThreads threads;
+  SetupTiming timing;
+};
+
+FastMarchingMethod::FastMarchingMethod(std::unique_ptr<const State> state)
+    : state_(std::move(state)) {}
+FastMarchingMethod::~FastMarchingMethod() = default;
+
+Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
+    std::shared_ptr<const WaveSurface> surface, int threads, const Progress& progress) {
+  const Stopwatch watch;
+  const Index faces = surface->face_count();
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
+  try {
+    auto state = std::make_unique<State>();
+    state->surface = std::move(surface);
+    state->threads.most = threads;
+    state->threads.nanoseconds = kFaceNanoseconds * faces;
+    state->supports = build_march_supports(*state->surface);
+    if (!report(progress, "operators", 1.0)) return cancelled_error();
+    state->timing.operators = state->timing.setup = watch.milliseconds();
+    return std::shared_ptr<const FastMarchingMethod>(new FastMarchingMethod(std::move(state)));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("tables", faces);
+  }
+}
+
+Result<std::vector<DistanceResult>> FastMarchingMethod::solve_each(std::span<const SourceSet> sets,
+                                                                   const QueryOptions& query,
+                                                                   const Progress& progress) const {
+  return solve_sets(sets, state_->threads, progress,
+                    [&](const SourceSet& sources, const Progress& part) {
+                      return solve_one(*state_->surface, state_->supports, sources, query, part);
+                    });
+}
+
+const SetupTiming& FastMarchingMethod::timing() const { return state_->timing; }
+
+double FastMarchingMethod::memory_mb() const {
+  return static_cast<double>(state_->supports.bytes()) / (1024.0 * 1024.0);
+}
+
+const std::vector<Warning>& FastMarchingMethod::warnings() const {
+  return state_->surface->base.warnings;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geotherm/progress.h"
+#include "solver/polyhedral/window.h"
+#include "solver/polyhedral/window_mesh.h"
+#include "solver/polyhedral/window_queue.h"
+
+namespace geotherm {
+
+/// Exact distances from one source set by windows that spread from face to face, nearest first
+/// (Chen, Han 1990; Xin, Wang 2009). Windows are trimmed by comparing them with paths that exist
+/// (window.h), so that no order of events loses a shortest path. The distance at a vertex is the
+/// length of a path at all times.
+class Propagation {
+ public:
+  struct VertexState {
+    double distance = kUnreached;
+    double sent = kUnreached;  ///< the distance with which it was last put into the queue
+    Index group = kNoIndex;
+  };
+
+  /// run() gives up at so many bytes of windows: 1.5 GiB.
+  static constexpr std::size_t kMaxBytes = std::size_t{3} << 29;
+
+  /// Keeps a reference.
+  explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMaxBytes);
+
+  /// Propagates from the seeds to the end; to be called once. Lengths as those of the surface;
+  /// until the end they are measured from the least offset, so that they keep their digits.
+  /// `progress` is asked now and then, as stage "solve". Errors: kCancelled, kBudgetEnded (windows
+  /// that multiply without end), kOutOfMemory. Throws std::bad_alloc.
+  Result<void> run(const SourceSeeds& seeds, const Progress& progress);
+
+  const std::vector<VertexState>& vertices() const { return vertices_; }
+  std::int64_t windows() const { return windows_; }  ///< that were followed
+
+ private:
+  void seed(const SourceSeeds& seeds, double base);
+  Result<void> spread(const Progress& progress);
+  void seed_point(const SourceSeeds::Piece& piece);
+  void seed_segment(const SourceSeeds::Piece& piece);
+  void reach(Index vertex, double distance, Index group, bool send_anyway = false);
+  void send_from(Index vertex, double distance, Index group);
+  void follow(Window window);
+  void send_left(const Window& window, bool from_apex);
+  void send_right(const Window& window, bool from_apex);
+  void cross(Side side, Window window, bool against);
+  bool merges_with_waiting(const Window& window, double length);
+  bool is_early_at_branch(Side side, Window& window, bool against);
+  Result<void> check(const Progress& progress);
+  double distance_at(Index vertex) const {
+    return vertices_[static_cast<std::size_t>(vertex)].distance;
+  }
+
+  const WindowMesh& mesh_;
+  std::size_t most_bytes_;
+  WindowQueue queue_;
+  std::vector<VertexState> vertices_;
+  std::vector<Leader> leaders_;                   ///< of sides
+  std::vector<Window*> waiting_;                  ///< of sides: the last window in the queue
+  std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what crossed them
+  std::int64_t windows_ = 0;
+  std::int64_t work_ = 0, next_check_ = 1 << 18;
+  Index reached_ = 0;
+  std::size_t crossed_ = 0;  ///< windows in at_branches_
+};
+
+}  // namespace geotherm

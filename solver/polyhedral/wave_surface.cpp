@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "solver/polyhedral/wave_surface.h"
+
+#include <algorithm>
+#include <new>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "solver/core/parallel.h"
+#include "solver/geometry/edit.h"
+
+namespace geotherm {
+namespace {
+
+/// What the set-up takes at least for each face.
+constexpr double kFaceNanoseconds = 400;
+
+/// Sides without a twin, those of one edge together: the border, edges with three faces and more,
+/// and edges whose two faces disagree in orientation. Flips leave their vertices alone.
+std::vector<Side> twinless_sides(const IntrinsicMesh& mesh) {
+  const auto ends = [&mesh](Side side) {
+    const Face& face = mesh.faces[face_of(side)];
+    return std::minmax({face[corner_of(side)], face[next_corner(corner_of(side))]});
+  };
+  std::vector<Side> sides;
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    if (mesh.twin[side] == kNoSide) sides.push_back(side);
+  }
+  std::ranges::sort(sides, [&](Side a, Side b) {
+    const auto pair_a = ends(a), pair_b = ends(b);
+    return pair_a != pair_b ? pair_a < pair_b : a < b;
+  });
+  return sides;
+}
+
+/// Makes edge_of_side the number of the first side of each side's edge.
+void name_edges_by_first_side(WaveSurface& surface) {
+  const IntrinsicMesh& mesh = surface.base.intrinsic;
+  auto& edge = surface.edge_of_side;
+  edge.resize(mesh.twin.size());
+  for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
+    edge[side] = mesh.twin[side] == kNoSide ? side : std::min(side, mesh.twin[side]);
+  }
+  const std::vector<Side> alone = twinless_sides(mesh);
+  for (std::size_t i = 1; i < alone.size(); ++i) {
+    const Face& before = mesh.faces[face_of(alone[i - 1])];
+    const Face& face = mesh.faces[face_of(alone[i])];
+    const int k = corner_of(alone[i]), j = corner_of(alone[i - 1]);
+    if (std::minmax(face[k], face[next_corner(k)]) ==
+        std::minmax(before[j], before[next_corner(j)])) {
+      edge[alone[i]] = edge[alone[i - 1]];
+    }
+  }
+}
+
+/// Numbers the edges from 0 in the order of their first sides, and lists their sides.
+void list_sides(WaveSurface& surface) {
+  auto& edge = surface.edge_of_side;
+  std::vector<std::size_t> count;
+  for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
+    if (edge[side] == side) {
+      edge[side] = static_cast<Index>(count.size());
+      count.push_back(1);
+    } else {
+      edge[side] = edge[edge[side]];  // a lower side, numbered already
+      ++count[edge[side]];
+    }
+  }
+  surface.side_start.resize(count.size() + 1);
+  surface.side_start[0] = 0;
+  for (std::size_t e = 0; e < count.size(); ++e) {
+    surface.side_start[e + 1] = surface.side_start[e] + count[e];
+  }
+  surface.sides.resize(edge.size());
+  std::vector<std::size_t> next(surface.side_start.begin(), surface.side_start.end() - 1);
+  for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
+    surface.sides[next[edge[side]]++] = side;
+  }
+}
+
+using Weights = std::array<double, 3>;
+
+/// Offset and group of what a piece came from.
+struct Origin {
+  double offset;
+  Index group;
+};
+
+/// The corner that a point is, if it is one.
+std::optional<int> corner_at(const Weights& w) {
+  for (int k = 0; k < 3; ++k) {
+    if (w[k] == 1) return k;
+  }
+  return std::nullopt;
+}
+
+class Seeder {
+ public:
+  Seeder(const WaveSurface& surface, const SourceSet& sources)
+      : surface_(surface), sources_(sources), groups_(source_groups(sources)) {}
+
+  SourceSeeds run() {
+    for (std::size_t i = 0; i < sources_.points.size(); ++i) add_point(i);
+    for (std::size_t i = 0; i < sources_.edges.size(); ++i) add_edge(i);
+    const auto carried =
+        carry_pieces(surface_.base.edits, surface_.face_count(), std::move(pieces_));
+    for (const FacePiece& piece : carried) add_carried(piece);
+    return std::move(seeds_);
+  }
+
+ private:
+  void add_point(std::size_t i) {
+    const double offset =
+        sources_.offsets.empty() ? 0.0 : sources_.offsets[i] / surface_.base.mean_edge;
+    const Origin origin{offset, groups_.of_point[i]};
+    const SurfacePoint point = clean_point(surface_.base, sources_.points[i]);
+    if (point.is_vertex()) {
+      add_vertex(point.vertex, origin);
+    } else {
+      add_piece({point.face, point.weights, point.weights}, origin);
+    }
+  }
+
+  void add_edge(std::size_t i) {
+    const auto [a, b] = sources_.edges[i];
+    const Origin origin{0.0, groups_.of_edge[i]};
+    add_vertex(a, origin);
+    add_vertex(b, origin);
+    if (a == b) return;
+    const Index edge = find_clean_edge(surface_.base, a, b);
+    const Side side = surface_.base.clean_edges.sides(edge).front();
+    FacePiece piece{face_of(side), {}, {}};
+    piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
+    add_piece(piece, origin);
+  }
+
+  void add_vertex(Index v, const Origin& origin) {
+    const auto [at, fresh] = seed_of_.try_emplace(v, seeds_.vertices.size());
+    if (fresh) {
+      seeds_.vertices.push_back({v, origin.offset, origin.group});
+    } else if (auto& seed = seeds_.vertices[at->second]; origin.offset < seed.offset) {
+      seed = {v, origin.offset, origin.group};
+    }
+  }
+
+  void add_piece(FacePiece piece, const Origin& origin) {
+    piece.source = origins_.size();
+    origins_.push_back(origin);
+    pieces_.push_back(piece);
+  }
+
+  /// A piece in the triangulation: once in its face or, on a side, in every face at that edge.
+  void add_carried(const FacePiece& piece) {
+    if (piece.from == piece.to) {
+      if (const auto corner = corner_at(piece.from)) {
+        // A piece of length 0 at the end of a curve's edge is that end, which is there already.
+        add_vertex(surface_.base.intrinsic.faces[piece.face][*corner], origins_[piece.source]);
+        return;
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (piece.from[k] != 0 || piece.to[k] != 0) continue;
+      add_on_side(piece, 3 * piece.face + next_corner(k));
+      return;
+    }
+    add_in_face(piece.face, piece.from, piece.to, origins_[piece.source]);
+  }
+
+  void add_on_side(const FacePiece& piece, Side side) {
+    const int k = corner_of(side);
+    for (const Side other : surface_.sides_of(surface_.edge_of_side[side])) {
+      const bool same_way = other == side || runs_as(side, other);
+      const int first = same_way ? corner_of(other) : next_corner(corner_of(other));
+      const int second = same_way ? next_corner(corner_of(other)) : corner_of(other);
+      Weights from{}, to{};
+      from[first] = piece.from[k];
+      from[second] = piece.from[next_corner(k)];
+      to[first] = piece.to[k];
+      to[second] = piece.to[next_corner(k)];
+      add_in_face(face_of(other), from, to, origins_[piece.source]);
+    }
+  }
+
+  /// Whether two sides of an edge run the same way. Twins never do, whatever their vertices.
+  bool runs_as(Side side, Side other) const {
+    const IntrinsicMesh& mesh = surface_.base.intrinsic;
+    if (mesh.twin[side] == other) return false;
+    return mesh.faces[face_of(side)][corner_of(side)] ==
+           mesh.faces[face_of(other)][corner_of(other)];
+  }
+
+  void add_in_face(Index face, const Weights& from, const Weights& to, const Origin& origin) {
+    const FaceLayout p = lay_out(surface_.base.intrinsic.lengths[face]);
+    const auto place = [&p](const Weights& w) {
+      return Eigen::Vector2d(w[1] * p.base + w[2] * p.x, w[2] * p.height);
+    };
+    seeds_.pieces.push_back({face, place(from), place(to), origin.offset, origin.group});
+  }
+
+  const WaveSurface& surface_;
+  const SourceSet& sources_;
+  SourceGroups groups_;
+  SourceSeeds seeds_;
+  std::unordered_map<Index, std::size_t> seed_of_;
+  std::vector<FacePiece> pieces_;
+  std::vector<Origin> origins_;
+};
+
+}  // namespace
+
+Error wave_out_of_memory(const char* stage, Index faces) {
+  return {
+      ErrorCode::kOutOfMemory,
+      "the memory ended in the " + std::string(stage) + " of " + std::to_string(faces) + " faces",
+      {"take a mesh with fewer faces"}};
+}
+
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
+  const Index faces = mesh->face_count();
+  threads = threads_worth_starting(threads, kFaceNanoseconds * faces);
+  try {
+    const ThreadCrew crew(threads);
+    auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
+                                        part_of(progress, 0.0, 0.9), threads);
+    if (!base) return base.error();
+    auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
+    triangulation->corners = {};
+    return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(triangulation)),
+                              part_of(progress, 0.9, 1.0));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("triangulation", faces);
+  }
+}
+
+Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
+    std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress) {
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
+  const Index faces = triangulation->mesh->face_count();
+  try {
+    auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
+    name_edges_by_first_side(*surface);
+    list_sides(*surface);
+    return std::shared_ptr<const WaveSurface>(std::move(surface));
+  } catch (const std::bad_alloc&) {
+    return wave_out_of_memory("triangulation", faces);
+  }
+}
+
+Result<SourceSeeds> seed_sources(const WaveSurface& surface, const SourceSet& sources) {
+  if (const auto valid = check_sources(surface.base, sources); !valid) return valid.error();
+  return Seeder(surface, sources).run();
+}
+
+}  // namespace geotherm

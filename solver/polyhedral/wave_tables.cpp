@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+#include "solver/polyhedral/wave_tables.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "solver/core/memory.h"
+#include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
+
+namespace geotherm {
+namespace {
+
+/// Bits of a coordinate in a Morton number; three of them fill 63.
+constexpr int kMortonBits = 21;
+
+/// Minimum vertices or faces per thread.
+constexpr std::int64_t kGrain = 1 << 13;
+
+/// Spreads the low bits so that two zeros follow each (Morton 1966).
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffff;
+  x = (x | x << 16) & 0x001f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+/// Vertices that faces use, along a space-filling curve.
+std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
+  std::vector<Index> used;
+  Vec3 low = Vec3::Constant(kUnreached), high = -low;
+  for (Index v = 0; v < base.vertex_count(); ++v) {
+    if (static_cast<std::size_t>(v) < base.on_surface.size() && base.on_surface[v] == 0) continue;
+    used.push_back(v);
+    low = low.cwiseMin(base.position(v));
+    high = high.cwiseMax(base.position(v));
+  }
+  const Vec3 origin = low / 2;  // halves, because the extent may be beyond the doubles' range
+  const double extent = (high / 2 - origin).maxCoeff();
+  const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
+  RawVector<std::pair<std::uint64_t, Index>> codes(used.size());
+  constexpr int kMaxPieces = 8;  // merging takes a pass over the vertices for each
+  const int pieces = piece_count(std::min(threads, kMaxPieces), std::ssize(used), kGrain);
+  for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
+      std::uint64_t code = 0;
+      for (int c = 0; c < 3; ++c) code |= spread(static_cast<std::uint64_t>(at(c))) << c;
+      codes[i] = {code, used[i]};
+    }
+    std::sort(codes.begin() + begin, codes.begin() + end);
+  });
+  const auto begin_of = [&](int piece) {
+    return codes.begin() + std::ssize(used) * piece / pieces;
+  };
+  for (int p = 1; p < pieces; ++p) {
+    std::inplace_merge(codes.begin(), begin_of(p), begin_of(p + 1));
+  }
+  std::ranges::transform(codes, used.begin(), [](const auto& pair) { return pair.second; });
+  return used;
+}
+
+/// The corner at which the smallest of the three rotations of a face begins.
+int first_corner(const Face& face) {
+  const auto from = [&face](int k) {
+    return Face{face[k], face[next_corner(k)], face[previous_corner(k)]};
+  };
+  int best = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (from(k) < from(best)) best = k;
+  }
+  return best;
+}
+
+Face ranks(const WaveTables& tables, const Face& face) {
+  return {tables.rank_of_vertex[face[0]], tables.rank_of_vertex[face[1]],
+          tables.rank_of_vertex[face[2]]};
+}
+
+/// Faces by their lowest vertex, then by the others.
+RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& faces, int threads) {
+  RawVector<Face> sorted(faces.size());
+  parallel_for(threads, std::ssize(faces), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t f = begin; f < end; ++f) {
+      sorted[f] = ranks(tables, faces[f]);
+      std::ranges::sort(sorted[f]);
+    }
+  });
+  std::vector<std::uint32_t> start;
+  const auto emit = [&](std::size_t f, const auto& put) {
+    put(sorted[f][0], static_cast<Index>(f));
+  };
+  auto order = counting_sort<Index>(faces.size(), static_cast<std::size_t>(tables.vertex_count()),
+                                    threads, emit, start);
+  const auto before = [&sorted](Index f, Index g) {
+    return sorted[f] != sorted[g] ? sorted[f] < sorted[g] : f < g;
+  };
+  parallel_for(threads, tables.vertex_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t v = begin; v < end; ++v) {
+      std::sort(order.begin() + start[v], order.begin() + start[v + 1], before);
+    }
+  });
+  return order;
+}
+
+/// Whether the two sides of one edge run the same way.
+bool same_direction(const IntrinsicMesh& mesh, Side first, Side other) {
+  if (first == other) return true;
+  if (mesh.twin[first] == other) return false;  // also where both ends are one vertex
+  return mesh.faces[face_of(first)][corner_of(first)] ==
+         mesh.faces[face_of(other)][corner_of(other)];
+}
+
+/// Numbers faces, and edges in the order in which faces meet them, each from its first corner on.
+class FaceWriter {
+ public:
+  FaceWriter(const WaveSurface& surface, WaveTables& tables, int threads)
+      : surface_(surface), mesh_(surface.base.intrinsic), tables_(tables), threads_(threads) {}
+
+  void run() {
+    tables_.intrinsic_face = face_order(tables_, mesh_.faces, threads_);
+    const std::int64_t count = mesh_.face_count();
+    tables_.rank_of_face.resize(static_cast<std::size_t>(count));
+    tables_.faces.resize(static_cast<std::size_t>(count));
+    parallel_for(threads_, count, kGrain, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) {
+        tables_.rank_of_face[tables_.intrinsic_face[i]] = static_cast<Index>(i);
+      }
+    });
+    const auto blocks = sums_of_blocks<Block>(
+        threads_, count,
+        [this](std::int64_t begin, std::int64_t end) { return write_faces(begin, end); });
+    std::vector<Index> first_edge = {0};
+    double sum = 0;
+    for (const Block& block : blocks) {
+      first_edge.push_back(first_edge.back() + block.edges);
+      sum += block.length;
+      tables_.longest_side = std::max(tables_.longest_side, block.longest);
+    }
+    tables_.mean_side = sum / (3.0 * static_cast<double>(count));
+    number_.resize(static_cast<std::size_t>(surface_.edge_count()));
+    tables_.sides.resize(static_cast<std::size_t>(surface_.edge_count()));
+    parallel_for(threads_, std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t b = begin; b < end; ++b) {
+        write_edges(blocks[b].begin, blocks[b].end, first_edge[b]);
+      }
+    });
+    add_further_sides();
+    parallel_for(threads_, count, kGrain, [this](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) join_edges(static_cast<Index>(i));
+    });
+  }
+
+ private:
+  struct Block {
+    std::int64_t begin = 0, end = 0;  ///< faces
+    Index edges = 0;                  ///< that are met in them first
+    double length = 0, longest = 0;   ///< of their sides
+  };
+
+  SideCode code_of(Side side) const {
+    return static_cast<SideCode>(4 * tables_.rank_of_face[face_of(side)] + corner_of(side));
+  }
+  Side side_of(SideCode code) const {
+    return 3 * tables_.intrinsic_face[face_of_code(code)] + corner_of_code(code);
+  }
+
+  /// Whether an edge is met by this side before all others: in a lower face, or in this one
+  /// earlier.
+  bool is_first(Side side) const {
+    const Index rank = tables_.rank_of_face[face_of(side)];
+    const auto is_later = [&](Side other) {
+      if (other == side) return true;
+      const Index of_other = tables_.rank_of_face[face_of(other)];
+      if (of_other != rank) return of_other > rank;
+      const int start = first_corner(tables_.faces[rank].vertex);
+      const auto place = [start](Side s) { return (corner_of(s) + 3 - start) % 3; };
+      return place(other) > place(side);
+    };
+    if (mesh_.twin[side] != kNoSide) return is_later(mesh_.twin[side]);
+    return std::ranges::all_of(surface_.sides_of(surface_.edge_of_side[side]), is_later);
+  }
+
+  Block write_faces(std::int64_t begin, std::int64_t end) {
+    Block block{begin, end};
+    for (std::int64_t i = begin; i < end; ++i) {
+      const Index f = tables_.intrinsic_face[i];
+      const FaceLayout layout = lay_out(mesh_.lengths[f]);
+      WaveFace& face = tables_.faces[i];
+      face.vertex = ranks(tables_, mesh_.faces[f]);
+      face.length = mesh_.lengths[f];
+      face.twice_area = layout.base * layout.height;
+      for (int k = 0; k < 3; ++k) {
+        block.edges += is_first(3 * f + k) ? 1 : 0;
+        block.length += face.length[k];
+        block.longest = std::max(block.longest, face.length[k]);
+      }
+    }
+    return block;
+  }
+
+  void write_edges(std::int64_t begin, std::int64_t end, Index next) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const int start = first_corner(tables_.faces[i].vertex);
+      for (const int k : {start, next_corner(start), previous_corner(start)}) {
+        const Side side = 3 * tables_.intrinsic_face[i] + k;
+        if (!is_first(side)) continue;
+        const Index edge = surface_.edge_of_side[side];
+        const auto sides = surface_.sides_of(edge);
+        const SideCode second =
+            sides.size() == 2 ? code_of(sides[0] == side ? sides[1] : sides[0]) : kNoSideCode;
+        tables_.sides[next] = {code_of(side), second};
+        number_[edge] = next++;
+      }
+    }
+  }
+
+  void add_further_sides() {
+    for (auto& [first, second] : tables_.sides) {
+      if (second != kNoSideCode) continue;
+      const auto sides = surface_.sides_of(surface_.edge_of_side[side_of(first)]);
+      if (sides.size() < 3) continue;
+      second = -2 - static_cast<SideCode>(tables_.more.size());
+      tables_.more.push_back(static_cast<SideCode>(sides.size()) - 1);
+      for (const Side side : sides) {
+        if (code_of(side) != first) tables_.more.push_back(code_of(side));
+      }
+      std::sort(tables_.more.end() - static_cast<std::ptrdiff_t>(sides.size()) + 1,
+                tables_.more.end());
+    }
+  }
+
+  void join_edges(Index i) {
+    WaveFace& face = tables_.faces[i];
+    face.reversed = face.touching = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Side side = 3 * tables_.intrinsic_face[i] + k;
+      face.edge[k] = number_[surface_.edge_of_side[side]];
+      if (!same_direction(mesh_, side_of(tables_.sides[face.edge[k]][0]), side)) {
+        face.reversed = static_cast<std::uint16_t>(face.reversed | 1U << k);
+      }
+    }
+  }
+
+  const WaveSurface& surface_;
+  const IntrinsicMesh& mesh_;
+  WaveTables& tables_;
+  const int threads_;
+  RawVector<Index> number_;  ///< E of the surface: number in the tables
+};
+
+void list_corners(WaveTables& tables) {
+  tables.corner_start.assign(static_cast<std::size_t>(tables.vertex_count()) + 1, 0);
+  for (const WaveFace& face : tables.faces) {
+    for (const Index v : face.vertex) ++tables.corner_start[v + 1];
+  }
+  for (std::size_t v = 1; v < tables.corner_start.size(); ++v) {
+    tables.corner_start[v] += tables.corner_start[v - 1];
+  }
+  tables.corners.resize(3 * tables.faces.size());
+  std::vector<std::size_t> next(tables.corner_start.begin(), tables.corner_start.end() - 1);
+  for (std::size_t f = 0; f < tables.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      tables.corners[next[tables.faces[f].vertex[k]]++] = static_cast<SideCode>(4 * f) + k;
+    }
+  }
+}
+
+/// A vertex whose longest side is longer than its shortest by this factor passes its distance on by
+/// itself: its fall may not change the samples far out on a long side, and would not reach the
+/// faces beyond.
+constexpr double kStretched = 6;
+
+/// Marks corners at vertices whose faces are not all joined by edges at the vertex, where a wave
+/// has to be passed from fan to fan, and at stretched ones.
+class FanMarker {
+ public:
+  explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}
+
+  void run(int threads) {
+    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = static_cast<SideCode>(c);
+    for (const auto& sides : tables_.sides) {
+      if (sides[1] >= 0) {
+        join_ends(sides[0], sides[1]);
+      } else if (sides[1] != kNoSideCode) {
+        const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
+        for (SideCode i = 1; i <= list[0]; ++i) join_ends(sides[0], list[i]);
+      }
+    }
+    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = root(static_cast<SideCode>(c));
+    parallel_for(threads, tables_.vertex_count(), kGrain,
+                 [this](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t v = begin; v < end; ++v)
+                     mark(tables_.corners_at(static_cast<Index>(v)));
+                 });
+  }
+
+ private:
+  static SideCode next_code(SideCode code) {
+    return (code & ~3) | next_corner(corner_of_code(code));
+  }
+  bool runs_back(SideCode code) const {
+    return (tables_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1) != 0;
+  }
+  SideCode root(SideCode c) {
+    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
+    return c;
+  }
+  void join_ends(SideCode first, SideCode other) {
+    const SideCode begin = runs_back(other) ? next_code(other) : other;
+    const SideCode end = runs_back(other) ? other : next_code(other);
+    fan_[root(first)] = root(begin);
+    fan_[root(next_code(first))] = root(end);
+  }
+  bool stretched(std::span<const SideCode> corners) const {
+    double longest = 0, shortest = kUnreached;
+    for (const SideCode c : corners) {
+      const auto& length = tables_.faces[face_of_code(c)].length;
+      for (const int side : {corner_of_code(c), previous_corner(corner_of_code(c))}) {
+        longest = std::max(longest, length[side]);
+        shortest = std::min(shortest, length[side]);
+      }
+    }
+    return longest > kStretched * shortest;
+  }
+  void mark(std::span<const SideCode> corners) {
+    const auto elsewhere = [&](SideCode c) { return fan_[c] != fan_[corners.front()]; };
+    if (std::ranges::none_of(corners, elsewhere) && !stretched(corners)) return;
+    for (const SideCode c : corners) {
+      auto& bits = tables_.faces[face_of_code(c)].touching;
+      // Another vertex of the face may be marked meanwhile.
+      std::atomic_ref(bits).fetch_or(static_cast<std::uint16_t>(1U << corner_of_code(c)),
+                                     std::memory_order_relaxed);
+    }
+  }
+
+  WaveTables& tables_;
+  std::vector<SideCode> fan_;  ///< of a corner: another one of its fan
+};
+
+template <class Values>
+std::size_t bytes_of(const Values& values) {
+  return values.capacity() * sizeof(values[0]);
+}
+
+}  // namespace
+
+std::size_t WaveTables::bytes() const {
+  return bytes_of(faces) + bytes_of(sides) + bytes_of(more) + bytes_of(rank_of_vertex) +
+         bytes_of(vertex_of_rank) + bytes_of(rank_of_face) + bytes_of(intrinsic_face) +
+         bytes_of(corner_start) + bytes_of(corners);
+}
+
+WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
+  WaveTables tables;
+  tables.vertex_of_rank = morton_order(surface.base, threads);
+  tables.rank_of_vertex.assign(static_cast<std::size_t>(surface.base.vertex_count()), kNoIndex);
+  for (std::size_t r = 0; r < tables.vertex_of_rank.size(); ++r) {
+    tables.rank_of_vertex[tables.vertex_of_rank[r]] = static_cast<Index>(r);
+  }
+  FaceWriter(surface, tables, threads).run();
+  list_corners(tables);
+  FanMarker(tables).run(threads);
+  return tables;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/core/memory.h"
+#include "solver/polyhedral/wave_surface.h"
+
+namespace geotherm {
+
+/// One face as a wave reads it: a cache line. Corners as in IntrinsicMesh, side k from corner k to
+/// corner k + 1.
+struct alignas(64) WaveFace {
+  std::array<Index, 3> vertex, edge;  ///< numbers of WaveTables
+  std::array<double, 3> length;       ///< of the sides, in units of the intrinsic mesh
+  double twice_area;
+  std::uint16_t reversed;  ///< bit k: side k runs against the direction of its edge
+  std::uint16_t touching;  ///< bit k: at corner k several fans of faces touch, or sides are of very
+                           ///< different lengths: the vertex hands its distance on by itself
+};
+
+/// Face 4 f + k stands for side k of face f, so that neither needs a division.
+using SideCode = std::int32_t;
+inline constexpr SideCode kNoSideCode = -1;
+inline Index face_of_code(SideCode code) { return code >> 2; }
+inline int corner_of_code(SideCode code) { return code & 3; }
+
+/// A WaveSurface laid out for one pass over memory: vertices in Morton order, faces and edges in
+/// the order in which that meets them, whatever the order of the file. Immutable. An edge has the
+/// direction of its first side.
+struct WaveTables {
+  std::vector<WaveFace> faces;
+  /// Of each edge: its first and second side. The second is kNoSideCode at the border; below that,
+  /// -2 - i, where more[i] holds a count and then the second and all further sides.
+  std::vector<std::array<SideCode, 2>> sides;
+  std::vector<SideCode> more;
+
+  std::vector<Index> rank_of_vertex;      ///< V and inserted: number here, kNoIndex when in no face
+  std::vector<Index> vertex_of_rank;      ///< n
+  std::vector<Index> rank_of_face;        ///< F: number here of a face of the intrinsic mesh
+  RawVector<Index> intrinsic_face;        ///< F: the inverse
+  std::vector<std::size_t> corner_start;  ///< n + 1
+  std::vector<SideCode> corners;  ///< at each vertex, as the code of the side that begins there
+
+  double mean_side = 0, longest_side = 0;
+
+  std::span<const SideCode> corners_at(Index rank) const {
+    return {corners.data() + corner_start[rank], corners.data() + corner_start[rank + 1]};
+  }
+  Index vertex_count() const { return static_cast<Index>(vertex_of_rank.size()); }
+  Index edge_count() const { return static_cast<Index>(sides.size()); }
+  std::size_t bytes() const;
+};
+
+/// The same with any number of threads. Cost: O(F + V log V).
+WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
+
+}  // namespace geotherm

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "solver/polyhedral/window_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace geotherm {
+namespace {
+
+/// Angles up to this much above that of a plane count as flat: a shadow so narrow is lit from its
+/// borders with an error of its square.
+constexpr double kFlat = 1e-9;
+
+/// Two sides of an edge that are twins run opposite ways, also where both ends are one vertex; all
+/// others are edges of the mesh itself, whose ends differ.
+bool runs_opposite(const IntrinsicMesh& mesh, Side s, Side t) {
+  if (mesh.twin[s] == t) return true;
+  return mesh.faces[face_of(s)][corner_of(s)] != mesh.faces[face_of(t)][corner_of(t)];
+}
+
+Index root_of(std::vector<Index>& parent, Index i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+/// For each corner the first of the fan that it belongs to.
+std::vector<Index> fans(const WaveSurface& surface) {
+  std::vector<Index> parent(surface.edge_of_side.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  for (Index e = 0; e < surface.edge_count(); ++e) {
+    const auto around = surface.sides_of(e);
+    for (std::size_t i = 1; i < around.size(); ++i) {
+      const Side s = around[0], t = around[i];
+      const bool opposite = runs_opposite(surface.base.intrinsic, s, t);
+      // Side s begins at corner s and ends at the next.
+      const Side begin = opposite ? next_side(t) : t, end = opposite ? t : next_side(t);
+      parent[root_of(parent, s)] = root_of(parent, begin);
+      parent[root_of(parent, next_side(s))] = root_of(parent, end);
+    }
+  }
+  for (Index c = 0; c < static_cast<Index>(parent.size()); ++c) root_of(parent, c);
+  for (Index& p : parent) p = root_of(parent, p);
+  return parent;
+}
+
+}  // namespace
+
+WindowMesh::WindowMesh(const WaveSurface& surface) : surface_(&surface) {
+  lay_out_sides();
+  find_corners();
+  find_bends();
+}
+
+void WindowMesh::lay_out_sides() {
+  const IntrinsicMesh& mesh = surface_->base.intrinsic;
+  sides_.resize(3 * mesh.faces.size());
+  for (Side s = 0; s < side_count(); ++s) {
+    const auto& l = mesh.lengths[face_of(s)];
+    const int k = corner_of(s);
+    const FaceLayout layout = lay_out({l[k], l[next_corner(k)], l[previous_corner(k)]});
+    std::int32_t across = kBorder;
+    const auto around = surface_->sides_of(surface_->edge_of_side[s]);
+    if (around.size() == 2) {
+      const Side other = around[0] == s ? around[1] : around[0];
+      across = 2 * other + (runs_opposite(mesh, s, other) ? 1 : 0);
+    }
+    sides_[s] = {layout.base,   1 / layout.base,           layout.x,
+                 layout.height, mesh.faces[face_of(s)][k], across};
+  }
+  for (Index e = 0; e < surface_->edge_count(); ++e) {
+    const auto around = surface_->sides_of(e);
+    if (around.size() <= 2) continue;
+    for (const Side s : around) sides_[s].across = kBranch - branch_count_;
+    ++branch_count_;
+  }
+}
+
+void WindowMesh::find_corners() {
+  const auto vertices = static_cast<std::size_t>(surface_->base.mesh->vertex_count());
+  first_opposite_.assign(vertices + 1, 0);
+  for (const SideFrame& side : sides_) ++first_opposite_[static_cast<std::size_t>(side.origin) + 1];
+  vertices_in_use_ =
+      static_cast<Index>(vertices - static_cast<std::size_t>(std::count(
+                                        first_opposite_.begin() + 1, first_opposite_.end(), 0U)));
+  std::partial_sum(first_opposite_.begin(), first_opposite_.end(), first_opposite_.begin());
+  opposite_.resize(sides_.size());
+  std::vector<std::size_t> at(first_opposite_.begin(), first_opposite_.end() - 1);
+  for (Side s = 0; s < side_count(); ++s) opposite_[at[side(s).origin]++] = next_side(s);
+}
+
+void WindowMesh::find_bends() {
+  const std::vector<Index> fan = fans(*surface_);
+  const auto vertices = static_cast<std::size_t>(surface_->base.mesh->vertex_count());
+  std::vector<double> angle(vertices, 0.0);
+  std::vector<double> straight(vertices, 2 * std::numbers::pi);
+  std::vector<Index> fan_of(vertices, kNoIndex);
+  sends_.assign(vertices, 0);
+  for (Side s = 0; s < side_count(); ++s) {
+    const SideFrame& frame = side(s);
+    const Index v = frame.origin, w = side(next_side(s)).origin;
+    angle[v] += std::atan2(frame.apex_y, frame.apex_x);
+    if (fan_of[v] == kNoIndex) fan_of[v] = fan[s];
+    if (fan_of[v] != fan[s]) sends_[v] = 1;
+    if (frame.across <= kBranch) sends_[v] = sends_[w] = 1;
+    if (frame.across == kBorder) straight[v] = straight[w] = std::numbers::pi;
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (angle[v] > straight[v] * (1 + kFlat)) sends_[v] = 1;
+  }
+}
+
+double WindowMesh::bytes() const {
+  return static_cast<double>(sides_.size() * sizeof(SideFrame) + opposite_.size() * sizeof(Side) +
+                             first_opposite_.size() * sizeof(std::size_t) + sends_.size());
+}
+
+}  // namespace geotherm

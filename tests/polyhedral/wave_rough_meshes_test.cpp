@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Stretched, flattened, noisy and coarse meshes against exact distances.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <tuple>
+
+#include "bench/models/generate.h"
+#include "tests/polyhedral/wave_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+Draft model(const char* name, Index faces) {
+  const auto mesh = generate_model(name, faces);
+  EXPECT_TRUE(mesh) << mesh.error().message;
+  Draft draft;
+  if (!mesh) return draft;
+  draft.positions.assign(mesh->positions().begin(), mesh->positions().end());
+  draft.faces.assign(mesh->faces().begin(), mesh->faces().end());
+  return draft;
+}
+
+Draft scaled(Draft draft, const Vec3& by) {
+  for (Vec3& p : draft.positions) p = p.cwiseProduct(by);
+  return draft;
+}
+
+/// Every coordinate moved by up to `amount` mean edges.
+Draft noisy(Draft draft, double amount) {
+  double sum = 0;
+  for (const Face& face : draft.faces) {
+    sum += (draft.positions[face[0]] - draft.positions[face[1]]).norm();
+  }
+  const double edge = sum / static_cast<double>(draft.faces.size());
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(-amount * edge, amount * edge);
+  for (Vec3& p : draft.positions) {
+    for (int c = 0; c < 3; ++c) p(c) += share(random);
+  }
+  return draft;
+}
+
+struct RoughMesh {
+  const char* name;
+  Draft (*draft)();
+};
+const RoughMesh kMeshes[] = {
+    {"stretched_by_10",
+     [] {
+       return scaled(model("bunny", 2000), {10, 1, 1});
+     }},
+    {"stretched_by_20",
+     [] {
+       return scaled(model("gargoyle", 2000), {1, 20, 1});
+     }},
+    {"flattened",
+     [] {
+       return scaled(model("gargoyle", 3000), {1, 1, 0.05});
+     }},
+    {"noisy", [] { return noisy(model("bunny", 2000), 0.2); }},
+    {"coarse", [] { return model("gargoyle", 1000); }},
+    {"coarse_torus", [] { return torus(32, 16, 0.4); }},
+};
+void PrintTo(const RoughMesh& mesh, std::ostream* out) { *out << mesh.name; }
+
+// Mean errors in per cent, as the project promises.
+const std::map<MethodKind, double> kBounds = {{MethodKind::kWavefront, 0.25},
+                                              {MethodKind::kWavefrontFine, 0.1},
+                                              {MethodKind::kFastMarching, 5}};
+
+class RoughMeshes : public testing::TestWithParam<std::tuple<RoughMesh, MethodKind>> {};
+
+TEST_P(RoughMeshes, AreMeasuredWithinTheMethodsBounds) {
+  const auto& [rough, kind] = GetParam();
+  const MeshPtr mesh = finish(rough.draft());
+  const SourceSet set = SourceSet::of_vertices({mesh->vertex_count() / 3});
+  const auto exact = distances(mesh, MethodKind::kExact, set);
+  EXPECT_LE(errors(distances(mesh, kind, set), exact).mean, kBounds.at(kind));
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, RoughMeshes,
+                         testing::Combine(testing::ValuesIn(kMeshes),
+                                          testing::ValuesIn(kWaveKinds)),
+                         [](const auto& each) {
+                           return std::get<0>(each.param).name +
+                                  ("_" + kind_name(std::get<1>(each.param)));
+                         });
+
+}  // namespace
+}  // namespace geotherm::test
