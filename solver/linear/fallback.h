@@ -11,12 +11,6 @@
 
 namespace geotherm {
 
-/// A backend that failed, and its error.
-struct Fallback {
-  std::string backend;
-  Error error;  ///< the error that the backend gave
-};
-
 /// Which backends may take over from one that failed.
 enum class FallbackPolicy {
   kNone,        ///< none: the input, the options or the caller are the cause

@@ -38,11 +38,7 @@ struct WaveSurface {
   Index face_count() const { return base.intrinsic.face_count(); }
 };
 
-/// Errors: those of build_intrinsic_surface(), kOutOfMemory. Cost: O(F + flips).
-Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
-
-/// The same on a given triangulation. Preconditions: it is Delaunay and, where distances are
+/// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where distances are
 /// compared with those on the mesh, no tufted cover. Only the wave methods support inserted
 /// vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
