@@ -73,7 +73,7 @@ struct HeatMethod::State {
                                          const Progress& progress) const;
 
   /// The method that answers with another backend. Waits for a thread that sets the same one up.
-  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
+  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> before,
                                const Progress& progress) const;
 
   /// The backend that was asked for.
