@@ -34,9 +34,9 @@ struct WaveSurface {
   Index face_count() const { return base.intrinsic.face_count(); }
 };
 
-/// build_wave_surface() on a triangulation that is there. Precondition: it is Delaunay. What is to be held
-/// against distances on the mesh is no cover, and only waves walk over inserted vertices. Errors:
-/// kOutOfMemory, kCancelled. Cost: O(F).
+/// build_wave_surface() on a triangulation that is there. Precondition: it is Delaunay. What is to
+/// be held against distances on the mesh is no cover, and only waves walk over inserted vertices.
+/// Errors: kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 
