@@ -33,8 +33,8 @@ class Search {
         left_(badness(before_)),
         exact_answers_(reference == MethodKind::kExact) {}
 
-  /// Tries what changes an option of the heat method. It is the cure if its answer is good. It is
-  /// the cause so far if it is the cure, or leaves less than `share` of what was left by the best
+  /// Tries what changes an option of the heat method. It is the remedy if its answer is good. It is
+  /// the cause so far if it is the remedy, or leaves less than `share` of what was left by the best
   /// before it, and lowers the mean error. What fails explains nothing. Errors: kCancelled.
   Result<void> try_option(const Candidate& candidate, double share, const Progress& progress) {
     const auto error = error_of(candidate.options, better_, progress);
@@ -76,27 +76,27 @@ class Search {
     options.threads = answers_.options.threads;
     if (is_better(reference_, kind)) return try_against(options, reference_, better_, progress);
     const bool small = mesh_->face_count() <= kMaxFacesExact;
-    for (const MethodKind judge : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
-      if (!is_better(judge, kind) || (judge == MethodKind::kExact && !small)) continue;
-      const auto better = solve_reference(mesh_, judge, answers_.sources, options.threads,
+    for (const MethodKind reference : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
+      if (!is_better(reference, kind) || (reference == MethodKind::kExact && !small)) continue;
+      const auto better = solve_reference(mesh_, reference, answers_.sources, options.threads,
                                           &answers_.method, progress);
       if (better) {
-        exact_answers_ = exact_answers_ || judge == MethodKind::kExact;
-        return try_against(options, judge, better->distances, progress);
+        exact_answers_ = exact_answers_ || reference == MethodKind::kExact;
+        return try_against(options, reference, better->distances, progress);
       }
       if (better.error().code == ErrorCode::kCancelled) return better.error();
     }
     return {};
   }
 
-  Result<void> try_against(const MethodOptions& options, MethodKind judge,
+  Result<void> try_against(const MethodOptions& options, MethodKind reference,
                            std::span<const std::vector<double>> better, const Progress& progress) {
     // Where the method is the reference, its answers are there.
     const auto error = options.method == reference_
                            ? Result<DistanceError>(joint_error(better_, better).figures)
                            : error_of(options, better, progress);
     if (!error) return unless_cancelled(error.error());
-    const TriedSetting tried = keep("method", to_text(options.method), *error, judge);
+    const TriedSetting tried = keep("method", to_text(options.method), *error, reference);
     if (badness(*error) <= 1) found.remedy = tried;
     return {};
   }

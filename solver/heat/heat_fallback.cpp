@@ -72,8 +72,8 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
 }
 
 Attempt<HeatMethod> HeatMethod::State::substitute(const std::string& name,
-                                                std::span<const Fallback> failed,
-                                                const Progress& progress) const {
+                                                  std::span<const Fallback> before,
+                                                  const Progress& progress) const {
   constexpr std::chrono::milliseconds kBetweenLooks(2);
   std::unique_lock lock(substitutes->mutex, std::defer_lock);
   while (!lock.try_lock()) {
@@ -82,7 +82,7 @@ Attempt<HeatMethod> HeatMethod::State::substitute(const std::string& name,
   }
   auto& methods = substitutes->methods;
   if (const auto known = methods.find(name); known != methods.end()) return known->second;
-  Attempt<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), failed, progress);
+  Attempt<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), before, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
   if (!cancelled) methods.emplace(name, made);
   return made;

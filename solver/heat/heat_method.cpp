@@ -68,9 +68,9 @@ Error out_of_memory_error(const std::string& stage, Index faces, const std::stri
 }
 
 Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
-                                            const HeatOptions& options,
-                                            std::span<const Fallback> failed,
-                                            const Progress& progress) try {
+                                              const HeatOptions& options,
+                                              std::span<const Fallback> failed,
+                                              const Progress& progress) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
   auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
@@ -93,8 +93,8 @@ Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Triang
 }
 
 Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
-                                                std::span<const Fallback> failed,
-                                                const Progress& progress) try {
+                                                  std::span<const Fallback> failed,
+                                                  const Progress& progress) try {
   if (!report(progress, "factorize", 0.0)) return {cancelled_error()};
   Stopwatch watch;
   auto next = std::make_shared<State>(from);
@@ -188,8 +188,8 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
 }
 
 Attempt<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const SourceSet> sets,
-                                                          const QueryOptions& query,
-                                                          const Progress& progress) const try {
+                                                            const QueryOptions& query,
+                                                            const Progress& progress) const try {
   const QueryPipeline pipeline{*surface, *heat, *poisson, options, times, *pool, *helpers};
   return run_queries(pipeline, sets, query, progress);
 } catch (const std::bad_alloc&) {

@@ -36,8 +36,9 @@ struct QueryPipeline {
 /// A query that makes a factor of its own is held against the memory limit before; threads that
 /// would have one more each are fewer then. Throws std::bad_alloc.
 Attempt<std::vector<DistanceResult>> run_queries(const QueryPipeline& pipeline,
-                                               std::span<const SourceSet> sets,
-                                               const QueryOptions& query, const Progress& progress);
+                                                 std::span<const SourceSet> sets,
+                                                 const QueryOptions& query,
+                                                 const Progress& progress);
 
 /// What a HeatMethod is made of: for its own two files, heat_method.cpp and heat_fallback.cpp.
 struct HeatMethod::State {
@@ -62,19 +63,20 @@ struct HeatMethod::State {
 
   /// Everything with one backend, `options.backend`.
   static Attempt<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
-                                  const HeatOptions& options, std::span<const Fallback> failed,
-                                  const Progress& progress);
+                                    const HeatOptions& options, std::span<const Fallback> failed,
+                                    const Progress& progress);
 
   /// What is still missing for these options, on the surface and with the backend of `from`.
   static Attempt<HeatMethod> factorised(const State& from, const HeatOptions& options,
-                                      std::span<const Fallback> failed, const Progress& progress);
+                                        std::span<const Fallback> failed, const Progress& progress);
 
-  Attempt<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets, const QueryOptions& query,
-                                         const Progress& progress) const;
+  Attempt<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets,
+                                           const QueryOptions& query,
+                                           const Progress& progress) const;
 
   /// The method that answers with another backend. Waits for a thread that sets the same one up.
-  Attempt<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
-                               const Progress& progress) const;
+  Attempt<HeatMethod> substitute(const std::string& name, std::span<const Fallback> before,
+                                 const Progress& progress) const;
 
   /// The backend that was asked for.
   const std::string& asked() const {
@@ -88,7 +90,7 @@ std::string backend_name(const HeatOptions& options);
 /// Threads that are worth having for the set-up of this mesh.
 int setup_threads(const HeatOptions& options, const TriangleMesh& mesh);
 
-/// Numbers that no mesh is needed to judge. Error kBadInput.
+/// Checks what can be checked without a mesh. Error kBadInput.
 Result<void> check_options(const HeatOptions& options);
 
 /// For what std::bad_alloc ends: nothing lets it out.

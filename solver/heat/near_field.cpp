@@ -9,8 +9,8 @@
 #include <span>
 #include <utility>
 
-#include "solver/polyhedral/wave_surface.h"
 #include "solver/polyhedral/wave_front.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {

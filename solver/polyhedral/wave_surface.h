@@ -38,9 +38,9 @@ struct WaveSurface {
   Index face_count() const { return base.intrinsic.face_count(); }
 };
 
-/// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where distances are
-/// compared with those on the mesh, no tufted cover. Only the wave methods support inserted
-/// vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
+/// build_wave_surface() on a given triangulation. Preconditions: it is Delaunay and, where
+/// distances are compared with those on the mesh, no tufted cover. Only the wave methods support
+/// inserted vertices. Errors: kOutOfMemory, kCancelled. Cost: O(F).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const IntrinsicSurface> triangulation, const Progress& progress = {});
 

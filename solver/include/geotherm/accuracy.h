@@ -114,9 +114,9 @@ struct CheckedAnswers {
   std::span<const std::vector<double>> distances;  ///< one for each source set, V each
 };
 
-/// How much work a search for a cure takes on, as faces that are set up for one setting: a setting
-/// that shares all but one factor counts for a third of the mesh, a cover for two, a refined mesh
-/// for four. The first where it was asked for, the second where it was not.
+/// How much work a search for a remedy takes on, as faces that are set up for one setting: a
+/// setting that shares all but one factor counts for a third of the mesh, a cover for two, a
+/// refined mesh for four. The first where it was asked for, the second where it was not.
 inline constexpr Index kMaxFacesDiagnosed = 300'000;
 inline constexpr Index kMaxFacesBesides = 100'000;
 
