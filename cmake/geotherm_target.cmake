@@ -47,14 +47,24 @@ function(geotherm_reuse_precompiled name from)
   geotherm_precompiled_with_ccache(${name})
 endfunction()
 
-# geotherm_compile_together(TARGET): six sources of its list at a time, for targets whose headers
-# (CLI11, JSON, Dear ImGui, GoogleTest) take longer to compile than their sources: half of the time.
-# Names in anonymous namespaces must differ among neighbours in the list: one compiler error tells.
-# Off where GEOTHERM_PCH is off.
+# geotherm_compile_together(TARGET [COUNT]): so many sources of its list at a time (6; 0: all), for
+# targets whose headers (CLI11, JSON, Vulkan, Dear ImGui, GoogleTest) take longer to compile than
+# their sources: half of the time. Names in anonymous namespaces must differ among neighbours in the
+# list: one compiler error tells. Off where GEOTHERM_PCH is off.
 function(geotherm_compile_together name)
-  if(GEOTHERM_PCH)
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  set(count 6)
+  if(ARGC GREATER 1)
+    set(count ${ARGV1})
   endif()
+  if(GEOTHERM_PCH)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
+  endif()
+endfunction()
+
+# geotherm_compile_lightly(TARGET): for what reads options, prints and lays out panels: -O3 would
+# make it a third slower to compile and no faster to use.
+function(geotherm_compile_lightly name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 function(geotherm_precompiled_with_ccache name)

@@ -20,7 +20,8 @@ job_count() {
   if [ "$cores" -lt "$memory" ]; then echo "$cores"; else echo "$memory"; fi
 }
 
-# build PRESET [TARGET]: configures and builds; says nothing but errors unless it takes long.
+# build PRESET [TARGET [OPTIONS OF CMAKE...]]: configures and builds; says nothing but errors unless
+# it takes long.
 build() {
   local preset=$1 target=${2:-all} log
   if command -v ccache >/dev/null; then
@@ -30,7 +31,7 @@ build() {
   say "building $preset${2:+ ($2)} in build/$preset"
   mkdir -p "$root/build"
   log=$root/build/$preset.configure.log
-  if ! (cd "$root" && cmake --preset "$preset") >"$log" 2>&1; then
+  if ! (cd "$root" && cmake --preset "$preset" "${@:3}") >"$log" 2>&1; then
     cat "$log" >&2
     fail "the preset $preset does not configure; its output is above"
   fi

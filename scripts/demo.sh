@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# From a fresh clone to geodesic distances and a picture of them: installs what is missing, builds,
-# solves, draws, and opens the viewer where there is a display.
+# From a fresh clone to geodesic distances and a picture of them: installs what is missing, builds the
+# command line, solves and draws. Where there is a display it builds the viewer, too, and opens it.
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -19,12 +19,16 @@ if [ -e "$model" ]; then
   source=random:1  # a vertex that is on the surface, whatever the file holds
 fi
 
-"$root/scripts/setup.sh"
-build release geotherm
-
-program=$root/build/release/geotherm
+# In a folder of its own: the preset release builds everything.
 output=$root/build/demo
-mkdir -p "$output"
+program=$output/geotherm
+if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+  "$root/scripts/setup.sh"
+  build demo geotherm -DGEOTHERM_BUILD_VIEWER=ON
+else
+  "$root/scripts/setup.sh" --pictures
+  build demo geotherm
+fi
 
 say "geotherm solve $model -s $source"
 "$program" solve "$model" -s "$source" -o "$output/distances.ply" --json "$output/solve.json"
@@ -39,13 +43,16 @@ Written: build/demo/contours.png  (a picture of them, drawn by Vulkan, with a GP
          build/demo/solve.json    (every figure above and more)
 
 Try next:
-  build/release/geotherm $model                                  the viewer, where there is a display
-  build/release/geotherm render $model -s $source --view heat-gradient -o arrows.png
-  build/release/geotherm solve bunny -s 3,99 -o distances.csv    several sources, one distance field
-  build/release/geotherm compare bunny terrain                   the same work through each backend
-  build/release/geotherm info $model
-  build/release/geotherm generate gargoyle --faces 1000000 -o big.ply
-  build/release/geotherm solve --help
+  build/demo/geotherm render $model -s $source --view heat-gradient -o arrows.png
+  build/demo/geotherm solve bunny -s 3,99 -o distances.csv    several sources, one distance field
+  build/demo/geotherm compare bunny terrain                   the same work through each backend
+  build/demo/geotherm info $model
+  build/demo/geotherm generate gargoyle --faces 1000000 -o big.ply
+  build/demo/geotherm solve --help
+
+All of it, the viewer, the backend cholmod, benchmark and tests among them:
+  scripts/setup.sh && cmake --preset release && cmake --build --preset release
+  build/release/geotherm $model                               the viewer, where there is a display
 TEXT
 
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then

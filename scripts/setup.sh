@@ -5,11 +5,12 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/setup.sh [--dev] [--lint]
+usage: scripts/setup.sh [--pictures] [--dev] [--lint]
 
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
 
+  --pictures  less: what the command line and its pictures need (the preset demo)
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
            display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
@@ -17,14 +18,16 @@ TEXT
 }
 
 packages=(g++ cmake ninja-build
-  libeigen3-dev libsuitesparse-dev libopenblas-dev  # the library
+  libeigen3-dev                                     # the library
   libcli11-dev nlohmann-json3-dev libpng-dev        # the program
   libvulkan-dev libglm-dev libstb-dev fonts-dejavu-core glslang-tools spirv-tools  # the renderer
-  libvulkan1 mesa-vulkan-drivers                    # drawing, without a GPU as well
+  libvulkan1 mesa-vulkan-drivers)                   # drawing, without a GPU as well
+others=(libsuitesparse-dev libopenblas-dev          # the backend cholmod
   libglfw3-dev libimgui-dev                         # the viewer
   libgtest-dev libtinyobjloader-dev)                # tests, benchmark
 for argument in "$@"; do
   case $argument in
+    --pictures) others=() ;;
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
@@ -32,6 +35,7 @@ for argument in "$@"; do
     *) usage >&2 && exit 2 ;;
   esac
 done
+packages+=("${others[@]}")
 
 fail() {
   printf 'setup.sh: error: %s\n' "$*" >&2

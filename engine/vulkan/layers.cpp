@@ -15,7 +15,7 @@ namespace {
 using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 using Layout = vk::ImageLayout;
-using Usage = vk::ImageUsageFlagBits;
+using ImageUsage = vk::ImageUsageFlagBits;
 
 }  // namespace
 
@@ -24,10 +24,10 @@ Attachments::Attachments(const Device::State& device, vk::Extent2D size, vk::For
     : extent(size),
       format(colour_format),
       depth(device.memory, size, Pipelines::kDepthFormat,
-            Usage::eDepthStencilAttachment | Usage::eTransientAttachment, samples) {
+            ImageUsage::eDepthStencilAttachment | ImageUsage::eTransientAttachment, samples) {
   if (samples == vk::SampleCountFlagBits::e1) return;
   colour = Texture(device.memory, size, colour_format,
-                   Usage::eColorAttachment | Usage::eTransientAttachment, samples);
+                   ImageUsage::eColorAttachment | ImageUsage::eTransientAttachment, samples);
 }
 
 void record_scene_begin(const vk::raii::CommandBuffer& commands, const Attachments& attachments,

@@ -27,14 +27,14 @@ namespace {
 using Code = std::span<const unsigned char>;
 
 vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
-  using Stage = vk::ShaderStageFlagBits;
+  using Shader = vk::ShaderStageFlagBits;
   const std::array bindings = {
       vk::DescriptorSetLayoutBinding(shared::kFrameBinding, vk::DescriptorType::eUniformBuffer, 1,
-                                     Stage::eVertex | Stage::eFragment),
+                                     Shader::eVertex | Shader::eFragment),
       vk::DescriptorSetLayoutBinding(shared::kColoursBinding,
-                                     vk::DescriptorType::eUniformTexelBuffer, 1, Stage::eFragment),
+                                     vk::DescriptorType::eUniformTexelBuffer, 1, Shader::eFragment),
       vk::DescriptorSetLayoutBinding(
-          shared::kAtlasBinding, vk::DescriptorType::eCombinedImageSampler, 1, Stage::eFragment),
+          shared::kAtlasBinding, vk::DescriptorType::eCombinedImageSampler, 1, Shader::eFragment),
   };
   return {device, {{}, bindings}};
 }
@@ -102,10 +102,10 @@ vk::Pipeline Pipelines::made(std::uint32_t kind, const Plan& plan) {
   const auto fragment = make_module(device_->device, plan.fragment);
   const vk::SpecializationMapEntry entry(0, 0, sizeof(plan.features));
   const vk::SpecializationInfo constants(1, &entry, sizeof(plan.features), &plan.features);
-  using Stage = vk::ShaderStageFlagBits;
+  using Shader = vk::ShaderStageFlagBits;
   const std::array stages = {
-      vk::PipelineShaderStageCreateInfo({}, Stage::eVertex, *vertex, "main", &constants),
-      vk::PipelineShaderStageCreateInfo({}, Stage::eFragment, *fragment, "main", &constants)};
+      vk::PipelineShaderStageCreateInfo({}, Shader::eVertex, *vertex, "main", &constants),
+      vk::PipelineShaderStageCreateInfo({}, Shader::eFragment, *fragment, "main", &constants)};
   const vk::PipelineVertexInputStateCreateInfo input({}, plan.bindings, plan.attributes);
   const vk::PipelineInputAssemblyStateCreateInfo assembly({}, plan.topology);
   const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);

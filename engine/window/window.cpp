@@ -59,7 +59,7 @@ void take_event(GLFWwindow* window, const PanelEvent& event) {
 }
 
 void watch(GLFWwindow* window) {
-  using Kind = PanelEvent::Kind;
+  using What = PanelEvent::Kind;
   constexpr auto kNote = [](GLFWwindow* on, auto...) { state_of(on).happened = true; };
   glfwSetWindowSizeCallback(window, kNote);
   glfwSetFramebufferSizeCallback(window, kNote);
@@ -68,25 +68,25 @@ void watch(GLFWwindow* window) {
   glfwSetWindowIconifyCallback(window, kNote);
   glfwSetWindowCloseCallback(window, kNote);
   glfwSetWindowFocusCallback(window, [](GLFWwindow* on, int focused) {
-    take_event(on, {.kind = Kind::kFocus, .code = focused});
+    take_event(on, {.kind = What::kFocus, .code = focused});
   });
   glfwSetKeyCallback(window, [](GLFWwindow* on, int key, int scan, int action, int modifiers) {
-    take_event(on, {Kind::kKey, key, scan, action, modifiers});
+    take_event(on, {What::kKey, key, scan, action, modifiers});
   });
   glfwSetCharCallback(window, [](GLFWwindow* on, unsigned character) {
-    take_event(on, {.kind = Kind::kCharacter, .code = static_cast<int>(character)});
+    take_event(on, {.kind = What::kCharacter, .code = static_cast<int>(character)});
   });
   glfwSetMouseButtonCallback(window, [](GLFWwindow* on, int button, int action, int modifiers) {
-    take_event(on, {Kind::kButton, button, 0, action, modifiers});
+    take_event(on, {What::kButton, button, 0, action, modifiers});
   });
   glfwSetCursorPosCallback(window, [](GLFWwindow* on, double x, double y) {
-    take_event(on, {.kind = Kind::kCursor, .x = x, .y = y});
+    take_event(on, {.kind = What::kCursor, .x = x, .y = y});
   });
   glfwSetCursorEnterCallback(window, [](GLFWwindow* on, int entered) {
-    take_event(on, {.kind = Kind::kCursorEnter, .code = entered});
+    take_event(on, {.kind = What::kCursorEnter, .code = entered});
   });
   glfwSetScrollCallback(window, [](GLFWwindow* on, double x, double y) {
-    take_event(on, {.kind = Kind::kScroll, .x = x, .y = y});
+    take_event(on, {.kind = What::kScroll, .x = x, .y = y});
   });
   glfwSetDropCallback(window, take_drop);
 }

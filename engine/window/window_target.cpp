@@ -14,7 +14,6 @@
 #include "engine/window/window_state.h"
 
 namespace geotherm::engine {
-namespace {
 
 /// The images that a surface shows in turn. Nothing may be drawing into them when it is replaced or
 /// destroyed. Members are destroyed from the last to the first.
@@ -34,6 +33,8 @@ struct Swapchain {
   std::vector<vk::raii::ImageView> views;  ///< one an image
   std::vector<vk::raii::Semaphore> drawn;  ///< one an image: it may be shown
 };
+
+namespace {
 
 /// What the surface is now, or where it takes any size, what the window wants.
 vk::Extent2D extent_of(const vk::SurfaceCapabilitiesKHR& can, glm::ivec2 pixels) {
@@ -58,6 +59,8 @@ vk::CompositeAlphaFlagBitsKHR composite_alpha(const vk::SurfaceCapabilitiesKHR& 
   }
   return Alpha::ePostMultiplied;
 }
+
+}  // namespace
 
 Swapchain::Swapchain(const Device::State& device, vk::SurfaceKHR surface,
                      vk::SurfaceFormatKHR surface_format, glm::ivec2 pixels, const Swapchain& old) {
@@ -88,6 +91,8 @@ Swapchain::Swapchain(const Device::State& device, vk::SurfaceKHR surface,
     drawn.emplace_back(device.device, vk::SemaphoreCreateInfo());
   }
 }
+
+namespace {
 
 /// A format that keeps the bytes which shaders write: they are sRGB already. Throws where the
 /// surface has none.
