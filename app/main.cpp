@@ -12,9 +12,8 @@
 #include <system_error>
 #include <thread>
 
-#include "app/command_line.h"
-#include "app/drawing.h"
-#include "app/viewer_window.h"
+#include "app/cli/command_line.h"
+#include "app/cli/drawing.h"
 #include "solver/mesh/output_file.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <system_error>
 
-#include "app/explore/session.h"
-#include "app/main_window/scene_screen.h"
+#include "app/session/session.h"
+#include "app/window/scene_screen.h"
 #include "bench/bench_mesh.h"
 #include "geotherm/io.h"
 #include "solver/core/stopwatch.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/machine.h"
+#include "app/session/machine.h"
 #include "bench/measure.h"
 #include "solver/core/processor.h"
 

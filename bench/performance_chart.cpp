@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/chart.h"
+#include "app/picture/chart.h"
 #include "bench/number_text.h"
 #include "bench/report.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "app/main_drawing/picture_scene.h"
+#include "app/drawing/picture_scene.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"
 #include "engine/renderer.h"

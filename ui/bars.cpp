@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/answer_check.h"
-#include "app/method_words.h"
 #include "app/picture/picture_text.h"
-#include "app/text.h"
+#include "app/session/check.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"

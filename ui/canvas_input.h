@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "app/explore/command.h"
-#include "app/explore/explored.h"
+#include "app/session/command.h"
+#include "app/session/explored.h"
 #include "ui/key_map.h"
 
 namespace geotherm::ui {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/explore/explored.h"
+#include "app/session/explored.h"
 #include "ui/key_map.h"
 
 namespace geotherm::ui {

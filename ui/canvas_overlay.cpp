@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/bundled_models.h"
-#include "app/method_words.h"
-#include "app/text.h"
+#include "app/session/model.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "ui/action.h"
 #include "ui/bars.h"
 #include "ui/rows.h"

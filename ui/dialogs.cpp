@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/explore/saved_file.h"
-#include "app/explore/script.h"
-#include "app/text.h"
+#include "app/session/script.h"
+#include "app/session/text.h"
 #include "ui/frame.h"
 #include "ui/key_map.h"
 #include "ui/widgets.h"

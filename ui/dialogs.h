@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/explore/command.h"
+#include "app/session/command.h"
 
 namespace geotherm::ui {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/explore/viewer_state.h"
+#include "app/session/state.h"
 
 namespace geotherm::ui {
 

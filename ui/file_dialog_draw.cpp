@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "app/announce.h"
-#include "app/text.h"
+#include "app/session/progress.h"
+#include "app/session/text.h"
 #include "ui/dialogs.h"
 #include "ui/file_dialog.h"
 #include "ui/key_map.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/explore/session.h"
+#include "app/session/session.h"
 #include "ui/layout.h"
 
 // The panels and the key map. Reads the session, sends commands, owns nothing but how panels lie.

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/text.h"
+#include "app/session/text.h"
 
 namespace geotherm::ui {
 namespace {

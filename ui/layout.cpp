@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "app/text.h"
+#include "app/session/text.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {

@@ -4,7 +4,7 @@
 #include <imgui.h>
 #include <string>
 
-#include "app/bundled_models.h"
+#include "app/session/model.h"
 #include "ui/key_map.h"
 #include "ui/widgets.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/explore/settings.h"
+#include "app/session/settings.h"
 
 #include <imgui.h>
 #include <algorithm>
 
-#include "app/answer_check.h"
-#include "app/text.h"
-#include "app/told.h"
+#include "app/session/check.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "ui/action.h"
 #include "ui/panels.h"
 #include "ui/plots.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/text.h"
+#include "app/session/text.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 #include <algorithm>
 
-#include "app/told.h"
+#include "app/session/wording.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 

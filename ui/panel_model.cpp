@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/text.h"
+#include "app/session/text.h"
 
 #include <cmath>
 
-#include "app/answer_check.h"
+#include "app/session/check.h"
 #include "ui/action.h"
 #include "ui/bars.h"
 #include "ui/panels.h"

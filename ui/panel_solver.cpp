@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "app/explore/settings.h"
+#include "app/session/settings.h"
 
 #include <imgui.h>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "app/machine.h"
-#include "app/mesh_words.h"
-#include "app/method_words.h"
-#include "app/text.h"
+#include "app/session/machine.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "ui/frame.h"
 #include "ui/panels.h"
 #include "ui/plots.h"

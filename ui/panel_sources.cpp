@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "app/text.h"
-#include "app/told.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "ui/action.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"

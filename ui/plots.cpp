@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/text.h"
+#include "app/session/text.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

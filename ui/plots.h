@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/answer_check.h"
+#include "app/session/check.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/explore/settings.h"
+#include "app/session/settings.h"
 #include "ui/frame.h"
 
 // Rows of panels that show a setting (app/explore/settings.h) and change it by a command.

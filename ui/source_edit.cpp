@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/source_spec.h"
+#include "app/session/sources.h"
 
 namespace geotherm::ui {
 

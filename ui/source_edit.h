@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/explore/command.h"
-#include "app/explore/explored.h"
+#include "app/session/command.h"
+#include "app/session/explored.h"
 
 // What the mouse does to sources, without the mouse.
 namespace geotherm::ui {

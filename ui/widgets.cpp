@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/text.h"
+#include "app/session/text.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {

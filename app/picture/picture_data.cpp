@@ -5,8 +5,8 @@
 #include <cmath>
 #include <set>
 
-#include "app/method_words.h"
-#include "app/text.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 #include "geotherm/quality_fields.h"
 
 namespace geotherm::app {

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "app/text.h"
+#include "app/session/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/text.h"
-#include "app/told.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
 
 namespace geotherm::app {
 

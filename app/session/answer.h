@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/answer_check.h"
-#include "app/load_model.h"
+#include "app/session/check.h"
+#include "app/session/model.h"
 #include "geotherm/build_method.h"
 #include "geotherm/mesh_report.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <new>
 
-#include "app/progress_bar.h"
 #include "app/session/model_solver.h"
+#include "app/session/progress.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/machine.h"
-#include "app/progress_bar.h"
-#include "app/told.h"
+#include "app/session/machine.h"
+#include "app/session/progress.h"
+#include "app/session/wording.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 

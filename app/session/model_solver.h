@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/answer_check.h"
 #include "app/picture/target_paths.h"
-#include "app/resolve_sources.h"
 #include "app/session/answer.h"
+#include "app/session/check.h"
+#include "app/session/place_sources.h"
 #include "geotherm/progress.h"
 
 namespace geotherm::app {

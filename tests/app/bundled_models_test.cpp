@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The models that come as files: what is in them, and where the program finds them.
-#include "app/bundled_models.h"
+#include "app/session/model.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <string>
 
-#include "app/load_model.h"
 #include "bench/models/generate.h"
 #include "solver/mesh/io/format_writers.h"
 #include "tests/app/program_fixture.h"

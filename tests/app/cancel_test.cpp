@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "app/cmd_solve.h"
+#include "app/cli/commands.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

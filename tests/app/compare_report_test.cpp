@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/compare_report.h"
+#include "app/session/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/drawing.h"
-#include "app/picture/turntable.h"
-#include "app/viewer_window.h"
+#include "app/cli/drawing.h"
+#include "app/picture/picture_settings.h"
 
 namespace geotherm::test {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
 #include "tests/app/fake_drawing.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/support/comma_locale.h"

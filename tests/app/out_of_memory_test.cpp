@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/compare_run.h"
+#include "app/session/compare.h"
 #include "bench/models/generate.h"
 #include "geotherm/heat_method.h"
 

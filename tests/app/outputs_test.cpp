@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/outputs.h"
+#include "app/session/outputs.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

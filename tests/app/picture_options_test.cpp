@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/picture/picture_options.h"
+#include "app/cli/options.h"
 
 #include <gtest/gtest.h>
 

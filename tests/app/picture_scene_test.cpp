@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/main_drawing/picture_scene.h"
+#include "app/drawing/picture_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/png_file.h"
+#include "app/picture/png_file.h"
 
 #include <gtest/gtest.h>
 

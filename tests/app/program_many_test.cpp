@@ -6,8 +6,8 @@
 #include <cmath>
 #include <csignal>
 
-#include "app/explore/settings.h"
-#include "app/many/many_work.h"
+#include "app/cli/many_work.h"
+#include "app/session/settings.h"
 #include "solver/core/stopwatch.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"

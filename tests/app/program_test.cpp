@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/bundled_models.h"
+#include "app/session/model.h"
 #include "geotherm/backend.h"
 #include "geotherm/io.h"
 #include "tests/app/program_fixture.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "app/study/study_run.h"
+#include "app/cli/study.h"
 #include "geotherm/backend.h"
 #include "geotherm/distance_method.h"
 #include "tests/app/program_fixture.h"

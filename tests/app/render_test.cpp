@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/command_line.h"
+#include "app/cli/command_line.h"
 #include "tests/app/fake_drawing.h"
 #include "tests/app/png_reader.h"
 #include "tests/mesh/mesh_files.h"

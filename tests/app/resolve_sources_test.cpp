@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/resolve_sources.h"
+#include "app/session/place_sources.h"
 
 #include <gtest/gtest.h>
 

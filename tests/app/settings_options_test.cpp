@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The table of settings: one entry is an option, its help, a command and a key of the JSON.
-#include "app/settings_options.h"
+#include "app/cli/options.h"
 
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/explore/command.h"
-#include "app/report_json.h"
+#include "app/session/command.h"
 #include "app/session/model_solver.h"
+#include "app/session/report.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/text.h"
-#include "app/shell_command.h"
+#include "app/session/text.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "app/progress_bar.h"
-#include "app/report_json.h"
-#include "app/text_table.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
 
 namespace geotherm::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/picture/ticks.h"
+#include "app/picture/picture_scale.h"
 
 #include <gtest/gtest.h>
 

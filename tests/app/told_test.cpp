@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/told.h"
+#include "app/session/wording.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "app/command_line.h"
-#include "app/explore/apply.h"
+#include "app/cli/command_line.h"
 #include "app/picture/picture_scale.h"
+#include "app/session/state.h"
 #include "tests/app/fake_drawing.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/support/source_texts.h"

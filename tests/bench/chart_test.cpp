@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/chart.h"
+#include "app/picture/chart.h"
 #include "tests/bench/bench_fixture.h"
 
 namespace geotherm::test {

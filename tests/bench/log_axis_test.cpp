@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/chart.h"
+#include "app/picture/chart.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/explore/apply.h"
+#include "app/session/state.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "app/explore/settings.h"
+#include "app/session/settings.h"
 #include "tests/support/source_texts.h"
 
 namespace geotherm::app {

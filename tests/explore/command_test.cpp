@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/explore/command.h"
+#include "app/session/command.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <random>
 
-#include "app/explore/settings.h"
+#include "app/session/settings.h"
 
 namespace geotherm::app {
 namespace {

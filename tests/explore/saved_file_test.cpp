@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What scripts may write, and that what is written holds no instruction for another program.
-#include "app/explore/saved_file.h"
+#include "app/session/script.h"
 
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/explore/script.h"
 #include "tests/explore/session_fixture.h"
 
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/explore/session.h"
+#include "app/session/session.h"
 #include "bench/models/generate.h"
 #include "geotherm/io.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A session that does its work at once, as scripts use it.
-#include "app/explore/session.h"
+#include "app/session/session.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/explore/apply.h"
-#include "app/explore/explored_picture.h"
+#include "app/session/explored.h"
+#include "app/session/state.h"
 #include "geotherm/heat_method.h"
 #include "tests/explore/session_fixture.h"
 #include "tests/support/source_texts.h"

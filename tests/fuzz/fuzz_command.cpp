@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/explore/apply.h"
-#include "app/explore/command.h"
-#include "app/explore/settings.h"
-#include "app/source_spec.h"
-#include "app/text.h"
+#include "app/session/command.h"
+#include "app/session/settings.h"
+#include "app/session/sources.h"
+#include "app/session/state.h"
+#include "app/session/text.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace geotherm::test {

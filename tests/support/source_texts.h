@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/source_spec.h"
+#include "app/session/sources.h"
 
 // Sources as sessions write them: short in what a test expects.
 namespace geotherm::test {

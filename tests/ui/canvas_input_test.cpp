@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "app/source_spec.h"
+#include "app/session/sources.h"
 #include "tests/ui/driver.h"
 #include "ui/key_map.h"
 #include "ui/source_edit.h"

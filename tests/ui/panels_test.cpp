@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <sstream>
 
-#include "app/bundled_models.h"
-#include "app/explore/settings.h"
+#include "app/session/model.h"
+#include "app/session/settings.h"
 #include "bench/models/generate.h"
 #include "geotherm/io.h"
 #include "tests/ui/driver.h"

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+
+#include "app/cli/commands.h"
+#include "app/session/model_solver.h"
+#include "app/session/place_sources.h"
+#include "app/session/report.h"
+#include "app/session/text.h"
+#include "geotherm/isolines.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr int kMaxLevels = 100000;
+
+/// Where the lines are to be, before the distances are known.
+struct Levels {
+  double spacing = 0;
+  int count = 0;  ///< 0: by spacing
+};
+
+Result<Levels> levels_in(const IsolinesArguments& arguments) {
+  if (arguments.spacing.empty() == arguments.count.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 std::string("--spacing and --count: ") +
+                     (arguments.spacing.empty() ? "neither was" : "both were") +
+                     " given; give one of them, such as --spacing 0.1 or --count 20"};
+  }
+  Levels levels;
+  if (!arguments.count.empty()) {
+    const auto count = number_in<int>(arguments.count);
+    if (!count || *count < 1 || *count > kMaxLevels) {
+      return Error{ErrorCode::kBadInput, "--count: '" + one_line(arguments.count) +
+                                             "' is no number of levels; give 1 to " +
+                                             grouped(kMaxLevels)};
+    }
+    levels.count = *count;
+    return levels;
+  }
+  const auto spacing = number_in<double>(arguments.spacing);
+  if (!spacing || !std::isfinite(*spacing) || !(*spacing > 0)) {
+    return Error{ErrorCode::kBadInput, "--spacing: '" + one_line(arguments.spacing) +
+                                           "' is no distance between lines; give a number above 0, "
+                                           "in model units"};
+  }
+  levels.spacing = *spacing;
+  return levels;
+}
+
+/// Multiples of the spacing, or as many as were asked for evenly between 0 and the largest distance
+/// (both left out).
+Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
+  std::vector<double> levels;
+  if (asked.count > 0) {
+    for (int i = 1; i <= asked.count; ++i) {
+      levels.push_back(largest * (static_cast<double>(i) / (asked.count + 1)));
+    }
+    return levels;
+  }
+  const double number = largest / asked.spacing;
+  if (number > kMaxLevels) {
+    return Error{ErrorCode::kBadInput, "--spacing: " + significant(asked.spacing) + " makes " +
+                                           significant(number) +
+                                           " lines up to the largest "
+                                           "distance " +
+                                           significant(largest) + ", more than " +
+                                           grouped(kMaxLevels) + "; give a larger one"};
+  }
+  for (int i = 1; i * asked.spacing < largest; ++i) levels.push_back(i * asked.spacing);
+  return levels;
+}
+
+Json isolines_json(const Answer& figures, const std::vector<double>& levels,
+                   const std::vector<Isoline>& lines) {
+  Json json = {{"model", model_json(figures.model.name, figures.mesh)},
+               {"method", to_text(figures.method->kind())},
+               {"sources", sources_json(figures.sources)},
+               {"levels", levels},
+               {"lines", Json::array()},
+               {"warnings", figures.warnings}};
+  if (figures.error) json["error"] = error_json(*figures.error);
+  double total = 0;
+  for (const Isoline& line : lines) {
+    total += line.path.length;
+    json["lines"].push_back({{"value", line.value},
+                             {"length", line.path.length},
+                             {"closed", line.path.closed},
+                             {"points", line.path.points.size()}});
+  }
+  json["length"] = total;
+  return json;
+}
+
+std::string isolines_table(const Answer& figures, const std::vector<double>& levels,
+                           const std::vector<Isoline>& lines) {
+  TextTable table({{"value", TextTable::Align::kRight},
+                   {"lines", TextTable::Align::kRight},
+                   {"closed", TextTable::Align::kRight},
+                   {"length", TextTable::Align::kRight}});
+  std::size_t next = 0;
+  for (const double level : levels) {
+    std::int64_t count = 0, closed = 0;
+    double length = 0;
+    for (; next < lines.size() && lines[next].value == level; ++next) {
+      ++count;
+      closed += lines[next].path.closed ? 1 : 0;
+      length += lines[next].path.length;
+    }
+    table.add_row({significant(level), grouped(count), grouped(closed), significant(length)});
+  }
+  return one_line(figures.model.name) + ": " +
+         counted(static_cast<std::int64_t>(lines.size()), "line", "lines") + " at " +
+         counted(static_cast<std::int64_t>(levels.size()), "level", "levels") +
+         ", distances up to " + significant(figures.distance.max) + " (" +
+         to_text(figures.method->kind()) + ")\n" +
+         (figures.error ? "error: " + accuracy_line(*figures.error) + '\n' : "") + table.text();
+}
+
+LinePicture picture_of_lines(const Answer& figures, const std::vector<Isoline>& lines) {
+  LinePicture picture;
+  picture.mesh = figures.model.mesh;
+  for (const Isoline& line : lines) picture.lines.push_back({&line.path, line.value});
+  for (const SurfacePoint& source : figures.sources.points) {
+    picture.markers.push_back(position_at(*figures.model.mesh, source));
+  }
+  picture.largest_value = figures.distance.max;
+  picture.title = figures.model.name + ", " + to_text(figures.method->kind()) + ", " +
+                  counted(static_cast<std::int64_t>(lines.size()), "line", "lines");
+  return picture;
+}
+
+}  // namespace
+
+void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  add_source_options(command, arguments.sources);
+  command.add_option("--spacing", arguments.spacing, "between lines, in model units")
+      ->type_name("D");
+  command
+      .add_option("--count", arguments.count,
+                  "of levels, evenly between 0 and the largest distance")
+      ->type_name("N");
+  add_line_file_options(command, arguments.files, arguments.settings, "the lines");
+  add_check_options(command, arguments.check);
+  add_quiet_option(command, arguments.quiet);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
+  command.footer(
+      "Examples:\n"
+      "  geotherm isolines bunny -s 0 --count 20 -o lines.obj\n"
+      "  geotherm isolines terrain -s boundary --spacing 0.05 -o lines.svg --azimuth 60");
+}
+
+Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  const auto wanted = levels_in(arguments);
+  if (!wanted) return wanted.error();
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  const auto expected = expect_line_files(arguments.files, outputs);
+  if (!expected) return expected.error();
+  const auto named = some_sources_of(arguments.sources);
+  if (!named) return named.error();
+  auto model = load_model(arguments.model, asked->reading, progress);
+  if (!model) return model.error();
+  const auto sources = resolve_sources(*named, *model->mesh);
+  if (!sources) return sources.error();
+  ModelSolver solver(*std::move(model));
+  auto figures = solver.solve(options, *sources, {{}, *check}, progress);
+  if (!figures) return figures.error();
+  note_unused_settings(arguments.settings, options, figures->warnings);
+  const auto levels = levels_up_to(figures->distance.max, *wanted);
+  if (!levels) return levels.error();
+  const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
+
+  if (lines.empty()) {
+    figures->warnings.push_back("there is no line: the largest distance is " +
+                                significant(figures->distance.max));
+  }
+  CommandOutput out{"", figures->warnings, {}};
+  const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
+                                        asked->picture, progress, outputs, out);
+  if (!written) return written.error();
+  if (!arguments.files.json.empty()) {
+    const auto json = outputs.write_text(
+        arguments.files.json, to_text(isolines_json(*figures, *levels, lines)), out.text);
+    if (!json) return json.error();
+  }
+  if (figures->error)
+    out.note = accuracy_note(arguments.files.json, outputs, arguments.quiet, *figures->error,
+                             accuracy_line(*figures->error));
+  if (!outputs.uses_stdout()) out.text = isolines_table(*figures, *levels, lines);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/options.h"
+#include "app/session/model.h"
+#include "app/session/outputs.h"
+#include "app/session/report.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/backend.h"
+#include "solver/geometry/cracks.h"
+
+namespace geotherm::app {
+namespace {
+
+Json cracks_json(const CrackReport& cracks) {
+  return {{"vertices", cracks.vertices},
+          {"weld", cracks.vertices > 0 ? Json(cracks.distance) : Json(nullptr)},
+          {"border_edges", cracks.border_edges},
+          {"closed_edges", cracks.closed_edges}};
+}
+
+}  // namespace
+
+void add_info_options(CLI::App& command, InfoArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
+      ->type_name("FILE");
+  add_quiet_option(command, arguments.quiet);
+  command.footer("Example:\n  geotherm info scan.stl --json scan.json");
+}
+
+Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress) {
+  Outputs outputs;
+  if (!arguments.json.empty()) {
+    protect_inputs(arguments.model, {}, outputs);
+    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
+      return expected.error();
+    }
+  }
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto model = load_model(arguments.model, asked->reading, progress);
+  if (!model) return model.error();
+  const MeshReport mesh = inspect_mesh(*model->mesh);
+  CommandOutput out{"", model->notes, {}};
+  for (std::string& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
+  const CrackReport cracks = find_cracks(*model->mesh);
+  if (cracks.vertices > 0) out.warnings.push_back(crack_note(cracks));
+  if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
+  if (arguments.json.empty()) return out;
+
+  std::string text = to_text(Json{{"model", full_model_json(model->name, mesh)},
+                                  {"cracks", cracks_json(cracks)},
+                                  {"timing_ms", {{"load", model->load_ms}}},
+                                  {"warnings", out.warnings}});
+  const auto written = outputs.write_text(arguments.json, std::move(text), out.text);
+  if (!written) return written.error();
+  out.made = outputs.made();
+  return out;
+}
+
+namespace {
+
+void add_json_option(CLI::App& command, ListArguments& arguments) {
+  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
+      ->type_name("FILE");
+}
+
+Result<CommandOutput> list(const ListArguments& arguments, const TextTable& table,
+                           const Json& json) {
+  Outputs outputs;
+  CommandOutput out;
+  if (arguments.json.empty()) {
+    out.text = table.text();
+    return out;
+  }
+  if (auto expected = outputs.expect(arguments.json, "--json"); !expected) return expected.error();
+  if (!outputs.uses_stdout()) out.text = table.text();
+  if (auto written = outputs.write_text(arguments.json, to_text(json), out.text); !written) {
+    return written.error();
+  }
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace
+
+void add_backends_options(CLI::App& command, ListArguments& arguments) {
+  add_json_option(command, arguments);
+  command.footer("Example:\n  geotherm backends");
+}
+
+void add_models_options(CLI::App& command, ListArguments& arguments) {
+  add_json_option(command, arguments);
+  command.footer("Example:\n  geotherm models");
+}
+
+Result<CommandOutput> run_backends(const ListArguments& arguments) {
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  Json rows = Json::array();
+  for (const std::string& name : backend_names()) {
+    const auto backend = find_backend(name);
+    const std::string description = backend ? std::string((*backend)->description()) : "";
+    table.add_row({name, description});
+    rows.push_back({{"name", name}, {"description", description}, {"default", rows.empty()}});
+  }
+  return list(arguments, table, Json{{"backends", std::move(rows)}});
+}
+
+Result<CommandOutput> run_models(const ListArguments& arguments) {
+  TextTable table({{"", TextTable::Align::kLeft},
+                   {"", TextTable::Align::kRight},
+                   {"", TextTable::Align::kLeft}});
+  Json rows = Json::array();
+  for (const BundledModel& model : bundled_models()) {
+    const std::string name(model.name);
+    const std::string description(model.description);
+    table.add_row({name, grouped(model.faces) + " faces", description});
+    rows.push_back({{"name", name}, {"faces", model.faces}, {"description", description}});
+  }
+  return list(arguments, table, Json{{"models", std::move(rows)}});
+}
+
+namespace {
+
+std::string memory_in_words(double mb) {
+  if (!(mb > 0)) return "";
+  constexpr double kGigabyte = 1024;
+  return mb < kGigabyte ? fixed(mb, 0) + " MB" : fixed(mb / kGigabyte, 1) + " GB";
+}
+
+std::string remark_on(const DrawingDevice& device) {
+  if (!device.lacks.empty()) return "cannot be used: " + one_line(joined(device.lacks, "; "));
+  return device.chosen ? "default" : "";
+}
+
+std::string device_table(const std::vector<DrawingDevice>& devices) {
+  using Align = TextTable::Align;
+  TextTable table({{"", Align::kLeft},
+                   {"", Align::kLeft},
+                   {"", Align::kLeft},
+                   {"", Align::kLeft},
+                   {"", Align::kRight},
+                   {"", Align::kLeft}});
+  for (const DrawingDevice& device : devices) {
+    table.add_row({one_line(device.name), one_line(device.kind), one_line(device.driver),
+                   one_line(device.api), memory_in_words(device.memory_mb), remark_on(device)});
+  }
+  return table.text();
+}
+
+Json devices_json(const std::vector<DrawingDevice>& devices) {
+  Json list = Json::array();
+  for (const DrawingDevice& device : devices) {
+    list.push_back({{"name", device.name},
+                    {"kind", device.kind},
+                    {"driver", device.driver},
+                    {"api", device.api},
+                    {"memory_mb", device.memory_mb},
+                    {"software", device.software},
+                    {"default", device.chosen},
+                    {"usable", device.lacks.empty()},
+                    {"lacks", device.lacks}});
+  }
+  return {{"devices", std::move(list)}};
+}
+
+}  // namespace
+
+void add_devices_options(CLI::App& command, DevicesArguments& arguments) {
+  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
+      ->type_name("FILE");
+  command.footer("Example:\n  geotherm devices");
+}
+
+Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing) {
+  Outputs outputs;
+  if (!arguments.json.empty()) {
+    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
+      return expected.error();
+    }
+  }
+  const auto devices = drawing.devices();
+  if (!devices) return devices.error();
+  if (devices->empty()) {
+    return Error{ErrorCode::kNoDevice,
+                 "there is no device that can draw; install a Vulkan driver (Debian: "
+                 "mesa-vulkan-drivers, which also draws in software)"};
+  }
+  CommandOutput out;
+  if (!outputs.uses_stdout()) out.text = device_table(*devices);
+  if (arguments.json.empty()) return out;
+  const auto written =
+      outputs.write_text(arguments.json, to_text(devices_json(*devices)), out.text);
+  if (!written) return written.error();
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

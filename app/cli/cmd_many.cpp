@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/cli/commands.h"
+#include "app/cli/many_work.h"
+#include "app/session/outputs.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "solver/core/memory.h"
+#include "solver/core/text.h"
+#include "solver/mesh/output_file.h"
+
+namespace geotherm::app {
+namespace {
+
+Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  if (arguments.outputs.size() != 1) {
+    return Error{ErrorCode::kBadInput,
+                 "--each writes one array, and " +
+                     counted(std::ssize(arguments.outputs), "output", "outputs") +
+                     " were given; give -o FILE.npy, or -o - for standard "
+                     "output"};
+  }
+  const std::string& path = arguments.outputs.front();
+  if (path != "-" && io::file_extension(path) != ".npy") {
+    return Error{ErrorCode::kNotAvailable,
+                 one_line(path) +
+                     ": --each writes an array of sources x vertices as .npy; choose "
+                     "another name"};
+  }
+  if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json");
+}
+
+Error about_file(const Error& error) {
+  return with_hint(error, {"make room there, or choose another place"});
+}
+
+/// Of all rows.
+struct Sums {
+  double least = kUnreached, most = 0, mean = 0;
+  double reached = 0;
+  std::int64_t unreached = 0;
+
+  void add(std::span<const double> row) {
+    for (const double d : row) {
+      if (!std::isfinite(d)) {
+        ++unreached;
+        continue;
+      }
+      least = std::min(least, d);
+      most = std::max(most, d);
+      mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
+    }
+  }
+};
+
+Json each_json(const ManySources& work, const ManyFigures& figures, const Sums& sums, NpyType type,
+               double bytes) {
+  Json json = many_json(work, figures);
+  json["rows"] = work.sources.sets.size();
+  json["columns"] = work.mesh.vertices;
+  json["dtype"] = to_text(type);
+  json["bytes"] = bytes;
+  json["distance"] = {
+      {"min", sums.least}, {"max", sums.most}, {"mean", sums.mean}, {"unreached", sums.unreached}};
+  return json;
+}
+
+}  // namespace
+
+Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& progress,
+                               const Announce& announce) {
+  if (auto fits = refuse_single_options(arguments, "--each"); !fits) return fits.error();
+  if (arguments.symmetric) {
+    return Error{ErrorCode::kBadInput, "--symmetric is about --pairs; leave it out"};
+  }
+  const auto type = number_type(arguments);
+  if (!type) return type.error();
+  Outputs outputs;
+  if (auto expected = expect_rows(arguments, outputs); !expected) return expected.error();
+  auto work = begin_many(arguments, progress);
+  if (!work) return work.error();
+
+  const std::string& path = arguments.outputs.front();
+  const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
+  const Index vertices = work->mesh.vertices;
+  const auto bytes = static_cast<double>(
+      npy_bytes_of(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(vertices), *type));
+  if (auto fits = check_room(path, bytes); !fits) return fits.error();
+  const std::string size = counted(rows, "source", "sources") + " x " +
+                           counted(vertices, "vertex", "vertices") + ", " + to_text(*type) + ", " +
+                           bytes_in_words(bytes);
+  auto array = NpyRows::open(path, static_cast<std::uint64_t>(rows),
+                             static_cast<std::uint64_t>(vertices), *type);
+  if (!array) return about_file(array.error());
+  Sums sums;
+  auto figures = solve_many(
+      *work, arguments,
+      [&](std::size_t, std::span<const double> distances) -> Result<void> {
+        sums.add(distances);
+        const auto written = array->append(distances);
+        return written ? written : about_file(written.error());
+      },
+      "a file of " + bytes_in_words(bytes), progress, announce);
+  if (!figures) return figures.error();
+  const auto written = outputs.write(path, [&] { return array->finish(); });
+  if (!written) return written.error();
+
+  if (sums.unreached > 0) figures->warnings.push_back(unreached_note(*work, sums.unreached));
+  CommandOutput out{"", figures->warnings, {}};
+  if (!arguments.json.empty()) {
+    const auto reported = outputs.write_text(
+        arguments.json, to_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
+    if (!reported) return reported.error();
+  }
+  out.note = sample_note(arguments, outputs, *figures);
+  if (!outputs.uses_stdout()) {
+    out.text = many_table(*work, *figures,
+                          {{"model", one_line(work->model.name)},
+                           {"array", one_line(path) + ": " + size},
+                           {"distance", significant(sums.least) + " to " + significant(sums.most) +
+                                            ", mean " + significant(sums.mean)}});
+  }
+  out.made = outputs.made();
+  return out;
+}
+
+namespace {
+
+/// A table of more columns fits no terminal.
+constexpr std::size_t kMaxInTable = 10;
+
+bool is_npy(const std::string& path) { return io::file_extension(path) == ".npy"; }
+
+Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  for (const std::string& path : arguments.outputs) {
+    if (path != "-" && !is_npy(path) && io::file_extension(path) != ".csv") {
+      return Error{ErrorCode::kNotAvailable,
+                   one_line(path) +
+                       ": --pairs writes a matrix as .npy or .csv, and as JSON with "
+                       "--json FILE; choose another name"};
+    }
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  const bool typed = arguments.float32 || !arguments.dtype.empty();
+  if (typed && std::ranges::none_of(arguments.outputs, is_npy)) {
+    return Error{ErrorCode::kBadInput,
+                 "the type of numbers is that of a .npy file; give -o FILE.npy, or leave "
+                 "--dtype and --float32 out"};
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json");
+}
+
+/// The vertices of sources that are one each. Errors: kBadInput.
+Result<std::vector<Index>> vertices_of_each(const EachSource& each) {
+  std::vector<Index> vertices;
+  for (const SourceSet& set : each.sets) {
+    const bool is_vertex = set.edges.empty() && set.points.front().is_vertex();
+    if (!is_vertex || !set.offsets.empty()) {
+      return Error{ErrorCode::kBadInput,
+                   "--pairs: source " + std::to_string(vertices.size() + 1) +
+                       (is_vertex ? " has an offset" : " is no vertex") +
+                       "; distances are between vertices, such as -s 3,99,512 or -s random:20"};
+    }
+    vertices.push_back(set.points.front().vertex);
+  }
+  if (vertices.size() < 2) {
+    return Error{ErrorCode::kBadInput,
+                 "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
+  }
+  return vertices;
+}
+
+Result<void> check_memory(std::size_t vertices) {
+  const auto free = free_memory();
+  const double bytes =
+      sizeof(double) * static_cast<double>(vertices) * static_cast<double>(vertices);
+  if (!free || bytes <= static_cast<double>(*free)) return {};
+  return Error{ErrorCode::kOutOfMemory,
+               "--pairs: " + counted(static_cast<std::int64_t>(vertices), "vertex", "vertices") +
+                   " make a matrix of " + bytes_in_words(bytes) + ", and " +
+                   bytes_in_words(static_cast<double>(*free)) +
+                   " of memory are free; take fewer, or --each, which streams"};
+}
+
+Result<void> write_npy(const std::string& path, const PairMatrix& pairs, NpyType type) {
+  auto file = NpyRows::open(path, pairs.size(), pairs.size(), type);
+  if (!file) return file.error();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto row = std::span(pairs.entries).subspan(i * pairs.size(), pairs.size());
+    if (auto written = file->append(row); !written) return written;
+  }
+  return file->finish();
+}
+
+std::string csv_of(const PairMatrix& pairs) {
+  std::string text = "vertex";
+  for (const Index v : pairs.vertices) text += ',' + std::to_string(v);
+  text += '\n';
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    text += std::to_string(pairs.vertices[i]);
+    for (std::size_t j = 0; j < pairs.size(); ++j) text += ',' + number_text(pairs.at(i, j));
+    text += '\n';
+  }
+  return text;
+}
+
+Json pairs_json(const ManySources& work, const ManyFigures& figures, const PairMatrix& pairs,
+                const Asymmetry& apart, bool symmetric) {
+  Json json = many_json(work, figures);
+  json["symmetric"] = symmetric;
+  json["asymmetry"] = {{"max", apart.most},
+                       {"max_of_distance", apart.of_larger},
+                       {"vertices", {pairs.vertices[apart.i], pairs.vertices[apart.j]}}};
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto begin = pairs.entries.begin() + static_cast<std::ptrdiff_t>(i * pairs.size());
+    rows.push_back(std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(pairs.size())));
+  }
+  json["distances"] = std::move(rows);
+  return json;
+}
+
+std::string matrix_table(const PairMatrix& pairs) {
+  std::vector<TextTable::Column> columns = {{"", TextTable::Align::kRight}};
+  for (const Index v : pairs.vertices) {
+    columns.push_back({std::to_string(v), TextTable::Align::kRight});
+  }
+  TextTable table(std::move(columns));
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::vector<std::string> cells = {std::to_string(pairs.vertices[i])};
+    for (std::size_t j = 0; j < pairs.size(); ++j) cells.push_back(significant(pairs.at(i, j)));
+    table.add_row(std::move(cells));
+  }
+  return table.text();
+}
+
+std::string pairs_table(const ManySources& work, const ManyFigures& figures,
+                        const PairMatrix& pairs, const Asymmetry& apart, bool symmetric) {
+  double most = 0;
+  for (const double d : pairs.entries) {
+    if (std::isfinite(d)) most = std::max(most, d);
+  }
+  const std::string directions = significant(apart.most, 3) + " at most (" +
+                                 significant(100 * apart.of_larger, 2) + " % of a distance)" +
+                                 (symmetric ? "; both are their mean" : "");
+  const auto count = static_cast<std::int64_t>(pairs.size());
+  std::string text = many_table(work, figures,
+                                {{"model", one_line(work.model.name)},
+                                 {"matrix", counted(count, "vertex", "vertices") + ", " +
+                                                counted(count * (count - 1) / 2, "pair", "pairs") +
+                                                ", up to " + significant(most)},
+                                 {"directions differ by", directions}});
+  if (pairs.size() <= kMaxInTable) text += '\n' + matrix_table(pairs);
+  return text;
+}
+
+}  // namespace
+
+Asymmetry asymmetry(const PairMatrix& pairs) {
+  Asymmetry out;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double a = pairs.at(i, j), b = pairs.at(j, i);
+      if (!std::isfinite(a) || !std::isfinite(b)) continue;
+      const double apart = std::abs(a - b);
+      if (apart > 0) out.of_larger = std::max(out.of_larger, apart / std::max(a, b));
+      if (apart <= out.most) continue;
+      out.most = apart;
+      out.i = i;
+      out.j = j;
+    }
+  }
+  return out;
+}
+
+void symmetrise(PairMatrix& pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double& a = pairs.entries[i * pairs.size() + j];
+      double& b = pairs.entries[j * pairs.size() + i];
+      a = b = a / 2 + b / 2;
+    }
+  }
+}
+
+Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress& progress,
+                                const Announce& announce) {
+  if (auto fits = refuse_single_options(arguments, "--pairs"); !fits) return fits.error();
+  const auto type = number_type(arguments);
+  if (!type) return type.error();
+  Outputs outputs;
+  if (auto expected = expect_matrix(arguments, outputs); !expected) return expected.error();
+  auto work = begin_many(arguments, progress);
+  if (!work) return work.error();
+  PairMatrix pairs;
+  auto vertices = vertices_of_each(work->sources);
+  if (!vertices) return vertices.error();
+  pairs.vertices = *std::move(vertices);
+  if (auto fits = check_memory(pairs.size()); !fits) return fits.error();
+  const auto rows = static_cast<std::uint64_t>(pairs.size());
+  for (const std::string& path : arguments.outputs) {
+    const auto bytes = static_cast<double>(npy_bytes_of(rows, rows, *type));
+    if (auto fits = check_room(path, bytes); !fits) return fits.error();
+  }
+  pairs.entries.reserve(pairs.size() * pairs.size());
+  auto figures = solve_many(
+      *work, arguments,
+      [&pairs](std::size_t, std::span<const double> distances) -> Result<void> {
+        for (const Index v : pairs.vertices) pairs.entries.push_back(distances[v]);
+        return {};
+      },
+      "a matrix of " + bytes_in_words(static_cast<double>(sizeof(double) * rows * rows)), progress,
+      announce);
+  if (!figures) return figures.error();
+  const Asymmetry apart = asymmetry(pairs);
+  if (arguments.symmetric) symmetrise(pairs);
+
+  const auto unreached = std::ranges::count(pairs.entries, kUnreached);
+  if (unreached > 0) figures->warnings.push_back(unreached_note(*work, unreached));
+  CommandOutput out{"", figures->warnings, {}};
+  for (const std::string& path : arguments.outputs) {
+    const auto written = outputs.write(path, [&]() -> Result<void> {
+      if (is_npy(path)) return write_npy(path, pairs, *type);
+      std::string text = csv_of(pairs);
+      if (path != "-") return write_file(path, text);
+      out.text = std::move(text);
+      return {};
+    });
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    const auto written = outputs.write_text(
+        arguments.json, to_text(pairs_json(*work, *figures, pairs, apart, arguments.symmetric)),
+        out.text);
+    if (!written) return written.error();
+  }
+  out.note = sample_note(arguments, outputs, *figures);
+  if (!outputs.uses_stdout()) {
+    out.text = pairs_table(*work, *figures, pairs, apart, arguments.symmetric);
+  }
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

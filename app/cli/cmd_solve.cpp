@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+// The fields that `solve --fields` writes beside the distances.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/session/answer.h"
+#include "app/session/model_solver.h"
+#include "app/session/outputs.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/error.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/io.h"
+#include "geotherm/quality_fields.h"
+#include "solver/mesh/io/format_writers.h"
+
+namespace geotherm::app {
+
+/// What was asked for, as far as it goes with the method.
+struct WantedFields {
+  std::vector<QualityField> fields;
+  bool all = false;  ///< asked for as "all": what there is none of is left out
+
+  bool has_error() const;  ///< whether the distances have to be checked
+  bool has_heat() const;   ///< whether the answer has to hold u
+};
+
+/// "all", or names with commas between them; empty: none. Each file of `paths` must hold every one.
+/// Errors: kBadInput (unknown, of another method, no file) and kNotAvailable (a file that cannot
+/// hold one), each with the cure.
+Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
+                                   const std::vector<std::string>& paths);
+
+/// The fields of an answer. Errors: kBadInput where there is no error of it.
+Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures);
+
+namespace {
+
+Error about_option(const Error& error) { return about("--fields", error); }
+
+Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKind method) {
+  std::vector<QualityField> fields;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const auto field =
+        parse_quality_field(one_line(std::string(trimmed(text.substr(from, comma - from)))));
+    if (!field) return about_option(field.error());
+    if (needs_heat(*field) && method != MethodKind::kHeat) {
+      return Error{ErrorCode::kBadInput, "--fields: " + to_text(*field) +
+                                             " is about the heat u, which --method " +
+                                             to_text(method) + " has not; leave it out"};
+    }
+    if (std::ranges::find(fields, *field) == fields.end()) fields.push_back(*field);
+    from = comma + 1;
+  }
+  return fields;
+}
+
+}  // namespace
+
+bool WantedFields::has_error() const {
+  return std::ranges::find(fields, QualityField::kError) != fields.end();
+}
+
+bool WantedFields::has_heat() const { return std::ranges::any_of(fields, needs_heat); }
+
+Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
+                                   const std::vector<std::string>& paths) {
+  WantedFields wanted;
+  if (text.empty()) return wanted;
+  if (paths.empty()) {
+    return Error{
+        ErrorCode::kBadInput,
+        "--fields: they are written beside the distances; give -o FILE.ply or -o FILE.vtp"};
+  }
+  wanted.all = text == "all";
+  if (wanted.all) {
+    wanted.fields = all_quality_fields();
+    if (method != MethodKind::kHeat) std::erase_if(wanted.fields, needs_heat);
+  } else {
+    auto named = named_fields(text, method);
+    if (!named) return named.error();
+    wanted.fields = *std::move(named);
+  }
+  for (const std::string& path : paths) {
+    for (const QualityField field : wanted.fields) {
+      const auto held = check_field(path, described(field));
+      if (!held) return about_option(held.error());
+    }
+  }
+  return wanted;
+}
+
+Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures) {
+  std::vector<DataField> made;
+  for (const QualityField field : wanted.fields) {
+    std::span<const double> error;
+    if (field == QualityField::kError) {
+      const bool known = figures.error && !figures.error->values.empty();
+      const std::string why = known           ? std::string()
+                              : figures.error ? told(*figures.error)
+                                              : "the distances were not checked";
+      if (!known && !wanted.all) {
+        return Error{ErrorCode::kBadInput,
+                     "--fields: there is no error: " + why + "; leave the field error out"};
+      }
+      if (!known) {
+        figures.warnings.push_back("--fields: the field error is left out: " + why);
+        continue;
+      }
+      error = figures.error->values;
+    }
+    made.push_back(quality_field(field, *figures.model.mesh, figures.result, error));
+  }
+  return made;
+}
+
+namespace {
+
+Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  for (const std::string& path : arguments.outputs) {
+    if (auto known = check_distance_path(path); !known) return known;
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json");
+}
+
+bool needs_nearest(const std::vector<std::string>& paths) {
+  return std::ranges::any_of(paths, holds_mesh);
+}
+
+bool has_several_sources(const Answer& figures) { return source_groups(figures.sources).count > 1; }
+
+}  // namespace
+
+void add_solve_options(CLI::App& command, SolveArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  add_source_options(command, arguments.sources);
+  command
+      .add_option("-o,--output", arguments.outputs,
+                  "where the distances go: .csv .npy .ply .vtp, or - for CSV on standard output; "
+                  "may be repeated; with --each .npy, with --pairs .npy and .csv")
+      ->type_name("FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
+      ->type_name("FILE");
+  command
+      .add_flag("--check", arguments.check.check,
+                "holds the distances against the most accurate method that fits, and looks for a "
+                "better setting where they are not good")
+      ->group("Accuracy");
+  add_check_options(command, arguments.check);
+  command
+      .add_option("--fields", arguments.fields,
+                  "writes numbers beside the distances that say where they are right: all, or some "
+                  "of error (implies --check), eikonal-error, gradient-angle, lost-gradients, "
+                  "triangle-quality, non-delaunay; .ply and .vtp hold all, .csv error alone")
+      ->type_name("NAMES");
+  command.add_flag("--labels", arguments.labels,
+                   "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
+                   "wherever there are several sources");
+  command
+      .add_flag(
+          "--each", arguments.each,
+          "solves for each source point by itself: one row of distances a point, in the order "
+          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
+          "curve and the boundary are one row each")
+      ->group("Many sources");
+  command
+      .add_flag("--pairs", arguments.pairs,
+                "distances between each two of the source vertices alone: a square matrix, from "
+                "the row's vertex to the column's")
+      ->group("Many sources");
+  command
+      .add_flag("--symmetric", arguments.symmetric,
+                "with --pairs: both directions become their mean; otherwise they differ by the "
+                "error of the method, which the report says")
+      ->group("Many sources");
+  command
+      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
+      ->type_name("TYPE")
+      ->group("Many sources");
+  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
+      ->group("Many sources");
+  add_quiet_option(command, arguments.quiet);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
+  command.footer(
+      "Examples:\n"
+      "  geotherm solve model.obj -s 17 -o distances.ply --json figures.json\n"
+      "  geotherm solve terrain -s boundary --time-factor 2 -o - | head\n"
+      "  geotherm solve bunny -s 0 --check\n"
+      "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
+      "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv\n"
+      "  geotherm solve bunny -s random:500 --each --float32 -o rows.npy\n"
+      "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv");
+}
+
+namespace {
+
+/// Options of many sources, where one set is solved for.
+Result<void> refuse_options_of_many(const SolveArguments& arguments) {
+  const bool typed = arguments.float32 || !arguments.dtype.empty();
+  if (!typed && !arguments.symmetric) return {};
+  return Error{ErrorCode::kBadInput,
+               typed ? "--dtype and --float32 are about --each and --pairs; leave them out"
+                     : "--symmetric is about --pairs; leave it out"};
+}
+
+/// A field of the error needs a thorough check; fields of the heat need the heat.
+Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodOptions& options,
+                                  const WantedFields& wanted) {
+  auto settings = check_settings(arguments.check);
+  if (!settings) return settings;
+  if (wanted.has_error() && settings->mode == CheckMode::kUsual) {
+    settings->mode = CheckMode::kThorough;
+  }
+  if (wanted.has_heat() && options.method == MethodKind::kHeat) {
+    if (auto fits = refuse_better(*settings, "--fields " + one_line(arguments.fields)); !fits) {
+      return fits.error();
+    }
+  }
+  return settings;
+}
+
+}  // namespace
+
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress,
+                                const Announce& announce) {
+  if (arguments.each && arguments.pairs) {
+    return Error{ErrorCode::kBadInput,
+                 "--each and --pairs were both given; --each writes whole rows, --pairs those of "
+                 "the sources' vertices; leave one of them out"};
+  }
+  if (arguments.each) return run_each(arguments, progress, announce);
+  if (arguments.pairs) return run_pairs(arguments, progress, announce);
+  if (auto fits = refuse_options_of_many(arguments); !fits) return fits.error();
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  Outputs outputs;
+  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
+  const auto wanted = wanted_fields(arguments.fields, options.method, arguments.outputs);
+  if (!wanted) return wanted.error();
+  const auto check = settings_of(arguments, options, *wanted);
+  if (!check) return check.error();
+  const auto named = some_sources_of(arguments.sources);
+  if (!named) return named.error();
+  auto model = load_model(arguments.model, asked->reading, progress);
+  if (!model) return model.error();
+  const auto sources = resolve_sources(*named, *model->mesh);
+  if (!sources) return sources.error();
+  QueryOptions query;
+  query.nearest = arguments.labels || needs_nearest(arguments.outputs);
+  query.fields = wanted->has_heat();
+  ModelSolver solver(*std::move(model));
+  auto figures = solver.solve(options, *sources, {query, *check}, progress);
+  if (!figures) return figures.error();
+  note_unused_settings(arguments.settings, options, figures->warnings);
+  const auto fields = make_fields(*wanted, *figures);
+  if (!fields) return fields.error();
+
+  CommandOutput out;
+  out.warnings = figures->warnings;
+  const std::vector<double>& distances = figures->result.distances;
+  for (const std::string& path : arguments.outputs) {
+    if (!report(progress, "writing " + path, 1.0)) {
+      outputs.remove_written();
+      return cancelled_error();
+    }
+    const bool labels = arguments.labels || (holds_mesh(path) && has_several_sources(*figures));
+    const std::vector<Index> nearest =
+        labels ? figures->result.nearest_source : std::vector<Index>();
+    const auto written = outputs.write(path, [&]() -> Result<void> {
+      if (path != "-")
+        return write_distances(path, *figures->model.mesh, distances, nearest, *fields);
+      out.text = io::csv_bytes(distances, nearest, *fields);
+      return {};
+    });
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    const auto written =
+        outputs.write_text(arguments.json, to_text(solve_json(*figures)), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = solve_table(*figures);
+  if (figures->error)
+    out.note = accuracy_note(arguments.json, outputs, arguments.quiet, *figures->error,
+                             accuracy_line(*figures->error));
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
+#include "app/cli/commands.h"
+#include "app/cli/picture_report.h"
+#include "app/cli/view_picture.h"
+#include "app/picture/png_file.h"
+#include "app/session/compare.h"
+#include "app/session/explored.h"
+#include "app/session/machine.h"
+#include "app/session/model.h"
+#include "app/session/outputs.h"
+#include "app/session/session.h"
+#include "app/session/state.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "solver/core/text.h"
+#include "solver/mesh/io/input_file.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr double kMinScale = 0.5;
+constexpr double kMaxScale = 4;
+
+Result<double> scale_in(const std::string& text) {
+  if (text.empty()) return 0.0;
+  const auto scale = number_in<double>(text);
+  if (scale && *scale >= kMinScale && *scale <= kMaxScale) return *scale;
+  return Error{ErrorCode::kBadInput,
+               "'" + one_line(text) + "' is no scale of panels; give 0.5 to 4, such as 2"};
+}
+
+Result<std::vector<SourceSpec>> sources_in(const SourceArguments& arguments) {
+  const auto sources = sources_of(arguments);
+  if (!sources) return sources.error();
+  std::vector<SourceSpec> specs;
+  for (const Source& source : *sources) {
+    specs.push_back(source.spec);
+    // A session keeps the curve, not the file that it came from.
+    if (auto* const curve = std::get_if<VertexCurve>(&specs.back())) curve->lines.clear();
+  }
+  return specs;
+}
+
+bool is_headless(const ViewArguments& a) {
+  return a.headless || !a.replay.empty() || !a.output.empty();
+}
+
+Result<void> check(const ViewArguments& a) {
+  if (!a.picture.turntable.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--turntable: the viewer turns the model live (key p); use geotherm render"};
+  }
+  if (!a.replay.empty() && !a.script.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--script and --replay: give one of them; --replay writes no files of its own"};
+  }
+  if (a.model == kStandardInput) {
+    return Error{ErrorCode::kBadInput,
+                 "the viewer reads a model again when its settings change, which standard input "
+                 "cannot be; write it to a file and name that"};
+  }
+  if (is_headless(a) && a.model.empty() && a.script.empty() && a.replay.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "there is nothing to do without a window; name a model, or commands with "
+                 "--script FILE or --replay FILE"};
+  }
+  if (!a.output.empty() && io::file_extension(a.output) != ".png") {
+    return Error{ErrorCode::kBadInput, "--output: " + one_line(a.output) +
+                                           ": pictures are written as .png; give -o FILE.png"};
+  }
+  return {};
+}
+
+/// What a session without a window has to say: all but the commands themselves.
+void collect(const Session& session, CommandOutput& out) {
+  for (const LogLine& line : session.log()) {
+    if (line.kind == LogLine::Kind::kNote) out.text += line.text + '\n';
+    if (line.kind == LogLine::Kind::kWarning) out.warnings.push_back(line.text);
+  }
+  if (!session.compare().rows.empty()) {
+    out.text += compare_table(this_machine(), session.compare().rows);
+  }
+}
+
+Result<CommandOutput> run_headless(const ViewArguments& arguments,
+                                   const std::vector<Command>& commands, Drawing& drawing,
+                                   const Progress& progress) {
+  Outputs outputs;
+  if (!arguments.output.empty()) {
+    outputs.protect(is_bundled(arguments.model) ? "" : arguments.model, "the model itself");
+    outputs.protect(arguments.script, "the script");
+    outputs.protect(arguments.replay, "the log that is replayed");
+    if (auto expected = outputs.expect(arguments.output, "--output"); !expected) {
+      return expected.error();
+    }
+    PictureSettings settings;
+    settings.device = arguments.picture.device;
+    if (auto device = drawing.open(settings); !device) return device.error();
+  }
+  DrawingDevice device;
+  ViewPainter painter;
+  painter.command = arguments.command;
+  painter.device = [&device] { return device; };
+  painter.draw = [&](const PictureData& data, const PictureSettings& settings,
+                     bool panels) -> Result<DrawnPicture> {
+    if (panels) {
+      return Error{ErrorCode::kBadInput,
+                   "there are no panels without a window; leave out 'panels'"};
+    }
+    PictureSettings mine = settings;
+    mine.device = arguments.picture.device;
+    auto opened = drawing.open(mine);
+    if (!opened) return opened.error();
+    device = *std::move(opened);
+    DrawnPicture out;
+    const auto drawn = drawing.draw(data, mine, [&out](int, const DrawnPicture& picture) {
+      out = picture;
+      return Result<void>();
+    });
+    if (!drawn) return drawn.error();
+    return out;
+  };
+  const auto save = [&painter](const command::SavePicture& wish, const Session& session) {
+    return save_view_picture(wish, session, painter);
+  };
+  SessionHooks hooks;
+  hooks.colour_maps = drawing.colour_maps();
+  hooks.save_picture = save;
+  hooks.progress = progress;
+  hooks.writes_files = arguments.replay.empty();
+  Session session(std::move(hooks));
+  std::vector<Command> all = commands;
+  const std::string& script = arguments.replay.empty() ? arguments.script : arguments.replay;
+  if (!script.empty()) all.emplace_back(command::Run{script});
+  if (auto done = session.submit_all(all); !done) return done.error();
+  CommandOutput out;
+  if (!arguments.output.empty()) {
+    if (auto saved = save({arguments.output}, session); !saved) return saved.error();
+  }
+  collect(session, out);
+  if (!arguments.output.empty()) {
+    out.text += "picture " + one_line(arguments.output) + ": " +
+                std::to_string(session.state().picture.width) + " x " +
+                std::to_string(session.state().picture.height) + " pixels, drawn by " +
+                one_line(device.name) + (device.software ? ", in software" : "") + '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+void add_view_options(CLI::App& command, ViewArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings);
+  command.add_option("--script", arguments.script, "commands to run (docs/commands.md)")
+      ->type_name("FILE");
+  command
+      .add_option("--replay", arguments.replay,
+                  "commands to run without a window and without writing files, such as the log of "
+                  "a window")
+      ->type_name("FILE");
+  command
+      .add_option("-o,--output", arguments.output,
+                  "a picture of what is shown in the end, .png; no window is opened")
+      ->type_name("FILE");
+  command.add_flag("--headless", arguments.headless, "no window: run the commands and end");
+  command.add_option("--scale", arguments.scale, "of letters and panels, default the monitor's")
+      ->type_name("FACTOR");
+  command.add_flag("--validation", arguments.validation,
+                   "what Vulkan's validation layer reports is an error");
+  add_quiet_option(command, arguments.quiet);
+  add_picture_options(command, arguments.settings, arguments.picture);
+  add_source_options(command, arguments.sources);
+  add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
+  command.footer(
+      "Examples:\n"
+      "  geotherm model.obj\n"
+      "  geotherm view bunny -s 17 --view heat-gradient\n"
+      "  geotherm view --replay session.geotherm -o out.png");
+}
+
+Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
+                                         std::span<const std::string> colour_maps) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto picture = picture_settings(*asked, arguments.settings, arguments.picture, colour_maps);
+  if (!picture) return picture.error();
+  const auto sources = sources_in(arguments.sources);
+  if (!sources) return sources.error();
+  ViewerState state = initial_state();
+  state.options = asked->options;
+  state.reading = asked->reading;
+  state.picture = *picture;
+  state.picture.device.clear();
+  if (!arguments.settings.has("fit")) state.picture.camera.fit = PictureFit::kSphere;
+  if (!arguments.model.empty()) {
+    // Opening resets what belongs to a model, so it comes first.
+    const auto opened = app::apply(initial_state(), command::Open{arguments.model});
+    if (!opened) return opened.error();
+    state.model = opened->model;
+    state.sources = opened->sources;
+  }
+  if (!sources->empty()) state.sources = *sources;
+  return commands_to(state);
+}
+
+Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
+                               ViewerWindow& window, const Progress& progress) {
+  if (auto checked = check(arguments); !checked) return checked.error();
+  const std::vector<std::string> colour_maps = drawing.colour_maps();
+  auto commands = commands_of(arguments, colour_maps);
+  if (!commands) return commands.error();
+  const auto scale = scale_in(arguments.scale);
+  if (!scale) return about("--scale", scale.error());
+  if (is_headless(arguments)) return run_headless(arguments, *commands, drawing, progress);
+
+  // A window that opens to say that there is no such file helps nobody.
+  if (is_bundled(arguments.model)) {
+    if (const auto file = bundled_file(arguments.model); !file) return file.error();
+  } else if (!arguments.model.empty()) {
+    if (const auto file = io::InputFile::open(arguments.model); !file) return file.error();
+  }
+  ViewerStart start;
+  start.commands = *std::move(commands);
+  start.script = arguments.script;
+  start.device = arguments.picture.device;
+  start.scale = *scale;
+  start.validation = arguments.validation;
+  start.command = arguments.command;
+  if (arguments.settings.has("size")) {
+    const PictureSettings picture = settings_in(arguments.settings)->picture;
+    start.width = picture.width;
+    start.height = picture.height;
+  }
+  if (auto done = window.run(start); !done) return done.error();
+  return CommandOutput{};
+}
+
+namespace {
+
+PictureFigures figures_of(const Session& session, const PictureSettings& settings) {
+  const Explored& explored = session.explored();
+  const ViewerState& state = session.state();
+  PictureFigures figures;
+  figures.model = explored.model->model.name;
+  figures.model_argument = state.model;
+  for (const SourceSpec& source : explored.sources) figures.sources.push_back(to_text(source));
+  figures.vertices = explored.model->mesh.vertices;
+  figures.faces = explored.model->mesh.faces;
+  figures.settings = settings;
+  if (const Answer* answer = shown_answer(explored, state.shown)) {
+    figures.solve = *answer;
+  }
+  return figures;
+}
+
+}  // namespace
+
+Result<void> save_view_picture(const command::SavePicture& save, const Session& session,
+                               const ViewPainter& painter) {
+  const Explored& explored = session.explored();
+  const ViewerState& state = session.state();
+  if (!explored.model) return Error{ErrorCode::kBadInput, "no model is open to draw"};
+  PictureSettings settings = state.picture;
+  if (save.width > 0 || painter.width > 0) {
+    settings.width = save.width > 0 ? save.width : painter.width;
+    settings.height = save.width > 0 ? save.height : painter.height;
+  }
+  Outputs outputs;
+  if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
+  if (auto expected = outputs.expect(save.path, "save picture"); !expected) return expected;
+
+  const PictureData data = picture_of(explored, state.shown, settings.view);
+  const auto picture = painter.draw(data, settings, save.panels);
+  if (!picture) return picture.error();
+  PictureFigures figures = figures_of(session, settings);
+  figures.command = painter.command;
+  figures.scale = picture_scale(data, settings);
+  figures.device = painter.device();
+  figures.paths = {save.path};
+  std::vector<PngText> texts = picture_texts(figures, 0);
+  texts.push_back({"Description", data.caption});
+  std::erase_if(texts, [&](const PngText& text) {
+    return text.keyword == "Description" && text.text != data.caption;
+  });
+  auto bytes = png_bytes(*picture, texts);
+  if (!bytes) return bytes.error();
+  std::string unused;
+  return outputs.write_text(save.path, *std::move(bytes), unused);
+}
+
+}  // namespace geotherm::app

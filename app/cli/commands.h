@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/cli/cli_app.h"
+#include "app/cli/drawing.h"
+#include "app/cli/line_files.h"
+#include "app/cli/options.h"
+#include "app/session/outputs.h"
+#include "app/session/progress.h"
+#include "geotherm/error.h"
+#include "geotherm/progress.h"
+
+namespace geotherm::app {
+
+struct InfoArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_info_options(CLI::App& command, InfoArguments& arguments);
+Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& progress = {});
+
+struct ListArguments {
+  std::string json;
+};
+
+void add_backends_options(CLI::App& command, ListArguments& arguments);
+void add_models_options(CLI::App& command, ListArguments& arguments);
+
+/// Name and description of the backends of this build, one a line, the default first.
+Result<CommandOutput> run_backends(const ListArguments& arguments);
+
+/// Name, number of faces and description of the bundled models, one a line.
+Result<CommandOutput> run_models(const ListArguments& arguments);
+
+struct DevicesArguments {
+  std::string json;
+};
+
+void add_devices_options(CLI::App& command, DevicesArguments& arguments);
+
+/// What can draw on this machine, one a line, the default marked; what cannot says why. Errors:
+/// kNoDevice when there is none at all, those of the JSON file.
+Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing);
+
+struct GenerateArguments {
+  std::string name;
+  std::string faces;  ///< empty: the model's usual size
+  std::string output;
+  bool quiet = false;
+};
+
+void add_generate_options(CLI::App& command, GenerateArguments& arguments);
+Result<CommandOutput> run_generate(const GenerateArguments& arguments,
+                                   const Progress& progress = {});
+
+struct SolveArguments {
+  std::string model;
+  SettingArguments settings;
+  SourceArguments sources;
+  std::vector<std::string> outputs;
+  std::string json;
+  CheckArguments check;
+  std::string fields;      ///< quality fields beside the distances, empty: none
+  bool labels = false;     ///< nearest sources in .csv and .npy, too
+  bool each = false;       ///< a row of distances for each source
+  bool pairs = false;      ///< distances between the sources alone
+  bool symmetric = false;  ///< of pairs: the mean of both directions
+  std::string dtype;       ///< of .npy rows; empty: float64
+  bool float32 = false;    ///< the same as --dtype float32
+  bool quiet = false;
+};
+
+void add_solve_options(CLI::App& command, SolveArguments& arguments);
+/// `announce`: for what --each and --pairs say before their work.
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {},
+                                const Announce& announce = {});
+
+/// `solve --each`: one row of distances for each source, streamed into a .npy array of K x V.
+Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& progress,
+                               const Announce& announce);
+
+/// `solve --pairs`: the distances between each two of K vertices.
+Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress& progress,
+                                const Announce& announce);
+
+/// Distances between K vertices, row by row: entry (i, j) is the distance at vertex j from a source
+/// at vertex i. On a polyhedral surface it would be that of (j, i); by the heat method it is so but
+/// for the discretisation error.
+struct PairMatrix {
+  std::vector<Index> vertices;
+  std::vector<double> entries;  ///< K x K
+
+  std::size_t size() const { return vertices.size(); }
+  double at(std::size_t i, std::size_t j) const { return entries[i * size() + j]; }
+};
+
+/// How far the two directions are apart where both are finite.
+struct Asymmetry {
+  double most = 0;           ///< |d_ij - d_ji|, model units
+  double of_larger = 0;      ///< the same for the most of |d_ij - d_ji| / max(d_ij, d_ji)
+  std::size_t i = 0, j = 0;  ///< where `most` is
+};
+Asymmetry asymmetry(const PairMatrix& pairs);
+
+/// Both directions become their mean.
+void symmetrise(PairMatrix& pairs);
+
+struct SampleArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string count;
+  std::string first;                 ///< a vertex id; empty: chosen by the program
+  std::vector<std::string> outputs;  ///< distances and labels of every vertex
+  std::string samples;               ///< where the list of samples goes
+  std::string json;
+  CheckArguments check;
+  bool quiet = false;
+};
+
+void add_sample_options(CLI::App& command, SampleArguments& arguments);
+Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progress& progress = {},
+                                 const Announce& announce = {});
+
+struct CompareArguments {
+  std::vector<std::string> models;
+  SettingArguments settings;
+  std::string backends = "all";
+  std::string queries = "10";
+  std::string reference;  ///< empty: the first of the backends
+  SourceArguments sources;
+  std::string json, csv, html;
+  bool quiet = false;
+};
+
+void add_compare_options(CLI::App& command, CompareArguments& arguments);
+Result<CommandOutput> run_compare(const CompareArguments& arguments, const Progress& progress = {});
+
+struct StudyArguments {
+  std::string model;
+  SettingArguments settings;
+  SourceArguments sources;
+  std::string factors = "0.1:100:13";
+  std::string json, svg;
+  bool quiet = false;
+};
+
+void add_study_options(CLI::App& command, StudyArguments& arguments);
+Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress& progress = {});
+
+struct PathArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string from;
+  std::vector<std::string> to, via;
+  std::string field = "geodesic";
+  bool closed = false, hold = false;
+  LineFileArguments files;
+  CheckArguments check;
+  bool quiet = false;
+};
+
+void add_path_options(CLI::App& command, PathArguments& arguments);
+Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress = {});
+
+struct IsolinesArguments {
+  std::string model;
+  SettingArguments settings;
+  SourceArguments sources;
+  std::string spacing, count;  ///< one of them is given
+  LineFileArguments files;
+  CheckArguments check;
+  bool quiet = false;
+};
+
+void add_isolines_options(CLI::App& command, IsolinesArguments& arguments);
+Result<CommandOutput> run_isolines(const IsolinesArguments& arguments,
+                                   const Progress& progress = {});
+
+struct RenderArguments {
+  std::string model;
+  SettingArguments settings;
+  SourceArguments sources;
+  PictureArguments picture;
+  CheckArguments check;
+  std::vector<std::string> targets;  ///< paths lead there from the sources
+  std::string output;
+  std::string json;
+  bool quiet = false;
+  std::string command;  ///< all that was typed, for the picture's file
+};
+
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+/// Pictures of a model, solved first where sources are given. Opens the device before it reads the
+/// model; leaves no frame behind when one fails. Errors: those of the options, the drawing, the
+/// solve and the files.
+Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
+                                 const Progress& progress = {});
+
+struct ViewArguments {
+  std::string model;
+  SettingArguments settings;
+  SourceArguments sources;
+  PictureArguments picture;
+  std::string script;  ///< commands to run, in the window or without
+  std::string replay;  ///< commands to run without a window and without writing files
+  std::string output;  ///< the picture at the end, without a window
+  bool headless = false;
+  std::string scale;
+  bool validation = false;
+  bool quiet = false;
+  std::string command;  ///< all that was typed, for the picture's file
+};
+
+void add_view_options(CLI::App& command, ViewArguments& arguments);
+
+/// The commands that the options stand for. Errors: those of the options.
+Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
+                                         std::span<const std::string> colour_maps);
+
+/// Opens the window, or runs the commands without one where a replay, an output or --headless says
+/// so. The output's text is then what the session has to say.
+Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
+                               ViewerWindow& window, const Progress& progress = {});
+
+}  // namespace geotherm::app

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "app/cli/many_work.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "app/session/answer.h"
+#include "app/session/machine.h"
+#include "app/session/progress.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/heat_method.h"
+#include "solver/core/memory.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/mesh/output_file.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Warnings of answers that are shown; they are alike from source to source.
+constexpr std::size_t kMaxWarnings = 5;
+
+void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  for (const std::string& text : more) {
+    if (std::ranges::find(all, text) == all.end()) all.push_back(text);
+  }
+}
+
+}  // namespace
+
+Result<NpyType> number_type(const SolveArguments& arguments) {
+  if (arguments.dtype.empty()) {
+    return arguments.float32 ? NpyType::kFloat32 : NpyType::kFloat64;
+  }
+  const auto type = parse_npy_type(arguments.dtype);
+  if (!type) return about("--dtype", type.error());
+  if (arguments.float32 && *type != NpyType::kFloat32) {
+    return Error{ErrorCode::kBadInput,
+                 "--dtype " + arguments.dtype + " and --float32 disagree; leave one of them out"};
+  }
+  return *type;
+}
+
+Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option) {
+  const auto refuse = [&option](const std::string& other) {
+    return Error{ErrorCode::kBadInput,
+                 other + " is about one source set, and " + option +
+                     " solves for each source by itself; leave one of them out"};
+  };
+  if (arguments.check.check) return refuse("--check");
+  if (!arguments.fields.empty()) return refuse("--fields");
+  if (arguments.labels) return refuse("--labels");
+  return {};
+}
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const MethodOptions& options = asked->options;
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
+  const auto named = some_sources_of(arguments.sources);
+  if (!named) return named.error();
+  auto model = load_model(arguments.model, asked->reading, progress);
+  if (!model) return model.error();
+  if (auto pin = check_pin(options.constraint, *model->mesh); !pin) return pin.error();
+  auto sources = resolve_each(*named, *model->mesh);
+  if (!sources) return sources.error();
+  const std::size_t chunk =
+      std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
+               sources->sets.size());
+  const MeshReport mesh = inspect_mesh(*model->mesh);
+  return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
+}
+
+Result<void> check_room(const std::string& path, double bytes) {
+  const auto room = room_for(path);
+  if (!room || bytes <= static_cast<double>(*room)) return {};
+  return Error{ErrorCode::kBadFile,
+               one_line(path) + ": the file would take " + bytes_in_words(bytes) + ", and " +
+                   bytes_in_words(static_cast<double>(*room)) +
+                   " are free there; take fewer sources, --dtype float32 or another place"};
+}
+
+Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
+                               const TakeRow& take, const std::string& output,
+                               const Progress& progress, const Announce& announce) {
+  constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
+  ModelSolver solver(work.model);
+  auto ready = solver.prepare(work.options, part_of(progress, 0.0, kMethodShare));
+  if (!ready) return ready.error();
+  keep_freed_memory();  // from here on answers come and go
+  ManyFigures figures;
+  add_warnings(figures.warnings, work.model.notes);
+  if (work.check.mode != CheckMode::kNone) {
+    auto checked = solver.check_method(*ready, work.sources.sets, work.check,
+                                       part_of(progress, kMethodShare, kSetupShare));
+    if (!checked) return checked.error();
+    *ready = std::move(checked->by);
+    figures.error = std::move(checked->error);
+    figures.replaced = std::move(checked->replaced);
+    add_warnings(figures.warnings, checked->warnings);
+  }
+  figures.method = std::move(ready->method);
+  figures.options = ready->options;
+  add_warnings(figures.warnings, told(figures.method->warnings()));
+  add_warnings(figures.warnings, work.sources.warnings);
+
+  const std::size_t rows = work.sources.sets.size();
+  StreamOptions stream;
+  stream.chunk = work.chunk;
+  std::vector<std::string> of_answers;
+  std::optional<Error> not_taken;
+  const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
+    auto taken = take(row, answer.distances);
+    if (!taken) {
+      not_taken = taken.error();
+      return taken;
+    }
+    add_warnings(of_answers, told(answer.warnings));
+    answer.distances = {};
+    if (row == 0) figures.first = std::move(answer);
+    return {};
+  };
+  const Stopwatch watch;
+  const std::string details =
+      output + ", up to " +
+      bytes_in_words(static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk))) +
+      " of memory for answers and " + bytes_in_words(figures.method->memory_mb() * kMegabyte) +
+      " for the method";
+  const auto done = stream_answers(
+      *figures.method, work.sources.sets, stream, sink,
+      with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,
+                    counted(static_cast<std::int64_t>(rows), "source", "sources"), details));
+  if (!done) return not_taken ? *not_taken : about_model(work.model.name, done.error());
+  figures.queries_ms = watch.milliseconds();
+  figures.peak_rss_mb = peak_rss_mb();
+
+  if (of_answers.size() > kMaxWarnings) {
+    const auto more = static_cast<std::int64_t>(of_answers.size() - kMaxWarnings);
+    of_answers.resize(kMaxWarnings);
+    of_answers.push_back("and " + counted(more, "more such warning", "more such warnings") +
+                         " about the first " +
+                         counted(static_cast<std::int64_t>(work.chunk), "source", "sources"));
+  }
+  add_warnings(figures.warnings, of_answers);
+  note_unused_settings(arguments.settings, work.options, figures.warnings);
+  return figures;
+}
+
+std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
+                        const ManyFigures& figures) {
+  if (!figures.error) return {};
+  return accuracy_note(arguments.json, outputs, arguments.quiet, figures.error->report,
+                       accuracy_line(*figures.error));
+}
+
+std::string unreached_note(const ManySources& work, std::int64_t unreached) {
+  return counted(unreached, "distance is", "distances are") +
+         " infinite: no way leads there from the source (" +
+         counted(work.mesh.components, "component", "components") + ", " +
+         counted(work.mesh.unreferenced_vertices, "vertex", "vertices") + " in no face)";
+}
+
+Json many_json(const ManySources& work, const ManyFigures& figures) {
+  Json sources = Json::array();
+  for (const SourceSet& set : work.sources.sets) {
+    if (set.edges.empty()) {
+      sources.push_back(point_json(set.points.front()));
+    } else {
+      sources.push_back({{"edges", set.edges.size()}});
+    }
+  }
+  const SetupTiming& setup = figures.method->timing();
+  const auto rows = static_cast<double>(work.sources.sets.size());
+  Json json = {
+      {"model", model_json(work.model.name, work.mesh)},
+      {"options", options_json(*figures.method, figures.options, figures.first)},
+      {"sources", std::move(sources)},
+      {"timing_ms",
+       {{"load", work.model.load_ms},
+        {"setup", setup.setup},
+        {"queries", figures.queries_ms},
+        {"query", figures.queries_ms / rows}}},
+      {"memory_mb",
+       {{"factor", figures.method->memory_mb()},
+        {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
+        {"peak_rss", figures.peak_rss_mb}}},
+      {"warnings", figures.warnings}};
+  if (figures.error) json["error"] = error_json(*figures.error);
+  if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
+  return json;
+}
+
+std::string many_table(const ManySources& work, const ManyFigures& figures,
+                       std::vector<std::array<std::string, 2>> first_rows) {
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  for (auto& [name, value] : first_rows) table.add_row({std::move(name), std::move(value)});
+  const HeatMethod* const heat = figures.method->heat();
+  table.add_row({"method", to_text(figures.method->kind()) +
+                               (heat ? ", " + figures.first.backend : std::string()) + ", " +
+                               counted(thread_count(work.options.threads), "thread", "threads")});
+  const auto rows = static_cast<double>(work.sources.sets.size());
+  table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
+  table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
+                                milliseconds(figures.queries_ms / rows) + " ms each"});
+  if (figures.error) table.add_row({"error", accuracy_line(*figures.error)});
+  return table.text();
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/session/model.h"
+#include "app/session/model_solver.h"
+#include "app/session/place_sources.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
+#include "geotherm/io.h"
+#include "geotherm/many.h"
+#include "geotherm/mesh_report.h"
+
+// What `solve --each` and `solve --pairs` have in common: many source sets, answers that come in a
+// stream.
+namespace geotherm::app {
+
+/// Set-up's share of the bar.
+inline constexpr double kSetupShare = 0.1;
+
+/// The work before its method is set up.
+struct ManySources {
+  Model model;
+  MeshReport mesh;
+  MethodOptions options;
+  EachSource sources;
+  CheckSettings check;
+  std::size_t chunk = 1;  ///< sources solved at once
+};
+
+/// All answers, without the answers.
+struct ManyFigures {
+  std::shared_ptr<const DistanceMethod> method;
+  DistanceResult first;   ///< the first answer, without its distances
+  double queries_ms = 0;  ///< from the first source to the last row
+  double peak_rss_mb = 0;
+  std::vector<std::string> warnings;
+  MethodOptions options;                ///< of `method`
+  std::optional<SampleCheck> error;     ///< of some of the sources; none: not to be checked
+  std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for
+};
+
+/// Takes the distances from source number `row`. In the order of the sources. An error ends the
+/// work and is what solve_many() returns.
+using TakeRow = std::function<Result<void>(std::size_t row, std::span<const double> distances)>;
+
+/// `--dtype` and `--float32`. Errors: kBadInput, kNotAvailable.
+Result<NpyType> number_type(const SolveArguments& arguments);
+
+/// Refuses options of a solve that have no meaning for many. Errors: kBadInput.
+Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option);
+
+/// Reads model and sources. Errors: those of the options, of load_model() and resolve_each().
+Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress);
+
+/// Whether a file of so many bytes fits where it is to be. Errors: kBadFile, with both sizes.
+Result<void> check_room(const std::string& path, double bytes);
+
+/// Sets the method up, checks it on some of the sources and hands every row to `take`. `output`:
+/// what will be written, for the estimate. Warnings: those of model, sources, method, the check and
+/// the first answers. Errors: those of the work, kNumericalFailure (OnPoor::kFail, before any row).
+Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
+                               const TakeRow& take, const std::string& output,
+                               const Progress& progress, const Announce& announce);
+
+/// accuracy_note() of what was checked.
+std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
+                        const ManyFigures& figures);
+
+/// Says why so many distances are infinite.
+std::string unreached_note(const ManySources& work, std::int64_t unreached);
+
+/// model, options, sources, timing_ms, memory_mb, warnings: what both reports begin with.
+Json many_json(const ManySources& work, const ManyFigures& figures);
+
+/// What people see: `first_rows`, then method, set-up and queries.
+std::string many_table(const ManySources& work, const ManyFigures& figures,
+                       std::vector<std::array<std::string, 2>> first_rows);
+
+}  // namespace geotherm::app

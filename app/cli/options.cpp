@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "app/cli/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+
+#include "app/picture/picture_text.h"
+#include "app/session/model.h"
+#include "app/session/state.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+
+CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings) {
+  add_setting_options(command, settings, names_of(SettingGroup::kModel));
+  return command
+      .add_option("MODEL", model,
+                  "a file (.obj .ply .off .stl), a bundled model (geotherm models), or - for "
+                  "standard input with --format")
+      ->type_name("");
+}
+
+void add_quiet_option(CLI::App& command, bool& quiet) {
+  command.add_flag("--quiet", quiet, "no progress bar, no estimate of time");
+}
+
+void add_source_options(CLI::App& command, SourceArguments& arguments) {
+  command
+      .add_option(
+          "-s,--source", arguments.sources,
+          "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
+          "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z; points may "
+          "end in @OFFSET, the distance there; may be "
+          "repeated, all are one source set")
+      ->type_name("SOURCES")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Sources");
+  command
+      .add_option("--source-file", arguments.file,
+                  "one source a line: a vertex id, face:..., xyz:..., or x y z; # begins a comment")
+      ->type_name("FILE")
+      ->group("Sources");
+  command
+      .add_flag("--curve", arguments.curve,
+                "the ids of the source file are a polyline; all of it is a source")
+      ->group("Sources");
+}
+
+void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs) {
+  if (!is_bundled(model) && model != kStandardInput) outputs.protect(model, "the model itself");
+  outputs.protect(sources.file, "the source file");
+}
+
+Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments) {
+  auto named = sources_of(arguments);
+  if (!named || !named->empty()) return named;
+  return Error{ErrorCode::kBadInput,
+               "no source was given; say where distance is 0, such as -s 17 or -s boundary"};
+}
+
+Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
+  if (arguments.curve && arguments.file.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--curve needs the vertex ids of the curve; add --source-file FILE"};
+  }
+  std::vector<Source> sources;
+  for (const std::string& text : arguments.sources) {
+    auto spec = parse_source(text);
+    if (!spec) return about("--source", spec.error());
+    const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
+    sources.push_back({*std::move(spec), "--source " + one_line(shown), ErrorCode::kBadInput});
+  }
+  if (arguments.file.empty()) return sources;
+  auto listed = read_source_file(arguments.file, arguments.curve);
+  if (!listed) return listed.error();
+  for (Source& source : *listed) sources.push_back(std::move(source));
+  return sources;
+}
+
+namespace {
+
+const char* heading_of(SettingGroup group) {
+  switch (group) {
+    case SettingGroup::kModel:
+      return "Model";
+    case SettingGroup::kMethod:
+      return "Method";
+    case SettingGroup::kCheck:
+      return "Accuracy";
+    case SettingGroup::kPicture:
+      return "Picture";
+    case SettingGroup::kCamera:
+      return "Camera";
+  }
+  return "";
+}
+
+std::string spelling_of(const Setting& setting) {
+  if (!setting.option.empty()) return std::string(setting.option);
+  return "--" + std::string(setting.name);
+}
+
+/// The phrase, the values there are, and what holds where the option is left out.
+std::string help_of(const Setting& setting, const ViewerState& state) {
+  const std::string help(setting.help);
+  if (!setting.bare.empty()) return setting.bare == "off" ? "without " + help : help;
+  if (!setting.forms.empty()) return help + ": " + std::string(setting.forms);
+  const std::string usual = setting.get(state);
+  if (setting.values == nullptr) return help + ", default " + usual;
+  std::vector<std::string> values = setting.values();
+  for (std::string& value : values) {
+    if (value == usual) value += " (default)";
+  }
+  return help + ": " + joined(values);
+}
+
+}  // namespace
+
+std::vector<std::string_view> names_of(SettingGroup group, std::vector<std::string_view> without) {
+  std::vector<std::string_view> names;
+  for (const Setting& setting : settings()) {
+    if (setting.group != group || std::ranges::count(without, setting.name) > 0) continue;
+    names.push_back(setting.name);
+  }
+  return names;
+}
+
+void add_setting_options(CLI::App& command, SettingArguments& arguments,
+                         const std::vector<std::string_view>& names) {
+  const ViewerState usual = usual_settings();
+  for (const std::string_view name : names) {
+    const Setting& setting = *find_setting(name);
+    const auto take = [&arguments, name](const std::string& text) {
+      arguments.texts[std::string(name)] = text;
+    };
+    CLI::Option* const option =
+        setting.bare.empty()
+            ? command
+                  .add_option_function<std::string>(spelling_of(setting), take,
+                                                    help_of(setting, usual))
+                  ->type_name(std::string(setting.value_name))
+            : command.add_flag_callback(
+                  spelling_of(setting), [take, bare = std::string(setting.bare)] { take(bare); },
+                  help_of(setting, usual));
+    option->group(heading_of(setting.group));
+  }
+}
+
+ViewerState usual_settings() {
+  ViewerState state = initial_state();
+  state.picture = {};
+  return state;
+}
+
+Result<ViewerState> settings_in(const SettingArguments& arguments) {
+  ViewerState state = usual_settings();
+  for (const Setting& setting : settings()) {
+    const auto typed = arguments.texts.find(setting.name);
+    if (typed == arguments.texts.end()) continue;
+    const auto set = setting.set(state, typed->second);
+    if (!set) {
+      return about("--" + std::string(setting.name), set.error());
+    }
+  }
+  return state;
+}
+
+void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
+                          std::vector<std::string>& warnings) {
+  if (options.method != MethodKind::kHeat) {
+    const ViewerState usual = usual_settings();
+    std::vector<std::string> unused;
+    for (const Setting& setting : settings()) {
+      const auto typed = arguments.texts.find(setting.name);
+      if (!setting.of_heat || typed == arguments.texts.end()) continue;
+      if (typed->second != setting.get(usual)) unused.push_back("--" + std::string(setting.name));
+    }
+    if (unused.empty()) return;
+    warnings.push_back("the method " + to_text(options.method) + " does not use " + joined(unused) +
+                       "; these are options of --method heat");
+    return;
+  }
+  const auto factor = arguments.texts.find("time-factor");
+  if (options.time_step.rule != TimeRule::kAbsolute || factor == arguments.texts.end()) return;
+  warnings.push_back("--time-factor " + factor->second + " is not used: --time-step " +
+                     arguments.texts.find("time-step")->second +
+                     " is the time itself; leave one of them out");
+}
+
+void add_check_options(CLI::App& command, CheckArguments& arguments) {
+  add_no_check_option(command, arguments);
+  command
+      .add_option("--on-poor", arguments.on_poor,
+                  "what becomes of poor distances: keep (default: a warning), better (the first of "
+                  "wavefront, wavefront-fine, exact that is right answers instead), fail (exit "
+                  "code 1, nothing is written)")
+      ->type_name("WHAT")
+      ->group("Accuracy");
+}
+
+void add_no_check_option(CLI::App& command, CheckArguments& arguments) {
+  command
+      .add_flag("--no-check", arguments.no_check,
+                "heat distances are not held against near-exact ones, which is done otherwise")
+      ->group("Accuracy");
+}
+
+Result<CheckSettings> check_settings(const CheckArguments& arguments) {
+  CheckSettings settings;
+  if (arguments.on_poor == "better") {
+    settings.on_poor = OnPoor::kBetter;
+  } else if (arguments.on_poor == "fail") {
+    settings.on_poor = OnPoor::kFail;
+  } else if (!arguments.on_poor.empty() && arguments.on_poor != "keep") {
+    return Error{ErrorCode::kBadInput,
+                 "--on-poor: '" + one_line(arguments.on_poor) + "' is none of keep, better, fail"};
+  }
+  if (arguments.no_check && arguments.check) {
+    return Error{ErrorCode::kBadInput,
+                 "--check and --no-check were both given; leave one of them out"};
+  }
+  if (arguments.no_check && settings.on_poor != OnPoor::kKeep) {
+    return Error{ErrorCode::kBadInput,
+                 "--on-poor " + arguments.on_poor + " needs the check; leave --no-check out"};
+  }
+  if (arguments.check) settings.mode = CheckMode::kThorough;
+  if (arguments.no_check) settings.mode = CheckMode::kNone;
+  return settings;
+}
+
+std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
+                          const AccuracyReport& report, const std::string& line) {
+  if (quiet || !outputs.uses_stdout() || json == "-") return {};
+  if (!report.measured || report.is_poor()) return {};
+  return "accuracy: " + line;
+}
+
+namespace {
+
+constexpr int kMaxFrames = 3600;
+
+Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_maps,
+                               std::string& chosen) {
+  if (!typed && !colour_maps.empty()) chosen = colour_maps.front();
+  if (std::ranges::count(colour_maps, chosen) > 0) return {};
+  return Error{ErrorCode::kBadInput, "--colour-map: there is no colour map '" + one_line(chosen) +
+                                         "'; there are " + joined(colour_maps)};
+}
+
+/// What fits where nobody said: a sphere where the model turns or its middle is given.
+Result<void> choose_fit(bool typed, const PictureSettings& picture, CameraSettings& camera) {
+  if (!typed) {
+    const bool sphere = picture.turntable > 0 || camera.centre;
+    camera.fit = sphere ? PictureFit::kSphere : PictureFit::kTight;
+  }
+  if (!camera.centre || camera.fit != PictureFit::kTight) return {};
+  return Error{ErrorCode::kBadInput,
+               "--centre: a tight fit decides itself what is in the middle; give --fit sphere"};
+}
+
+}  // namespace
+
+void add_picture_options(CLI::App& command, SettingArguments& settings, PictureArguments& a) {
+  add_setting_options(command, settings, names_of(SettingGroup::kPicture));
+  command.add_option("--device", a.device, "part of a device's name (geotherm devices)")
+      ->type_name("NAME")
+      ->group("Picture");
+  add_setting_options(command, settings, names_of(SettingGroup::kCamera));
+  command
+      .add_option("--turntable", a.turntable,
+                  "N pictures of one turn, numbered from 000 before the extension")
+      ->type_name("N")
+      ->group("Camera");
+}
+
+void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
+  add_setting_options(command, settings,
+                      {"size", "background", "azimuth", "elevation", "zoom", "pan", "projection"});
+}
+
+void complete_bare_fit(std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] != "--fit") continue;
+    if (i + 1 == words.size() || !parse_fit(words[i + 1])) words[i] = "--fit=tight";
+  }
+}
+
+Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,
+                                         const PictureArguments& a,
+                                         std::span<const std::string> colour_maps) {
+  PictureSettings picture = asked.picture;
+  const bool typed_map = typed.has("colour-map");
+  if (auto map = choose_colour_map(typed_map, colour_maps, picture.colour_map); !map) {
+    return map.error();
+  }
+  if (!a.turntable.empty()) {
+    const auto frames =
+        whole_between(a.turntable, 1, kMaxFrames,
+                      "is no number of pictures; give 1 to " + std::to_string(kMaxFrames));
+    if (!frames) return about("--turntable", frames.error());
+    picture.turntable = *frames;
+  }
+  if (auto fit = choose_fit(typed.has("fit"), picture, picture.camera); !fit) return fit.error();
+  picture.device = a.device;
+  return picture;
+}
+
+}  // namespace geotherm::app

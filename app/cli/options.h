@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/cli/cli_app.h"
+#include "app/picture/picture_settings.h"
+#include "app/session/check.h"
+#include "app/session/outputs.h"
+#include "app/session/settings.h"
+#include "app/session/sources.h"
+#include "geotherm/error.h"
+
+// The table of settings on the command line.
+namespace geotherm::app {
+
+/// Where distance is 0, as typed.
+struct SourceArguments {
+  std::vector<std::string> sources;
+  std::string file;
+  bool curve = false;
+};
+
+/// The model as a word of its own, and how it is read.
+CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
+void add_source_options(CLI::App& command, SourceArguments& arguments);
+void add_quiet_option(CLI::App& command, bool& quiet);
+
+/// The files that these name, which no output may replace.
+void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
+
+/// The sources of a command that cannot do without. Errors: those of sources_of(), kBadInput
+/// (none).
+Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
+
+/// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
+Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
+
+/// Settings as typed: texts by name.
+struct SettingArguments {
+  std::map<std::string, std::string, std::less<>> texts;
+
+  bool has(std::string_view name) const { return texts.contains(name); }
+};
+
+/// The names of a group's settings, but for some.
+std::vector<std::string_view> names_of(SettingGroup group,
+                                       std::vector<std::string_view> without = {});
+
+/// An option for each of these settings, under the heading of its group.
+void add_setting_options(CLI::App& command, SettingArguments& arguments,
+                         const std::vector<std::string_view>& names);
+
+/// What a command begins with where nothing is typed.
+ViewerState usual_settings();
+
+/// Those with what was typed. Errors: kBadInput or kNotAvailable, with the option's name and what
+/// is expected.
+Result<ViewerState> settings_in(const SettingArguments& arguments);
+
+/// Says which of the typed settings of methods have no effect beside the others.
+void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
+                          std::vector<std::string>& warnings);
+
+/// How distances are to be checked, as typed.
+struct CheckArguments {
+  bool check = false;
+  bool no_check = false;
+  std::string on_poor;  ///< empty: keep
+};
+
+/// --no-check and --on-poor.
+void add_check_options(CLI::App& command, CheckArguments& arguments);
+void add_no_check_option(CLI::App& command, CheckArguments& arguments);
+
+/// Errors: kBadInput (options that contradict each other, a word that is none).
+Result<CheckSettings> check_settings(const CheckArguments& arguments);
+
+/// How right the distances are, for standard error where it is nowhere on standard output; empty:
+/// it is there, nobody wants it, or a warning says it. `json`: where the JSON goes; `line`:
+/// accuracy_line().
+std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
+                          const AccuracyReport& report, const std::string& line);
+
+/// What a picture needs beside the settings of the table, as typed.
+struct PictureArguments {
+  std::string turntable;  ///< empty: one picture
+  std::string device;
+};
+
+void add_picture_options(CLI::App& command, SettingArguments& settings,
+                         PictureArguments& arguments);
+
+/// `--fit` may stand alone, and CLI11 would then take the next word for its value: a bare one
+/// becomes `--fit=tight`.
+void complete_bare_fit(std::vector<std::string>& words);
+
+/// `asked`: settings_in() of what was typed, `typed`; `colour_maps`: the names there are, the
+/// default first. Errors: kBadInput, with the option's
+/// name, the value and what is expected.
+Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,
+                                         const PictureArguments& arguments,
+                                         std::span<const std::string> colour_maps);
+
+/// Those of the options that a picture of lines has, too, .svg.
+void add_line_picture_options(CLI::App& command, SettingArguments& settings);
+
+}  // namespace geotherm::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/drawing.h"
+#include "app/picture/picture_scale.h"
+#include "app/picture/png_file.h"
+#include "app/session/report.h"
+
+namespace geotherm::app {
+
+/// All there is to say about pictures of one model.
+struct PictureFigures {
+  std::string model;                 ///< its name
+  std::string model_argument;        ///< as typed: a path or a bundled name
+  std::vector<std::string> sources;  ///< as typed
+  std::string command;               ///< the command line; empty: unknown
+  Index vertices = 0, faces = 0;
+  std::optional<Answer> solve;  ///< none: drawn without distances
+  PictureSettings settings;
+  PictureScale scale;
+  DrawingDevice device;
+  std::vector<std::string> paths;  ///< one a frame
+  struct Line {
+    std::string target, field;
+    double length = 0;  ///< model units
+  };
+  std::vector<Line> lines;           ///< paths that are drawn
+  double draw_ms = 0, write_ms = 0;  ///< all frames together
+};
+
+/// "bunny, 4,000 faces, t = 0.0123, cholmod": what stands under a picture.
+std::string caption_of(const PictureFigures& figures);
+
+/// What the file of frame i says about itself: software, title, the command line, and every option
+/// of solve and picture with its value.
+std::vector<PngText> picture_texts(const PictureFigures& figures, int frame);
+
+/// The keys of solve_json where there was a solve, and `picture`.
+Json picture_json(const PictureFigures& figures);
+
+/// What `render` shows to people.
+std::string picture_table(const PictureFigures& figures);
+
+/// "llvmpipe, in software".
+std::string device_in_words(const DrawingDevice& device);
+
+}  // namespace geotherm::app

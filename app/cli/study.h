@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/model.h"
+#include "app/session/report.h"
+#include "geotherm/build_method.h"
+#include "geotherm/progress.h"
+
+namespace geotherm::app {
+
+/// The heat method with one choice of time, boundary rule and constraint. What could not be had is
+/// empty.
+struct StudyRow {
+  TimeRule rule = TimeRule::kMeanEdge;
+  double factor = 1;  ///< m
+  double t = 0;       ///< model units squared
+  double unit_t = 0;  ///< t / h^2, h the mean edge length of the component that t is of
+  BoundaryRule boundary = BoundaryRule::kNeumann;
+  ConstraintMode constraint = ConstraintMode::kPinSources;
+  std::optional<double> mean_error;       ///< mean of |d - e| / e
+  std::optional<double> max_error;        ///< largest |d - e| as a share of the largest e
+  std::optional<double> source_distance;  ///< largest |d| on a source, as a share of the largest e
+  std::string message;                    ///< why something is missing
+};
+
+struct StudyTask {
+  MethodOptions options;  ///< of the heat method, but for what is swept
+  SourceSet sources;
+  std::vector<double> factors;  ///< m, ascending
+  std::vector<BoundaryRule> boundaries;
+  double mean_edge = 0;  ///< of the mesh (MeshReport), model units
+};
+
+struct Study {
+  std::vector<StudyRow> rows;  ///< by rule, factor, boundary, constraint
+  MethodKind reference = MethodKind::kExact;
+  double largest_distance = 0;  ///< of the reference, model units
+  double mean_edge = 0;         ///< model units
+};
+
+/// The constraint modes that are swept, in the order of the rows.
+std::vector<Constraint> study_constraints();
+
+/// `count` (2 or more) factors from `least` to `most`, about the same ratio apart: those between
+/// are rounded to as many digits as tell them apart.
+std::vector<double> study_factors(double least, double most, int count);
+
+/// Sweeps the time factor over both rules, all constraint modes and the boundary rules, each held
+/// against the best method that fits the mesh (reference_for()). What fails is a row with its
+/// message. Cost: a heat factorisation for each rule, factor and boundary rule, and a query for
+/// each row. Errors: those of the reference; kCancelled.
+Result<Study> sweep(const Model& model, const StudyTask& task, const Progress& progress = {});
+
+/// The mean error over m for each rule and boundary rule with the default constraint, the other
+/// constraints at the best m, and what is best.
+std::string study_table(const std::string& model, const Study& study);
+
+/// {"model", "sources", "reference", "largest_distance", "mean_edge_length", "best", "rows"}.
+Json study_json(const std::string& model, const SourceSet& sources, const Study& study);
+
+/// The error as curves on logarithmic axes: over m for both rules, over t / h^2, and over m for the
+/// constraint modes. A picture that needs nothing else.
+std::string study_svg(const std::string& model, const Study& study);
+
+/// The row with the smallest mean error; null where there is none.
+const StudyRow* best_row(const Study& study);
+
+}  // namespace geotherm::app

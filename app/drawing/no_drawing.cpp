@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// In builds without the engine, instead of engine_drawing.cpp.
+#include "app/cli/drawing.h"
+
+namespace geotherm::app {
+namespace {
+
+Error no_renderer() {
+  return {ErrorCode::kNoDevice,
+          "this build has no renderer; configure it with -DGEOTHERM_BUILD_ENGINE=ON"};
+}
+
+class NoDrawing final : public Drawing {
+ public:
+  std::vector<std::string> colour_maps() const override { return {"red-blue"}; }
+  Result<std::vector<DrawingDevice>> devices() override { return no_renderer(); }
+  Result<DrawingDevice> open(const PictureSettings&) override { return no_renderer(); }
+  Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&) override {
+    return no_renderer();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> make_drawing() { return std::make_unique<NoDrawing>(); }
+
+}  // namespace geotherm::app

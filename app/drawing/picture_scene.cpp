@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "app/drawing/picture_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/picture/picture_scale.h"
+#include "app/session/text.h"
+#include "engine/scene/colours.h"
+
+namespace geotherm::app {
+namespace {
+
+/// The picture's smaller side that widths in pixels are meant for.
+constexpr float kUsualSide = 720;
+/// Lines of a small picture stay visible.
+constexpr float kMinScale = 0.75F;
+/// More isolines than this tell nothing on a bar.
+constexpr double kMaxLinesOnBar = 200;
+
+/// Between the model and the sides of the picture, of the smaller of them.
+constexpr float kMargin = 0.03F;
+
+/// Colours that stand for those of all regions.
+constexpr std::size_t kMaxPatches = 6;
+
+constexpr float kPaperOpacity = 0.75F;
+
+/// Sources in the view that is about them.
+constexpr float kLargeMarker = 8;
+constexpr glm::vec3 kSourceRed{0.86F, 0.13F, 0.11F};
+
+constexpr glm::vec3 kDarkInk{0.10F, 0.11F, 0.13F};
+constexpr glm::vec3 kLightInk{0.90F, 0.91F, 0.93F};
+constexpr glm::vec4 kWhite{1, 1, 1, 1};
+constexpr glm::vec4 kDark{0.10F, 0.11F, 0.13F, 1};
+constexpr glm::vec4 kNothing{1, 1, 1, 0};
+
+/// Model units as the engine's values; kept within what shaders can compute with.
+float value_of(const PictureData& data, double distance) {
+  constexpr double kLargest = 1e18;
+  return static_cast<float>(std::clamp(distance / data.value_unit, -kLargest, kLargest));
+}
+
+engine::Light light_of(PictureLight light) {
+  switch (light) {
+    case PictureLight::kHeadlight:
+      return engine::Light::kHeadlight;
+    case PictureLight::kThreePoint:
+      return engine::Light::kThreePoint;
+    case PictureLight::kNone:
+      break;
+  }
+  return engine::Light::kNone;
+}
+
+glm::vec4 background_of(PictureBackground background) {
+  switch (background) {
+    case PictureBackground::kDark:
+      return kDark;
+    case PictureBackground::kTransparent:
+      return kNothing;
+    case PictureBackground::kLight:
+      break;
+  }
+  return kWhite;
+}
+
+engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& settings,
+                                const PictureScale& scale) {
+  engine::SurfaceStyle style;
+  style.smooth = settings.view != View::kFlat;
+  style.wire = settings.view == View::kWireframe;
+  if (face_field(settings.view) && !data.face_values.empty()) {
+    style.paint = engine::Paint::kFaces;
+    style.range_max = data.largest_face_value;
+    return style;
+  }
+  const bool regions = shows_regions(data, settings);
+  if (regions) style.paint = engine::Paint::kRegions;
+  const bool mapped = maps_values(settings.view);
+  if (data.values.empty() || !(regions || mapped)) return style;
+  if (mapped) style.paint = engine::Paint::kMap;
+  if (!data.is_signed) {
+    style.scene_per_value = static_cast<float>(data.value_unit / data.model_per_scene);
+  }
+  style.range_min = value_of(data, scale.min);
+  style.range_max = value_of(data, scale.max);
+  style.line_spacing = value_of(data, scale.spacing);
+  return style;
+}
+
+/// Room for what is wider than the model: markers, arrow heads, the smooth edge itself.
+engine::Insets with_margin(glm::vec2 extent, const engine::Insets& insets) {
+  const float margin = kMargin * std::min(extent.x, extent.y);
+  return {std::max(insets.left, margin), std::max(insets.top, margin),
+          std::max(insets.right, margin), std::max(insets.bottom, margin)};
+}
+
+/// A point far outside the model is of no use in its middle.
+glm::vec3 scene_centre(const PictureData& data, const std::array<double, 3>& centre) {
+  constexpr double kFarthest = 100;
+  glm::vec3 out(0);
+  for (int k = 0; k < 3; ++k) {
+    const double x = (centre[static_cast<std::size_t>(k)] - data.centre[k]) / data.model_per_scene;
+    out[k] = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+  }
+  return out;
+}
+
+/// What the colours of arrows, regions and lines stand for.
+std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings& settings) {
+  std::vector<engine::Key> keys;
+  if (settings.view == View::kGradientError) {
+    const engine::ArrowStyle style;
+    keys = {{style.primary_colour, "X = -\u2207u / |\u2207u|"},
+            {style.secondary_colour, "\u2207\u03c6, as long as its angle to X (full: 90\u00b0)"}};
+  }
+  if (shows_regions(data, settings)) {
+    std::set<Index> groups(data.nearest.begin(), data.nearest.end());
+    groups.erase(kNoIndex);
+    const std::size_t known = groups.size();
+    engine::Key key{.label = "nearest source (" + std::to_string(known) + ")"};
+    for (std::uint32_t i = 0; i < std::min(known, kMaxPatches); ++i) {
+      key.patches.push_back(engine::region_colour(i));
+    }
+    keys.push_back(std::move(key));
+  }
+  for (const PictureData::Line& line : data.lines) {
+    const glm::vec3 colour(line.colour[0], line.colour[1], line.colour[2]);
+    const bool stands = std::any_of(keys.begin(), keys.end(), [&](const engine::Key& key) {
+      return key.label == line.name && key.colour == colour;
+    });
+    if (line.name.empty() || stands) continue;
+    keys.push_back({colour, line.name, engine::LineStyle().rim_about(colour)});
+  }
+  return keys;
+}
+
+}  // namespace
+
+engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
+                         const PictureScale& scale) {
+  engine::Legend legend;
+  legend.ink = settings.background == PictureBackground::kDark ? kLightInk : kDarkInk;
+  legend.paper = background_of(settings.background);
+  legend.paper.a *= kPaperOpacity;
+  if (settings.caption) legend.caption = data.caption;
+  if (settings.bar) legend.keys = keys_of(data, settings);
+  const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
+  if (!scale.bar || map == nullptr) return legend;
+  legend.bar = true;
+  legend.title = face_field(settings.view) ? data.face_title : data.value_title;
+  for (const glm::vec4& colour : engine::colour_table(*map, settings.reverse)) {
+    legend.colours.emplace_back(colour);
+  }
+  const double width = scale.max - scale.min;
+  const auto position = [&](double distance) {
+    return static_cast<float>(std::clamp((distance - scale.min) / width, 0.0, 1.0));
+  };
+  for (std::size_t i = 0; i < scale.ticks.values.size(); ++i) {
+    legend.ticks.push_back({position(scale.ticks.values[i]), scale.ticks.labels[i]});
+  }
+  if (!(scale.spacing > 0) || width / scale.spacing > kMaxLinesOnBar) return legend;
+  const double first = std::floor(scale.min / scale.spacing) + 1;
+  for (double i = first; i * scale.spacing < scale.max; ++i) {
+    legend.lines.push_back(position(i * scale.spacing));
+  }
+  return legend;
+}
+
+engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
+                         std::span<const glm::vec3> points, glm::vec2 extent,
+                         const engine::Insets& insets) {
+  engine::Orbit orbit;
+  orbit.azimuth = static_cast<float>(camera.azimuth);
+  orbit.elevation = static_cast<float>(camera.elevation);
+  orbit.zoom = static_cast<float>(camera.zoom);
+  orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
+  orbit.orthographic = camera.orthographic;
+  orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
+  if (camera.centre) orbit.centre = scene_centre(data, *camera.centre);
+  return engine::make_camera(orbit, points, extent, with_margin(extent, insets));
+}
+
+glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets) {
+  const engine::Insets padded = with_margin(extent, insets);
+  return {(padded.left + extent.x - padded.right) / 2, (padded.top + extent.y - padded.bottom) / 2};
+}
+
+engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
+                       const PictureScale& scale) {
+  engine::Scene scene;
+  scene.light = light_of(settings.light);
+  scene.background = background_of(settings.background);
+  scene.surface = surface_of(data, settings, scale);
+  scene.arrows.primary =
+      settings.view == View::kHeatGradient || settings.view == View::kGradientError;
+  scene.arrows.secondary = settings.view == View::kGradientError;
+  scene.markers.visible = settings.markers && needs_sources(settings.view);
+  if (settings.view == View::kSources) {
+    scene.markers.radius = kLargeMarker;
+    scene.markers.colour = kSourceRed;
+  }
+  const auto side = static_cast<float>(std::min(settings.width, settings.height));
+  scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
+  return scene;
+}
+
+namespace {
+
+/// The colours of a view, and what they stand for where that is no value.
+Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
+                            const PictureSettings& settings) {
+  if (shows_regions(data, settings)) {
+    const auto places = engine::region_colour_places(data.faces, data.nearest);
+    if (auto done = renderer.set_regions(places); !done) return done;
+    return renderer.set_colours(engine::region_table());
+  }
+  if (auto done = renderer.set_regions({}); !done) return done;
+  const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
+  return map == nullptr ? Result<void>()
+                        : renderer.set_colours(engine::colour_table(*map, settings.reverse));
+}
+
+Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data) {
+  std::vector<std::vector<glm::vec3>> points;
+  points.reserve(data.lines.size());
+  std::vector<engine::Polyline> lines;
+  for (const PictureData::Line& line : data.lines) {
+    points.push_back(scene_vectors(line.points));
+    lines.push_back({points.back(), {line.colour[0], line.colour[1], line.colour[2]}});
+  }
+  return renderer.set_lines(lines);
+}
+
+}  // namespace
+
+std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all) {
+  std::vector<glm::vec3> out;
+  out.reserve(all.size());
+  for (const auto& [x, y, z] : all) out.emplace_back(x, y, z);
+  return out;
+}
+
+Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
+                            std::span<const glm::vec3> positions) {
+  return renderer.set_surface({positions, data.faces, data.solid});
+}
+
+Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
+                           const PictureSettings& settings) {
+  if (!data.values.empty()) {
+    if (auto done = renderer.set_values(data.values); !done) return done;
+  }
+  if (auto done = renderer.set_face_values(data.face_values); !done) return done;
+  if (auto done = upload_colours(renderer, data, settings); !done) return done;
+  if (auto done = upload_lines(renderer, data); !done) return done;
+  const auto arrows = renderer.set_arrows(scene_vectors(data.heat_directions),
+                                          scene_vectors(data.distance_gradients));
+  if (!arrows) return arrows;
+  std::vector<engine::Marker> markers;
+  for (const auto& [from, to] : data.sources) {
+    markers.push_back({{from[0], from[1], from[2]}, {to[0], to[1], to[2]}});
+  }
+  return renderer.set_markers(markers);
+}
+
+Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,
+                            const PictureSettings& settings, std::span<const glm::vec3> positions) {
+  if (auto done = upload_surface(renderer, data, positions); !done) return done;
+  return upload_answer(renderer, data, settings);
+}
+
+DrawingDevice to_drawing_device(const engine::DeviceInfo& info) {
+  DrawingDevice device;
+  device.name = info.name;
+  device.kind = info.kind;
+  device.driver = info.driver;
+  device.api = "Vulkan " + std::to_string(info.api_major) + "." + std::to_string(info.api_minor) +
+               "." + std::to_string(info.api_patch);
+  device.memory_mb = static_cast<double>(info.memory) / (1024.0 * 1024.0);
+  device.software = info.software;
+  device.chosen = info.chosen;
+  device.lacks = info.lacks;
+  return device;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <span>
+#include <vector>
+
+#include "app/cli/drawing.h"
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_scale.h"
+#include "app/picture/picture_settings.h"
+#include "engine/device.h"
+#include "engine/overlay/overlay.h"
+#include "engine/renderer.h"
+#include "engine/scene/scene.h"
+
+// A picture's data and settings as the engine takes them.
+namespace geotherm::app {
+
+DrawingDevice to_drawing_device(const engine::DeviceInfo& info);
+
+engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
+                         const PictureScale& scale);
+
+/// What the eye sees of `points`, which lie in scene space and belong to `data`.
+engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
+                         std::span<const glm::vec3> points, glm::vec2 extent,
+                         const engine::Insets& insets);
+
+/// Where the camera's axis meets the picture without a pan, pixels: what zooming scales about.
+glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets);
+
+/// All of the scene but its camera.
+engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
+                       const PictureScale& scale);
+
+std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
+
+/// Hands a renderer the mesh. `positions`: those of the data. Errors: the renderer's.
+Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
+                            std::span<const glm::vec3> positions);
+
+/// Hands it all else that a picture is drawn from: values, regions, arrows, lines, markers,
+/// colours; what the data lack is taken away. Precondition: upload_surface(). Errors: the
+/// renderer's.
+Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
+                           const PictureSettings& settings);
+
+/// Both.
+Result<void> upload_picture(engine::Renderer& renderer, const PictureData& data,
+                            const PictureSettings& settings, std::span<const glm::vec3> positions);
+
+}  // namespace geotherm::app

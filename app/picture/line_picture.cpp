@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "app/picture/line_picture.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "app/picture/line_sight.h"
+#include "app/picture/picture_scale.h"
+#include "app/session/text.h"
+#include "geotherm/error.h"
+#include "geotherm/isolines.h"
+#include "geotherm/progress.h"
+#include "solver/mesh/ray_tree.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Regions of a picture in which the surface is at least so bright; the rule is even-odd.
+struct Tone {
+  double brightness;  ///< 0 to 1; 0 is all of the surface
+  std::vector<Outline> outlines;
+};
+
+using Eigen::Vector2d;
+
+/// Of a grid point that shows no surface; all tones are above it.
+constexpr double kNothing = -1;
+
+constexpr std::array kLevels = {-0.5, 0.45, 0.6, 0.72, 0.82, 0.9};
+
+/// Pixels between grid points, so many grid points at most.
+double step_for(int width, int height) {
+  constexpr double kMaxPoints = 90000;
+  return std::max(2.0, std::sqrt(width * static_cast<double>(height) / kMaxPoints));
+}
+
+std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
+  std::vector<Vec3> out(mesh.positions().size(), Vec3::Zero());
+  for (const auto& [a, b, c] : mesh.faces()) {
+    const Vec3 to_b = mesh.positions()[b] - mesh.positions()[a];
+    const Vec3 to_c = mesh.positions()[c] - mesh.positions()[a];
+    const double unit = std::max(to_b.cwiseAbs().maxCoeff(), to_c.cwiseAbs().maxCoeff());
+    if (!(unit > 0)) continue;
+    const Vec3 normal = (to_b / unit).cross(to_c / unit);
+    for (const Index v : {a, b, c}) out[static_cast<std::size_t>(v)] += normal;
+  }
+  return out;
+}
+
+class Grid {
+ public:
+  Grid(const TriangleMesh& mesh, const RayTree& tree, const LineView& view, int width, int height)
+      : mesh_(mesh),
+        tree_(tree),
+        view_(view),
+        normals_(vertex_normals(mesh)),
+        step_(step_for(width, height)),
+        columns_(static_cast<Index>(std::ceil(width / step_)) + 3),
+        rows_(static_cast<Index>(std::ceil(height / step_)) + 3) {
+    light_ = (0.45 * view.up() - 0.35 * view.right() + view.back()).normalized();
+  }
+
+  Result<std::vector<Tone>> tones(const Progress& progress) {
+    std::vector<Vec3> places;
+    std::vector<double> values;
+    for (Index j = 0; j < rows_; ++j) {
+      if (!report(progress, "picture", static_cast<double>(j) / rows_)) return cancelled_error();
+      for (Index i = 0; i < columns_; ++i) {
+        const bool rim = i == 0 || j == 0 || i + 1 == columns_ || j + 1 == rows_;
+        const Vector2d at = place(j * columns_ + i);
+        places.emplace_back(at.x(), at.y(), 0);
+        values.push_back(rim ? kNothing : brightness(at));
+      }
+    }
+    auto grid = TriangleMesh::build(std::move(places), cells());
+    if (!grid) return grid.error();
+    std::vector<Tone> out;
+    for (const double level : kLevels) out.push_back({std::max(level, 0.0), {}});
+    for (const Isoline& line : trace_isolines(*grid, values, kLevels)) {
+      const auto tone = std::ranges::find(kLevels, line.value) - kLevels.begin();
+      Outline outline;
+      for (const SurfacePoint& point : line.path.points) {
+        outline.push_back(refined(*grid, values, point));
+      }
+      out[static_cast<std::size_t>(tone)].outlines.push_back(std::move(outline));
+    }
+    return out;
+  }
+
+ private:
+  /// The grid reaches one step beyond the picture, so that all outlines are closed.
+  Vector2d place(Index point) const {
+    return {(point % columns_ - 1) * step_, (point / columns_ - 1) * step_};
+  }
+
+  std::vector<Face> cells() const {
+    std::vector<Face> faces;
+    for (Index j = 0; j + 1 < rows_; ++j) {
+      for (Index i = 0; i + 1 < columns_; ++i) {
+        const Index a = j * columns_ + i;
+        faces.push_back({a, a + 1, a + columns_ + 1});
+        faces.push_back({a, a + columns_ + 1, a + columns_});
+      }
+    }
+    return faces;
+  }
+
+  double brightness(const Vector2d& pixel) const {
+    const LineView::Ray ray = view_.ray_through(pixel);
+    const auto hit = tree_.first_hit(ray.origin, ray.direction);
+    if (!hit) return kNothing;
+    const Face& face = mesh_.faces()[hit->point.face];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal += hit->point.weights[k] * normals_[static_cast<std::size_t>(face[k])];
+    }
+    normal.stableNormalize();
+    if (normal.dot(ray.direction) > 0) normal = -normal;  // the inner side is lit as well
+    return std::clamp(normal.dot(light_), 0.0, 1.0);
+  }
+
+  /// Where a contour crosses an edge of the grid that leaves the surface, it is the surface's rim.
+  Vector2d refined(const TriangleMesh& grid, const std::vector<double>& values,
+                   const SurfacePoint& point) {
+    const Vec3 linear = position_at(grid, point);
+    if (point.is_vertex()) return linear.head<2>();
+    std::vector<Index> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (point.weights[k] > 0) ends.push_back(grid.faces()[point.face][k]);
+    }
+    std::ranges::sort(ends);
+    const auto shows = [&](Index v) { return values[static_cast<std::size_t>(v)] != kNothing; };
+    if (ends.size() != 2 || shows(ends[0]) == shows(ends[1])) return linear.head<2>();
+    const auto [known, is_new] = rim_.try_emplace(std::pair(ends[0], ends[1]));
+    if (is_new) {
+      if (shows(ends[1])) std::swap(ends[0], ends[1]);
+      known->second = rim_between(place(ends[0]), place(ends[1]));
+    }
+    return known->second;
+  }
+
+  Vector2d rim_between(Vector2d inside, Vector2d outside) const {
+    constexpr int kHalvings = 6;
+    for (int i = 0; i < kHalvings; ++i) {
+      const Vector2d middle = (inside + outside) / 2;
+      (brightness(middle) != kNothing ? inside : outside) = middle;
+    }
+    return (inside + outside) / 2;
+  }
+
+  const TriangleMesh& mesh_;
+  const RayTree& tree_;
+  const LineView& view_;
+  std::vector<Vec3> normals_;
+  double step_;
+  Index columns_, rows_;
+  Vec3 light_;
+  std::map<std::pair<Index, Index>, Vector2d> rim_;
+};
+
+/// The shape of a surface in a few tones, each inside the one before: its brightness under a light
+/// beside the eye is sampled on a grid of pixels and contoured. The outline against the background
+/// is found to a fraction of a pixel. Errors: kCancelled.
+Result<std::vector<Tone>> surface_tones(const TriangleMesh& mesh, const RayTree& tree,
+                                        const LineView& view, int width, int height,
+                                        const Progress& progress) {
+  return Grid(mesh, tree, view, width, height).tones(progress);
+}
+
+using Colour = std::array<double, 3>;
+
+/// Red near, blue far, and no colour between that a light or a dark surface swallows.
+constexpr Colour kNearToFar[] = {{200, 6, 24},  {196, 22, 96}, {158, 40, 150},
+                                 {98, 62, 190}, {36, 70, 190}, {16, 36, 130}};
+
+struct Style {
+  Colour background, dark_tone, light_tone, contour, text;
+  double towards_white;  ///< of the lines
+};
+
+Style style_of(PictureBackground background) {
+  if (background == PictureBackground::kDark) {
+    return {{24, 27, 32}, {44, 50, 58}, {96, 104, 114}, {150, 158, 168}, {226, 230, 235}, 0.45};
+  }
+  return {{255, 255, 255}, {196, 202, 209}, {246, 247, 249}, {118, 128, 140}, {40, 48, 58}, 0};
+}
+
+Colour between(const Colour& a, const Colour& b, double share) {
+  Colour out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = a[k] + share * (b[k] - a[k]);
+  return out;
+}
+
+std::string text_of(const Colour& c) {
+  char text[8];
+  const auto byte = [](double x) { return static_cast<unsigned>(std::lround(x)) & 0xFFU; };
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(c[0]), byte(c[1]), byte(c[2]));
+  return text;
+}
+
+Colour colour_at(double share, const Style& style) {
+  constexpr double kLast = std::size(kNearToFar) - 1;
+  const double at = std::clamp(share, 0.0, 1.0) * kLast;
+  const auto i = static_cast<std::size_t>(std::min(at, kLast - 1));
+  return between(between(kNearToFar[i], kNearToFar[i + 1], at - static_cast<double>(i)),
+                 {255, 255, 255}, style.towards_white);
+}
+
+/// The commands of a path; two decimals are a fiftieth of what the eye sees.
+std::string commands(const std::vector<Outline>& outlines, bool closed) {
+  std::string out;
+  for (const Outline& outline : outlines) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      out += (i == 0 ? 'M' : 'L') + fixed(outline[i].x(), 2) + ' ' + fixed(outline[i].y(), 2);
+    }
+    if (closed) out += 'Z';
+  }
+  return out;
+}
+
+class SvgDrawing {
+ public:
+  SvgDrawing(const LinePicture& picture, const PictureSettings& settings, const RayTree& tree)
+      : picture_(picture),
+        settings_(settings),
+        style_(style_of(settings.background)),
+        tree_(tree),
+        unit_(std::min(settings.width, settings.height) / 720.0),
+        view_(*picture.mesh, settings.camera, settings.width, settings.height, 48 * unit_),
+        sight_(tree, view_) {}
+
+  Result<LinePictureSvg> draw(const Progress& progress) {
+    open();
+    auto tones =
+        surface_tones(*picture_.mesh, tree_, view_, settings_.width, settings_.height, progress);
+    if (!tones) return tones.error();
+    draw_surface(*tones);
+    draw_lines();
+    draw_markers();
+    if (picture_.largest_value > 0) draw_bar();
+    draw_title();
+    return LinePictureSvg{svg_ + "</svg>\n", shows_lines_};
+  }
+
+ private:
+  void open() {
+    const std::string width = std::to_string(settings_.width);
+    const std::string height = std::to_string(settings_.height);
+    svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
+           "\" viewBox=\"0 0 " + width + ' ' + height + "\" stroke-linejoin=\"round\" " +
+           "stroke-linecap=\"round\" font-family=\"system-ui, Helvetica, Arial, sans-serif\">\n";
+    if (settings_.background == PictureBackground::kTransparent) return;
+    svg_ += "<rect width=\"100%\" height=\"100%\" fill=\"" + text_of(style_.background) + "\"/>\n";
+  }
+
+  void draw_surface(const std::vector<Tone>& tones) {
+    for (const Tone& tone : tones) {
+      if (tone.outlines.empty()) continue;
+      const Colour fill = between(style_.dark_tone, style_.light_tone, tone.brightness);
+      svg_ += "<path fill-rule=\"evenodd\" fill=\"" + text_of(fill) + "\" d=\"" +
+              commands(tone.outlines, true) + "\"/>\n";
+    }
+    const auto contours = visible_contours(*picture_.mesh, sight_, view_);
+    if (contours.empty()) return;
+    svg_ += "<path fill=\"none\" stroke=\"" + text_of(style_.contour) + "\" stroke-width=\"" +
+            fixed(0.9 * unit_, 2) + "\" d=\"" + commands(contours, false) + "\"/>\n";
+  }
+
+  void draw_lines() {
+    const bool valued = picture_.largest_value > 0;
+    const double width = (valued ? 1.6 : 3.2) * unit_;
+    for (const Polyline& line : picture_.lines) {
+      const auto points = positions_of(*picture_.mesh, *line.path);
+      const auto parts = sight_.visible_parts(points);
+      if (parts.empty()) continue;
+      shows_lines_ = true;
+      const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
+      const std::string d = commands(parts, false);
+      if (!valued) stroke(d, style_.background, 2 * width);  // a rim sets it off
+      stroke(d, colour_at(share, style_), width);
+    }
+  }
+
+  void stroke(const std::string& d, const Colour& colour, double width) {
+    svg_ += "<path fill=\"none\" stroke=\"" + text_of(colour) + "\" stroke-width=\"" +
+            fixed(width, 2) + "\" d=\"" + d + "\"/>\n";
+  }
+
+  void draw_markers() {
+    for (const Vec3& marker : picture_.markers) {
+      if (!sight_.sees(marker)) continue;
+      const auto at = view_.project(marker);
+      svg_ += "<circle cx=\"" + fixed(at.x(), 2) + "\" cy=\"" + fixed(at.y(), 2) + "\" r=\"" +
+              fixed(5 * unit_, 2) + "\" fill=\"" + text_of(style_.text) + "\" stroke=\"" +
+              text_of(style_.background) + "\" stroke-width=\"" + fixed(1.5 * unit_, 2) + "\"/>\n";
+    }
+  }
+
+  void write(double x, double y, const std::string& text, const char* anchor) {
+    svg_ += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" font-size=\"" +
+            fixed(13 * unit_, 1) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
+            text_of(style_.text) + "\">" + escaped(one_line(text)) + "</text>\n";
+  }
+
+  /// The colours of the distances, 0 at the bottom.
+  void draw_bar() {
+    const double right = settings_.width - 24 * unit_, wide = 12 * unit_;
+    const double bottom = 0.85 * settings_.height, top = 0.15 * settings_.height;
+    svg_ += "<linearGradient id=\"distance\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+    constexpr int kStops = 10;
+    for (int i = 0; i <= kStops; ++i) {
+      const double share = i / static_cast<double>(kStops);
+      svg_ += "<stop offset=\"" + fixed(share, 2) + "\" stop-color=\"" +
+              text_of(colour_at(share, style_)) + "\"/>";
+    }
+    svg_ += "</linearGradient>\n<rect x=\"" + fixed(right - wide, 1) + "\" y=\"" + fixed(top, 1) +
+            "\" width=\"" + fixed(wide, 1) + "\" height=\"" + fixed(bottom - top, 1) +
+            "\" fill=\"url(#distance)\"/>\n";
+    const Ticks ticks = make_ticks(0, picture_.largest_value, 8);
+    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+      const double y = bottom - (bottom - top) * ticks.values[i] / picture_.largest_value;
+      write(right - wide - 6 * unit_, y + 4.5 * unit_, ticks.labels[i], "end");
+    }
+    write(right, top - 10 * unit_, "distance", "end");
+  }
+
+  void draw_title() { write(16 * unit_, settings_.height - 14 * unit_, picture_.title, "start"); }
+
+  const LinePicture& picture_;
+  const PictureSettings& settings_;
+  Style style_;
+  const RayTree& tree_;
+  double unit_;  // of what has a size on paper
+  LineView view_;
+  LineSight sight_;
+  std::string svg_;
+  bool shows_lines_ = false;
+};
+
+}  // namespace
+
+Result<LinePictureSvg> line_picture_svg(const LinePicture& picture, const PictureSettings& settings,
+                                        const Progress& progress) {
+  const auto tree = RayTree::build(picture.mesh, progress);
+  if (!tree) return tree.error();
+  return SvgDrawing(picture, settings, *tree).draw(progress);
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/picture/picture_text.h"
+#include "app/session/command.h"
+#include "app/session/command_words.h"
+#include "app/session/settings.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A first word, or a first and a second one, and what follows it.
+struct Form {
+  std::string_view name;       ///< "camera orbit"
+  std::string_view arguments;  ///< "AZIMUTH ELEVATION"
+  std::size_t least, most;     ///< number of arguments
+  Result<Command> (*read)(WordReader& reader);
+};
+
+template <class Kind>
+Result<Command> plain(WordReader&) {
+  return Command(Kind{});
+}
+
+template <class Kind>
+Result<Command> with_text(WordReader& reader) {
+  return Command(Kind{reader.next()});
+}
+
+template <class Kind>
+Result<Command> with_list(WordReader& reader) {
+  Kind kind;
+  while (!reader.at_end()) {
+    auto source = reader.source();
+    if (!source) return source.error();
+    kind.sources.push_back(*std::move(source));
+  }
+  return Command(kind);
+}
+
+/// As many numbers as there are words.
+Result<std::vector<double>> all_numbers(WordReader& reader) {
+  std::vector<double> numbers;
+  while (!reader.at_end()) {
+    const auto number = reader.number(-kLargestNumber, kLargestNumber);
+    if (!number) return number.error();
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Result<Command> read_move(WordReader& reader) {
+  const auto index = reader.whole();
+  if (!index) return index.error();
+  const auto source = reader.source();
+  if (!source) return source.error();
+  return Command(command::MoveSource{*index, *source});
+}
+
+Result<Command> read_remove(WordReader& reader) {
+  const auto index = reader.whole();
+  if (!index) return index.error();
+  return Command(command::RemoveSource{*index});
+}
+
+Result<Command> read_extend(WordReader& reader) {
+  const auto vertices = reader.vertices();
+  if (!vertices) return vertices.error();
+  return Command(command::ExtendCurve{*vertices});
+}
+
+Result<Command> read_orbit(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Orbit{(*n)[0], (*n)[1]});
+}
+
+Result<Command> read_zoom(WordReader& reader) {
+  const auto factor = reader.number(kMinZoom / kMaxZoom, kMaxZoom / kMinZoom);
+  if (!factor) return factor.error();
+  if (reader.left() == 1) return reader.fail("both RIGHT and UP, or neither");
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(n->empty() ? command::Zoom{*factor} : command::Zoom{*factor, (*n)[0], (*n)[1]});
+}
+
+Result<Command> read_pan(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Pan{(*n)[0], (*n)[1]});
+}
+
+Result<Command> read_centre(WordReader& reader) {
+  const auto n = all_numbers(reader);
+  if (!n) return n.error();
+  return Command(command::Centre{(*n)[0], (*n)[1], (*n)[2]});
+}
+
+Result<Command> read_place(WordReader& reader) {
+  const auto azimuth = reader.number(-kMaxAngle, kMaxAngle);
+  if (!azimuth) return azimuth.error();
+  const auto elevation = reader.number(-90, 90);
+  if (!elevation) return elevation.error();
+  const auto zoom = reader.number(kMinZoom, kMaxZoom);
+  if (!zoom) return zoom.error();
+  const auto right = reader.number(-kMaxPan, kMaxPan);
+  if (!right) return right.error();
+  const auto up = reader.number(-kMaxPan, kMaxPan);
+  if (!up) return up.error();
+  return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
+}
+
+Result<Command> read_rotate(WordReader& reader) {
+  const auto on = reader.one_of({"on", "off"});
+  if (!on) return on.error();
+  return Command(command::Rotate{*on == 0});
+}
+
+Result<Command> read_show(WordReader& reader) {
+  const auto shown = reader.one_of({kShownNames[0], kShownNames[1], kShownNames[2]});
+  if (!shown) return shown.error();
+  return Command(command::Show{static_cast<Shown>(*shown)});
+}
+
+Result<Command> read_pick(WordReader& reader) {
+  if (reader.peek() == "none") return Command(command::Pick{});
+  const auto point = reader.face_point();
+  if (!point) return point.error();
+  return Command(command::Pick{*point});
+}
+
+Result<Command> read_target(WordReader& reader) {
+  if (reader.peek() == "none") return Command(command::Target{});
+  const auto point = reader.single_point();
+  if (!point) return point.error();
+  return Command(command::Target{*point});
+}
+
+Result<Command> read_compare(WordReader& reader) {
+  return Command(reader.at_end() ? command::Compare{} : command::Compare{reader.next()});
+}
+
+Result<Command> read_save_picture(WordReader& reader) {
+  command::SavePicture save{reader.next()};
+  if (!reader.at_end() && reader.peek() != "panels") {
+    const auto size = parse_size(reader.next());
+    if (!size) return reader.blame_last(told(size.error()) + ", or panels");
+    save.width = size->width;
+    save.height = size->height;
+  }
+  if (!reader.at_end()) {
+    if (auto panels = reader.one_of({"panels"}); !panels) return panels.error();
+    save.panels = true;
+  }
+  return Command(save);
+}
+
+constexpr std::size_t kAny = 1'000'000;
+
+const Form kForms[] = {
+    {"open", "MODEL", 1, 1, with_text<command::Open>},
+    {"reset", "", 0, 0, plain<command::Reset>},
+    {"run", "FILE", 1, 1, with_text<command::Run>},
+    {"source set", "SOURCE...", 1, kAny, with_list<command::SetSources>},
+    {"source add", "SOURCE...", 1, kAny, with_list<command::AddSources>},
+    {"source move", "INDEX SOURCE", 2, 2, read_move},
+    {"source remove", "INDEX", 1, 1, read_remove},
+    {"source extend", "V,V,...", 1, 1, read_extend},
+    {"source clear", "", 0, 0, plain<command::ClearSources>},
+    {"source more", "", 0, 0, plain<command::MoreSources>},
+    {"source fewer", "", 0, 0, plain<command::FewerSources>},
+    {"source shuffle", "", 0, 0, plain<command::ShuffleSources>},
+    {"camera orbit", "AZIMUTH ELEVATION", 2, 2, read_orbit},
+    {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
+    {"camera pan", "RIGHT UP", 2, 2, read_pan},
+    {"camera centre", "X Y Z", 3, 3, read_centre},
+    {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
+    {"camera frame", "", 0, 0, plain<command::Frame>},
+    {"rotate", "on|off", 1, 1, read_rotate},
+    {"keep", "", 0, 0, plain<command::Keep>},
+    {"forget", "", 0, 0, plain<command::Forget>},
+    {"swap", "", 0, 0, plain<command::Swap>},
+    {"show", "a|b|difference", 1, 1, read_show},
+    {"flip", "", 0, 0, plain<command::Flip>},
+    {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
+    {"target", "POINT|none", 1, 1, read_target},
+    {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
+    {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
+    {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},
+    {"save session", "FILE", 1, 1, with_text<command::SaveSession>},
+    {"save log", "FILE", 1, 1, with_text<command::SaveLog>},
+    {"save figures", "FILE", 1, 1, with_text<command::SaveFigures>},
+    {"undo", "", 0, 0, plain<command::Undo>},
+    {"redo", "", 0, 0, plain<command::Redo>},
+    {"quit", "", 0, 0, plain<command::Quit>},
+};
+
+/// The first words of all forms and settings, or the second words after `first`.
+std::string names(std::string_view first) {
+  std::vector<std::string> all;
+  for (const Form& form : kForms) {
+    const std::size_t blank = form.name.find(' ');
+    const std::string_view head = form.name.substr(0, blank);
+    if (!first.empty() && head != first) continue;
+    std::string name(first.empty() ? head : form.name.substr(blank + 1));
+    if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
+  }
+  if (first.empty()) {
+    for (const Setting& setting : settings()) all.emplace_back(setting.name);
+  }
+  return joined(all);
+}
+
+Result<Command> read_setting(const Setting& setting, WordReader& reader) {
+  const std::string name(setting.name);
+  if (reader.left() != 1) return reader.fail("one value: " + name + " VALUE");
+  const std::string value = reader.next();
+  ViewerState scratch = initial_state();
+  if (auto set = setting.set(scratch, value); !set) {
+    const Error blamed = reader.blame_last(told(set.error()));
+    return Error{set.error().code, blamed.message};
+  }
+  return Command(command::Set{name, setting.get(scratch)});
+}
+
+}  // namespace
+
+Result<Command> parse_command(std::string_view line) {
+  auto made = WordReader::of(line);
+  if (!made) return made.error();
+  WordReader& reader = *made;
+  if (reader.at_end()) return reader.fail("a command: " + names(""));
+  const std::string first = reader.next();
+  if (const Setting* setting = find_setting(first)) return read_setting(*setting, reader);
+  const bool is_group = std::ranges::any_of(
+      kForms, [&first](const Form& form) { return form.name.starts_with(first + " "); });
+  if (is_group && reader.at_end()) return reader.fail("what to do: " + names(first));
+  const std::string name = is_group ? first + " " + reader.next() : first;
+  const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
+  if (form == std::end(kForms)) {
+    return reader.blame_last("there is no command '" + one_line(name) + "'; there are " +
+                             names(is_group ? first : ""));
+  }
+  if (reader.left() < form->least || reader.left() > form->most) {
+    reader.skip(std::min(reader.left(), form->most));  // to what is too much, or missing
+    return reader.fail(form->arguments.empty() ? "nothing after " + name
+                                               : name + " " + std::string(form->arguments));
+  }
+  return form->read(reader);
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/command_words.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "app/session/command.h"
+#include "app/session/sources.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
+
+/// What stands without quotes: nothing that means something to a shell.
+constexpr std::string_view kPlain =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
+/// What a shell looks into even within double quotes.
+constexpr std::string_view kActive = "$`!";
+constexpr std::string_view kDigits = "0123456789abcdef";
+
+/// Also letters beyond ASCII.
+bool is_plain(std::string_view word) {
+  if (word.empty()) return false;
+  while (!word.empty()) {
+    const std::size_t length = printable_length(word);
+    if (length == 0 || (length == 1 && kPlain.find(word[0]) == kPlain.npos)) return false;
+    word.remove_prefix(length);
+  }
+  return true;
+}
+
+/// The byte of two hexadecimal digits at the front.
+std::optional<char> byte_in_digits(std::string_view text) {
+  if (text.size() < 2) return std::nullopt;
+  const std::size_t high = kDigits.find(text[0]), low = kDigits.find(text[1]);
+  if (high == kDigits.npos || low == kDigits.npos) return std::nullopt;
+  return static_cast<char>(16 * high + low);
+}
+
+std::string column_text(std::size_t column) { return "column " + std::to_string(column) + ": "; }
+
+/// The word in quotes that begins at line[at], which becomes the place behind it.
+Result<std::string> quoted_word(std::string_view line, std::size_t& at) {
+  const std::size_t begin = at++;
+  std::string text;
+  for (; at < line.size() && line[at] != '"'; ++at) {
+    const bool escapes = line[at] == '\\' && at + 1 < line.size();
+    if (!escapes) {
+      text += line[at];
+      continue;
+    }
+    switch (line[++at]) {
+      case '"':
+      case '\\':
+        text += line[at];
+        break;
+      case 'n':
+        text += '\n';
+        break;
+      case 'x':
+        if (const auto byte = byte_in_digits(line.substr(at + 1))) {
+          text += *byte;
+          at += 2;
+          break;
+        }
+        [[fallthrough]];
+      default:
+        return Error{ErrorCode::kBadInput, column_text(at) +
+                                               "expected \\\", \\\\, \\n or \\x and two of 0-9 "
+                                               "and a-f within quotes"};
+    }
+  }
+  if (at == line.size()) {
+    return Error{ErrorCode::kBadInput, column_text(begin + 1) + "this quote is not closed"};
+  }
+  ++at;
+  if (at < line.size() && !is_blank(line[at])) {
+    return Error{ErrorCode::kBadInput, column_text(at + 1) + "expected a blank after the quote"};
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string command_word(const std::string& word) {
+  if (is_plain(word)) return word;
+  std::string out = "\"";
+  for (std::string_view rest = word; !rest.empty();) {
+    const std::size_t length = printable_length(rest);
+    const char c = rest.front();
+    if (c == '\n') {
+      out += "\\n";
+    } else if (length == 0 || kActive.find(c) != kActive.npos) {
+      const auto byte = static_cast<unsigned char>(c);
+      out += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 0xfU]};
+    } else {
+      if (c == '"' || c == '\\') out += '\\';
+      out += rest.substr(0, length);
+    }
+    rest.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return out + '"';
+}
+
+Result<WordReader> WordReader::of(std::string_view line) {
+  WordReader reader;
+  std::size_t at = 0;
+  while (at < line.size()) {
+    if (is_blank(line[at])) {
+      ++at;
+      continue;
+    }
+    if (line[at] == '#') break;
+    reader.end_column_ = at + 1;
+    Word word{{}, at + 1};
+    if (line[at] == '"') {
+      auto text = quoted_word(line, at);
+      if (!text) return text.error();
+      word.text = *std::move(text);
+    } else {
+      const std::size_t begin = at;
+      while (at < line.size() && !is_blank(line[at]) && line[at] != '#') {
+        if (line[at] == '"' || is_control(line[at])) {
+          return Error{ErrorCode::kBadInput, column_text(at + 1) +
+                                                 "expected a word; one with quotes or control " +
+                                                 "characters stands in double quotes"};
+        }
+        ++at;
+      }
+      word.text = line.substr(begin, at - begin);
+    }
+    reader.end_column_ = at + 1;
+    reader.words_.push_back(std::move(word));
+  }
+  return reader;
+}
+
+Error WordReader::fail(const std::string& what) const {
+  const std::size_t column = at_end() ? end_column_ : words_[next_].column;
+  std::string text = column_text(column) + "expected " + what;
+  if (!at_end()) text += ", not '" + one_line(words_[next_].text) + "'";
+  return {ErrorCode::kBadInput, std::move(text)};
+}
+
+Error WordReader::blame_last(const std::string& why) const {
+  return {ErrorCode::kBadInput, column_text(words_[next_ - 1].column) + why};
+}
+
+Result<double> WordReader::number(double least, double most) {
+  const auto value = number_in<double>(peek());
+  if (!value || !(*value >= least && *value <= most)) {
+    const bool any = most == kLargestNumber;
+    return fail(any ? "a number"
+                    : "a number from " + number_text(least) + " to " + number_text(most));
+  }
+  ++next_;
+  return *value;
+}
+
+Result<int> WordReader::whole() {
+  const auto value = number_in<int>(peek());
+  if (!value || *value < 0) return fail("the number of a source, from 0");
+  ++next_;
+  return *value;
+}
+
+Result<std::vector<Index>> WordReader::vertices() {
+  const auto spec = parse_source(peek());
+  const auto* const list = spec ? std::get_if<VertexList>(&*spec) : nullptr;
+  if (list == nullptr) return fail("vertex ids, such as 3,99,512");
+  ++next_;
+  return list->vertices;
+}
+
+Result<SourceSpec> WordReader::source() {
+  auto spec = parse_source(next());
+  if (!spec) return blame_last(told(spec.error()));
+  return spec;
+}
+
+Result<FacePoint> WordReader::face_point() {
+  const auto spec = parse_source(peek());
+  if (!spec || !std::holds_alternative<FacePoint>(*spec)) {
+    return fail("a point in a face, face:ID:b0:b1:b2, or none");
+  }
+  ++next_;
+  return std::get<FacePoint>(*spec);
+}
+
+Result<SourceSpec> WordReader::single_point() {
+  auto spec = parse_source(peek());
+  if (!spec || !is_single_point(*spec)) {
+    return fail("a point (a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z) or none");
+  }
+  ++next_;
+  return spec;
+}
+
+Result<int> WordReader::one_of(std::initializer_list<const char*> names) {
+  int i = 0;
+  for (const char* name : names) {
+    if (peek() == name) {
+      ++next_;
+      return i;
+    }
+    ++i;
+  }
+  return fail(joined(std::vector<std::string>(names.begin(), names.end()), " or "));
+}
+
+namespace {
+
+std::string words(std::string text, const std::vector<std::string>& more) {
+  for (const std::string& word : more) text += " " + command_word(word);
+  return text;
+}
+
+std::string sources(std::string text, const std::vector<SourceSpec>& more) {
+  for (const SourceSpec& source : more) text += " " + to_text(source);
+  return text;
+}
+
+std::string numbers(std::string text, std::initializer_list<double> more) {
+  for (const double number : more) text += " " + number_text(number);
+  return text;
+}
+
+struct Printer {
+  std::string operator()(const command::Open& c) const { return words("open", {c.model}); }
+  std::string operator()(const command::Reset&) const { return "reset"; }
+  std::string operator()(const command::Run& c) const { return words("run", {c.path}); }
+  std::string operator()(const command::Set& c) const { return words(c.name, {c.value}); }
+  std::string operator()(const command::SetSources& c) const {
+    return sources("source set", c.sources);
+  }
+  std::string operator()(const command::AddSources& c) const {
+    return sources("source add", c.sources);
+  }
+  std::string operator()(const command::MoveSource& c) const {
+    return sources("source move " + std::to_string(c.index), {c.source});
+  }
+  std::string operator()(const command::RemoveSource& c) const {
+    return words("source remove", {std::to_string(c.index)});
+  }
+  std::string operator()(const command::ExtendCurve& c) const {
+    std::vector<std::string> ids;
+    for (const Index v : c.vertices) ids.push_back(std::to_string(v));
+    return words("source extend", {joined(ids, ",")});
+  }
+  std::string operator()(const command::ClearSources&) const { return "source clear"; }
+  std::string operator()(const command::MoreSources&) const { return "source more"; }
+  std::string operator()(const command::FewerSources&) const { return "source fewer"; }
+  std::string operator()(const command::ShuffleSources&) const { return "source shuffle"; }
+  std::string operator()(const command::Orbit& c) const {
+    return numbers("camera orbit", {c.azimuth, c.elevation});
+  }
+  std::string operator()(const command::Zoom& c) const {
+    if (c.right == 0 && c.up == 0) return numbers("camera zoom", {c.factor});
+    return numbers("camera zoom", {c.factor, c.right, c.up});
+  }
+  std::string operator()(const command::Pan& c) const {
+    return numbers("camera pan", {c.right, c.up});
+  }
+  std::string operator()(const command::Centre& c) const {
+    return numbers("camera centre", {c.x, c.y, c.z});
+  }
+  std::string operator()(const command::Place& c) const {
+    return numbers("camera place", {c.azimuth, c.elevation, c.zoom, c.right, c.up});
+  }
+  std::string operator()(const command::Frame&) const { return "camera frame"; }
+  std::string operator()(const command::Rotate& c) const {
+    return c.on ? "rotate on" : "rotate off";
+  }
+  std::string operator()(const command::Keep&) const { return "keep"; }
+  std::string operator()(const command::Forget&) const { return "forget"; }
+  std::string operator()(const command::Swap&) const { return "swap"; }
+  std::string operator()(const command::Show& c) const {
+    return std::string("show ") + kShownNames[static_cast<int>(c.shown)];
+  }
+  std::string operator()(const command::Flip&) const { return "flip"; }
+  std::string operator()(const command::Pick& c) const {
+    return "pick " + (c.point ? to_text(SourceSpec(*c.point)) : "none");
+  }
+  std::string operator()(const command::Target& c) const {
+    return "target " + (c.point ? to_text(*c.point) : "none");
+  }
+  std::string operator()(const command::Compare& c) const { return words("compare", {c.backends}); }
+  std::string operator()(const command::SavePicture& c) const {
+    std::string text = words("save picture", {c.path});
+    if (c.width > 0) text += " " + std::to_string(c.width) + "x" + std::to_string(c.height);
+    return text + (c.panels ? " panels" : "");
+  }
+  std::string operator()(const command::SaveDistances& c) const {
+    return words("save distances", {c.path});
+  }
+  std::string operator()(const command::SaveSession& c) const {
+    return words("save session", {c.path});
+  }
+  std::string operator()(const command::SaveLog& c) const { return words("save log", {c.path}); }
+  std::string operator()(const command::SaveFigures& c) const {
+    return words("save figures", {c.path});
+  }
+  std::string operator()(const command::Undo&) const { return "undo"; }
+  std::string operator()(const command::Redo&) const { return "redo"; }
+  std::string operator()(const command::Quit&) const { return "quit"; }
+};
+
+}  // namespace
+
+std::string to_text(const Command& command) { return std::visit(Printer(), command); }
+
+}  // namespace geotherm::app

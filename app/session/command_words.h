@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/session/sources.h"
+#include "geotherm/error.h"
+#include "geotherm/types.h"
+
+namespace geotherm::app {
+
+/// Larger numbers mean nothing in a command.
+inline constexpr double kLargestNumber = 1e300;
+
+/// Values of Shown, in its order.
+inline constexpr const char* kShownNames[] = {"a", "b", "difference"};
+
+/// A word as it stands in a command: in quotes where it has to. $, `, !, control characters and
+/// bytes that are no UTF-8 are \xNN, so that neither shells nor terminals act on them.
+std::string command_word(const std::string& word);
+
+/// The words of one line, handed out one by one. Errors: kBadInput, "column N: ..." (from 1).
+class WordReader {
+ public:
+  /// Errors: a quote that is not closed, a character that does not belong there.
+  static Result<WordReader> of(std::string_view line);
+
+  bool at_end() const { return next_ == words_.size(); }
+  std::size_t left() const { return words_.size() - next_; }
+  void skip(std::size_t count) { next_ += count; }
+  const std::string& peek() const { return words_[next_].text; }  ///< precondition: !at_end()
+  const std::string& next() { return words_[next_++].text; }      ///< precondition: !at_end()
+
+  // Of the next word; each precondition: !at_end().
+  Result<double> number(double least, double most);
+  Result<int> whole();  ///< from 0
+  Result<std::vector<Index>> vertices();
+  Result<SourceSpec> source();
+  Result<FacePoint> face_point();
+  Result<SourceSpec> single_point();  ///< one vertex, a point in a face or in space
+  Result<int> one_of(std::initializer_list<const char*> names);
+
+  /// "column N: expected WHAT", of the next word or the end of the line.
+  Error fail(const std::string& what) const;
+  /// "column N: WHY", of the word before.
+  Error blame_last(const std::string& why) const;
+
+ private:
+  struct Word {
+    std::string text;
+    std::size_t column;
+  };
+  std::vector<Word> words_;
+  std::size_t next_ = 0;
+  std::size_t end_column_ = 1;
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/explored.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_scale.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+namespace {
+
+const Face& corners_of(const TriangleMesh& mesh, const SurfacePoint& point) {
+  return mesh.faces()[static_cast<std::size_t>(point.face)];
+}
+
+/// The value of a linear function at a point; a corner of weight 0 does not count, so that one that
+/// is not reached does no harm.
+double value_at(const TriangleMesh& mesh, std::span<const double> values,
+                const SurfacePoint& point) {
+  if (point.is_vertex()) return values[point.vertex];
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (point.weights[k] > 0) sum += point.weights[k] * values[corners_of(mesh, point)[k]];
+  }
+  return sum;
+}
+
+}  // namespace
+
+double diffusion_time(const TimeStep& step, const MeshReport& mesh) {
+  switch (step.rule) {
+    case TimeRule::kMeanEdge:
+      return step.factor * mesh.mean_edge_length * mesh.mean_edge_length;
+    case TimeRule::kMeanFaceArea:
+      return step.factor * mesh.area /
+             std::max<double>(1, mesh.faces - mesh.repeated_corner_faces - mesh.duplicate_faces);
+    case TimeRule::kAbsolute:
+      break;
+  }
+  return step.absolute;
+}
+
+const Answer* shown_answer(const Explored& explored, Shown shown) {
+  return shown == Shown::kB ? explored.b.get() : explored.a.get();
+}
+
+PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoint& point) {
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  PointFigures figures;
+  figures.point = point;
+  figures.position = position_at(mesh, point);
+  figures.nearest_vertex = point.vertex;
+  if (!point.is_vertex()) {
+    const auto largest = std::ranges::max_element(point.weights) - point.weights.begin();
+    figures.nearest_vertex = corners_of(mesh, point)[static_cast<std::size_t>(largest)];
+  }
+  const Answer* answer = shown_answer(explored, shown);
+  if (answer != nullptr) {
+    figures.distance = value_at(mesh, answer->result.distances, point);
+    if (!answer->result.heat.empty()) figures.heat = value_at(mesh, answer->result.heat, point);
+  }
+  if (explored.difference) figures.difference = value_at(mesh, explored.difference->values, point);
+  return figures;
+}
+
+namespace {
+
+std::string caption_of(const Explored& explored, Shown shown) {
+  const Model& model = explored.model->model;
+  const Index faces = model.mesh->face_count();
+  if (!explored.b) {
+    return picture_caption(model.name, faces, explored.a ? explored.a->method.get() : nullptr);
+  }
+  if (shown != Shown::kDifference) {
+    return picture_caption(model.name, faces, shown_answer(explored, shown)->method.get()) +
+           (shown == Shown::kB ? " (B)" : " (A)");
+  }
+  return picture_caption(model.name, faces, nullptr) +
+         ", A: " + method_caption(*explored.a->method) +
+         ", B: " + method_caption(*explored.b->method);
+}
+
+void set_answer(PictureData& data, const Explored& explored, Shown shown, View view,
+                const Answer& answer) {
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  add_sources(data, mesh, explored.set);
+  add_paths(data, mesh, explored.paths);
+  if (view == View::kExactError) {  // nothing, where nothing is known of the error
+    if (answer.error && !answer.error->values.empty()) {
+      add_error(data, answer.error->values, error_title(*answer.error));
+    }
+  } else if (shown == Shown::kDifference && explored.difference && !face_field(view)) {
+    add_difference(data, explored.difference->values);
+  } else {
+    add_distances(data, answer.result.distances);
+  }
+  if (shows_arrows(view) && !answer.result.log_heat.empty()) {
+    add_fields(data, mesh, answer.result);
+  }
+}
+
+}  // namespace
+
+bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
+
+bool needs_fields(View view) { return shows_arrows(view) || view == View::kLostGradients; }
+
+void set_explored(PictureData& data, const Explored& explored, Shown shown, View view) {
+  data.sources.clear();
+  data.values.clear();
+  data.heat_directions.clear();
+  data.distance_gradients.clear();
+  data.value_unit = 1;
+  data.largest_value = 0;
+  data.is_signed = false;
+  data.nearest.clear();
+  if (explored.a) data.nearest = explored.a->result.nearest_source;
+  data.lines.clear();
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  if (shown != Shown::kA && !explored.b) shown = Shown::kA;
+  data.caption = caption_of(explored, shown);
+  const Answer* answer = shown_answer(explored, shown);
+  if (answer != nullptr) set_answer(data, explored, shown, view, *answer);
+  set_face_values(data, mesh, view, answer != nullptr ? &answer->result : nullptr);
+}
+
+PictureData picture_of(const Explored& explored, Shown shown, View view) {
+  PictureData data = *explored.model->base;
+  set_explored(data, explored, shown, view);
+  return data;
+}
+
+}  // namespace geotherm::app

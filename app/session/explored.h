@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/picture_data.h"
+#include "app/picture/picture_settings.h"
+#include "app/picture/target_paths.h"
+#include "app/session/answer.h"
+#include "app/session/model.h"
+#include "app/session/state.h"
+#include "solver/mesh/ray_tree.h"
+
+// What the session has worked out; immutable, shared by threads.
+namespace geotherm::app {
+
+/// A model made ready for exploring.
+struct ExploredModel {
+  Model model;
+  MeshReport mesh;
+  std::vector<std::string> warnings;        ///< about file and mesh, one sentence each
+  std::shared_ptr<const PictureData> base;  ///< without a solve
+  std::shared_ptr<const RayTree> rays;      ///< null: not made yet
+};
+
+/// A place on the model under one entry of the list of sources.
+struct SourcePlace {
+  int entry = 0;  ///< of ViewerState::sources
+  SurfacePoint point;
+  Vec3 position = Vec3::Zero();  ///< model units
+  bool alone = false;            ///< the entry is this point and nothing else
+};
+
+/// What is shown: answers and the sources and settings they belong to.
+struct Explored {
+  std::shared_ptr<const ExploredModel> model;  ///< null: none is open
+  std::vector<SourceSpec> sources;             ///< as in ViewerState
+  SourceSet set;
+  std::vector<SourcePlace> places;
+  std::shared_ptr<const Answer> a, b;  ///< null: no source, or nothing kept
+  /// d_A - d_B where both are.
+  struct Difference {
+    std::vector<double> values;  ///< V; infinite where either is
+    double most = 0, mean = 0;   ///< of |d_A - d_B|, model units
+    double largest = 0;          ///< distance of A
+  };
+  std::shared_ptr<const Difference> difference;
+  std::vector<TargetPath> paths;  ///< to ViewerState::target
+  std::string path_failure;       ///< why there are none although there is a target; empty: none
+  std::string b_failure;          ///< why there is no B although settings are kept; empty: none
+  bool checked = false;           ///< these answers were shown before, without their errors
+  std::uint64_t version = 0;      ///< another one with every change
+};
+
+/// The t that a time step means on a mesh, model units squared. Precondition: it has one component;
+/// of several each has its own.
+double diffusion_time(const TimeStep& step, const MeshReport& mesh);
+
+/// A or B (for the difference: A); null while there is none.
+const Answer* shown_answer(const Explored& explored, Shown shown);
+
+/// Figures of a point of the surface.
+struct PointFigures {
+  SurfacePoint point;
+  Index nearest_vertex = kNoIndex;
+  Vec3 position = Vec3::Zero();
+  std::optional<double> distance;  ///< interpolated; infinite: not reached
+  std::optional<double> heat;      ///< u where the answer holds it
+  std::optional<double> difference;
+};
+/// Precondition: the point lies on the model.
+PointFigures figures_at(const Explored& explored, Shown shown, const SurfacePoint& point);
+
+/// Whether a view shows the vector fields of an answer.
+bool shows_arrows(View view);
+
+/// Whether a view needs u (QueryOptions::fields).
+bool needs_fields(View view);
+
+/// Sets everything of a picture but the mesh: values, sources, fields, caption. `data` holds the
+/// model's base or has been set before.
+void set_explored(PictureData& data, const Explored& explored, Shown shown, View view);
+
+/// The whole picture. Precondition: a model is open.
+PictureData picture_of(const Explored& explored, Shown shown, View view);
+
+}  // namespace geotherm::app

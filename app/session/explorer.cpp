@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/explorer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <set>
+
+#include "app/session/place_sources.h"
+#include "app/session/progress.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+namespace {
+
+std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const Answer& b) {
+  auto difference = std::make_shared<Explored::Difference>();
+  difference->largest = a.distance.max;
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.result.distances.size(); ++i) {
+    const double d = a.result.distances[i] - b.result.distances[i];
+    const bool is_number = std::isfinite(d);
+    difference->values.push_back(is_number ? d : kUnreached);
+    if (!is_number) continue;
+    difference->most = std::max(difference->most, std::abs(d));
+    sum += std::abs(d);
+    ++count;
+  }
+  difference->mean = count > 0 ? sum / static_cast<double>(count) : 0;
+  return difference;
+}
+
+/// Adds the places of one entry.
+void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& mesh,
+                std::vector<SourcePlace>& places) {
+  const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
+  for (const SurfacePoint& point : placed.set.points) {
+    places.push_back({entry, point, position_at(mesh, point), alone});
+  }
+  for (const auto& edge : placed.set.edges) {
+    for (const Index v : edge) {
+      places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
+    }
+  }
+}
+
+/// How messages call a source; a long list is cut.
+std::string source_name(const SourceSpec& source) {
+  constexpr std::size_t kShown = 60;
+  return "source " + to_text(source).substr(0, kShown);
+}
+
+/// Puts sets together: no vertex and no edge twice.
+class SetUnion {
+ public:
+  void add(const SourceSet& more) {
+    for (std::size_t i = 0; i < more.points.size(); ++i) {
+      add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
+    }
+    edges_.insert(more.edges.begin(), more.edges.end());
+  }
+  SourceSet take() {
+    set_.edges.assign(edges_.begin(), edges_.end());
+    if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
+    return std::move(set_);
+  }
+
+ private:
+  void add(const SurfacePoint& point, double offset) {
+    if (point.is_vertex()) {
+      const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
+      if (!fresh) {
+        set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
+        return;
+      }
+    }
+    set_.points.push_back(point);
+    set_.offsets.push_back(offset);
+  }
+
+  SourceSet set_;
+  std::map<Index, std::size_t> vertices_;
+  std::set<std::array<Index, 2>> edges_;
+};
+
+/// What an answer is held against in a session.
+CheckSettings check_settings(const ExploreRequest& request, const Answer& answer) {
+  CheckSettings settings;
+  settings.quick = !request.quality;
+  if (request.check == Check::kOn) return settings;
+  settings.mode = CheckMode::kThorough;
+  if (request.check == Check::kExact) {
+    settings.against = MethodKind::kExact;
+  } else if (request.check == Check::kWavefrontFine) {
+    settings.against = MethodKind::kWavefrontFine;
+  } else {
+    // While a source is dragged exact distances must take no longer than a frame or two.
+    constexpr Index kMaxFacesDragged = 10'000;
+    const Index faces = answer.model.mesh->face_count();
+    settings.against = settings.quick && faces > kMaxFacesDragged
+                           ? MethodKind::kWavefrontFine
+                           : reference_for(answer.options.method, faces);
+  }
+  return settings;
+}
+
+}  // namespace
+
+/// All entries as one set, and the places of each. A curve, which is a walk over the mesh, is not
+/// placed anew where the last request had it as well.
+Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
+                                                         Explored& explored) {
+  const TriangleMesh& mesh = *model_->model.mesh;
+  std::vector<PlacedCurve> curves;
+  SetUnion all;
+  std::vector<std::string> warnings;
+  for (std::size_t i = 0; i < request.sources.size(); ++i) {
+    const SourceSpec& source = request.sources[i];
+    const auto last = std::ranges::find(curves_, source, &PlacedCurve::curve);
+    ResolvedSources placed;
+    if (last != curves_.end()) {
+      placed = last->placed;
+    } else {
+      const Source named{source, source_name(source), ErrorCode::kBadInput};
+      auto resolved = resolve_sources({&named, 1}, mesh);
+      if (!resolved) return resolved.error();
+      placed = *std::move(resolved);
+    }
+    for (const std::string& warning : placed.warnings) {
+      if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
+    }
+    add_places(placed, static_cast<int>(i), mesh, explored.places);
+    all.add(placed.set);
+    if (std::holds_alternative<VertexCurve>(source)) curves.push_back({source, std::move(placed)});
+  }
+  curves_ = std::move(curves);
+  explored.set = all.take();
+  return warnings;
+}
+
+Result<void> Explorer::load(const ExploreRequest& request, const Progress& progress,
+                            const Early& early) {
+  if (model_ && request.model == model_text_ && request.reading == reading_ &&
+      request.opening == opening_) {
+    return {};
+  }
+  auto loaded = load_model(request.model, request.reading, progress);
+  if (!loaded) return loaded.error();
+  // What belonged to the old model goes before the new one needs the room.
+  solver_.reset();
+  curves_.clear();
+  model_.reset();
+  auto model = std::make_shared<ExploredModel>();
+  model->model = *std::move(loaded);
+  const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
+  model->mesh = inspect_mesh(*mesh);
+  model->warnings = model->model.notes;
+  for (std::string& warning : mesh_warnings(model->mesh)) {
+    model->warnings.push_back(std::move(warning));
+  }
+  auto base = std::make_shared<PictureData>(picture_of(*mesh));
+  base->solid = is_solid(*mesh, model->mesh);
+  model->base = std::move(base);
+  Explored first;
+  first.model = model;
+  early(first);
+  auto rays = RayTree::build(mesh, progress);
+  if (!rays) return rays.error();
+  auto whole = std::make_shared<ExploredModel>(*model);
+  whole->rays = std::make_shared<const RayTree>(*std::move(rays));
+  model_ = std::move(whole);
+  solver_.emplace(model_->model, ModelSolver::Use::kSession);
+  solver_->set_summary(model_->mesh);
+  model_text_ = request.model;
+  reading_ = request.reading;
+  opening_ = request.opening;
+  return {};
+}
+
+Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& request,
+                                                       const MethodOptions& options,
+                                                       const ResolvedSources& sources, bool is_b,
+                                                       const Progress& progress) {
+  const QueryOptions query{
+      .quality = request.quality, .fields = request.fields, .nearest = request.nearest && !is_b};
+  auto answer = solver_->solve(options, sources, {query}, progress);
+  if (!answer) return answer.error();
+  if (request.check != Check::kOff && request.check != Check::kOn) {
+    if (auto done = solver_->check(*answer, check_settings(request, *answer), progress); !done) {
+      return done.error();
+    }
+  }
+  return std::make_shared<const Answer>(*std::move(answer));
+}
+
+/// Paths that cannot be found are a matter of their own: the distances are good all the same.
+Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
+                                  const Progress& progress) {
+  const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
+  auto found = placed ? solver_->paths_to(placed->set.points.front(), *explored.a, progress)
+                      : Result<TargetPaths>(placed.error());
+  if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
+  if (!found) {
+    explored.path_failure = told(found.error());
+  } else {
+    explored.paths = std::move(found->paths);
+  }
+  return {};
+}
+
+/// Hands the answers out as they are, and then holds them against better ones.
+Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored& explored,
+                                        const Progress& progress, const Early& early) {
+  if (request.check != Check::kOn) return {};
+  early(explored);
+  explored.checked = true;
+  for (auto* const answer : {&explored.a, &explored.b}) {
+    if (!*answer) continue;
+    auto checked = std::make_shared<Answer>(**answer);
+    auto done = solver_->check(*checked, check_settings(request, *checked),
+                               with_prefix(progress, "checking: "));
+    if (!done) return done;
+    *answer = std::move(checked);
+  }
+  return {};
+}
+
+Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
+                                   const Early& early) try {
+  if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
+  Explored explored;
+  explored.model = model_;
+  explored.sources = request.sources;
+  if (request.sources.empty()) return explored;
+  auto warnings = place_sources(request, explored);
+  if (!warnings) return warnings.error();
+  const ResolvedSources sources{explored.set, *std::move(warnings)};
+  solver_->keep_methods(request.kept ? 2 : 1);
+  auto a = answer(request, request.options, sources, false, progress);
+  if (!a) return a.error();
+  explored.a = *std::move(a);
+  if (request.target) {
+    if (auto found = find_paths(request, explored, progress); !found) return found.error();
+  }
+  if (request.kept) {
+    auto b = answer(request, *request.kept, sources, true, progress);
+    if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
+    if (!b) {  // A is good all the same
+      explored.b_failure = "B: " + told(b.error());
+    } else {
+      explored.b = *std::move(b);
+      explored.difference = difference_of(*explored.a, *explored.b);
+    }
+  }
+  if (auto done = check_afterwards(request, explored, progress, early); !done) return done.error();
+  return explored;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory,
+               "the memory ended while working on " + request.model +
+                   "; close other programs or take a mesh with fewer faces"};
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/session/explored.h"
+#include "app/session/model_solver.h"
+#include "app/session/place_sources.h"
+#include "geotherm/progress.h"
+
+namespace geotherm::app {
+
+/// What a session asks for.
+struct ExploreRequest {
+  std::string model;
+  ModelReading reading;
+  std::uint64_t opening = 0;  ///< another number: the model is read anew
+  std::vector<SourceSpec> sources;
+  MethodOptions options;              ///< A
+  std::optional<MethodOptions> kept;  ///< B
+  bool fields = false, quality = true;
+  Check check = Check::kOff;
+  bool nearest = false;              ///< DistanceResult::nearest_source of A
+  std::optional<SourceSpec> target;  ///< Explored::paths
+
+  /// Whether both need the same model and factors.
+  bool same_setup(const ExploreRequest& other) const {
+    return model == other.model && reading == other.reading && opening == other.opening &&
+           options == other.options && kept == other.kept;
+  }
+  /// Whether what answers this also answers `other`.
+  bool covers(const ExploreRequest& other) const {
+    return same_setup(other) && sources == other.sources && fields >= other.fields &&
+           quality >= other.quality && nearest >= other.nearest &&
+           (check == other.check || other.check == Check::kOff) && target == other.target;
+  }
+};
+
+/// Works requests out, one after the other, and keeps the model and its solver. For one thread at
+/// a time.
+class Explorer {
+ public:
+  /// What is there before the whole is: the model alone, or answers before they are checked.
+  using Early = std::function<void(Explored)>;
+
+  /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
+  Result<Explored> explore(const ExploreRequest& request, const Progress& progress,
+                           const Early& early);
+
+ private:
+  Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
+  Result<std::vector<std::string>> place_sources(const ExploreRequest& request, Explored& explored);
+  Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
+                                               const MethodOptions& options,
+                                               const ResolvedSources& sources, bool is_b,
+                                               const Progress& progress);
+  Result<void> find_paths(const ExploreRequest& request, Explored& explored,
+                          const Progress& progress);
+  Result<void> check_afterwards(const ExploreRequest& request, Explored& explored,
+                                const Progress& progress, const Early& early);
+
+  std::shared_ptr<const ExploredModel> model_;
+  std::string model_text_;
+  ModelReading reading_;
+  std::uint64_t opening_ = 0;
+  std::optional<ModelSolver> solver_;  ///< of the model
+  struct PlacedCurve {
+    SourceSpec curve;
+    ResolvedSources placed;
+  };
+  std::vector<PlacedCurve> curves_;  ///< of the last request
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+// The settings of models, methods and checks.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "app/picture/picture_text.h"
+#include "app/session/model.h"
+#include "app/session/settings.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/backend.h"
+#include "geotherm/io.h"
+#include "geotherm/options.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+std::vector<Setting>& all() {
+  static std::vector<Setting> every = [] {
+    std::vector<Setting> joined = method_settings();
+    const std::vector<Setting> of_pictures = picture_settings_table();
+    joined.insert(joined.end(), of_pictures.begin(), of_pictures.end());
+    return joined;
+  }();
+  return every;
+}
+
+}  // namespace
+
+std::span<const Setting> settings() { return all(); }
+
+const Setting* find_setting(std::string_view name) {
+  const auto found = std::ranges::find(all(), name, &Setting::name);
+  return found == all().end() ? nullptr : &*found;
+}
+
+ExtraSetting::ExtraSetting(const Setting& setting) { all().push_back(setting); }
+ExtraSetting::~ExtraSetting() { all().pop_back(); }
+
+namespace {
+
+using Names = std::vector<std::string>;
+using State = ViewerState;
+using Text = std::string;
+using enum SettingGroup;
+using enum SettingKind;
+
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxRefine = 6;
+constexpr const char* kFree = "free";  // the memory limit that the machine sets
+
+Error bad_value(const Text& text, const Text& why) {
+  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why};
+}
+
+Result<double> parse_time_factor(const Text& text) {
+  const auto factor = number_in<double>(text);
+  if (factor && *factor > 0 && std::isfinite(*factor)) return *factor;
+  return bad_value(text, "is no time factor; it must be a positive number, such as 1");
+}
+
+/// 0: one a core.
+Result<int> parse_threads(const Text& text) {
+  const auto threads = number_in<int>(text);
+  if (threads && *threads >= 0 && *threads <= kMaxThreads) return *threads;
+  return bad_value(text, "is no number of threads; give 1 to " + std::to_string(kMaxThreads));
+}
+
+/// In 2^20 bytes; 0: what is free.
+Result<double> parse_memory_limit(const Text& text) {
+  if (text == kFree) return 0.0;
+  constexpr std::pair<char, double> kUnits[] = {{'K', 1.0 / 1024}, {'M', 1.0}, {'G', 1024.0}};
+  Text number = text;
+  double unit = 1;
+  for (const auto& [letter, megabytes] : kUnits) {
+    if (text.empty() || std::toupper(static_cast<unsigned char>(text.back())) != letter) continue;
+    number.pop_back();
+    unit = megabytes;
+  }
+  const auto size = number_in<double>(number);
+  if (size && *size > 0 && *size * unit > 0 && std::isfinite(*size * unit)) return *size * unit;
+  return bad_value(text,
+                   "is no size; give a positive number of MB, or one with K, M or G, such as "
+                   "800 or 4G, or free");
+}
+
+Result<int> parse_refine(const Text& text) {
+  const auto times = number_in<int>(text);
+  if (times && *times >= 0 && *times <= kMaxRefine) return *times;
+  return bad_value(text, "is no number of refinements; give 0 to " + std::to_string(kMaxRefine) +
+                             ", each makes four times as many faces");
+}
+
+Result<Text> parse_backend(const Text& text) {
+  const auto backend = find_backend(text);
+  if (!backend) return backend.error();
+  return text;
+}
+
+Result<Constraint> parse_constraint_option(const Text& text) {
+  auto parsed = parse_constraint(text);
+  if (parsed) return parsed;
+  return with_hint(parsed.error(),
+                   {"write penalty:VALUE with a positive number, such as penalty:1e6, or "
+                    "pin-vertex:V with a vertex id"});
+}
+
+Result<TimeStep> parse_time_step_option(const Text& text, double factor) {
+  auto parsed = parse_time_step(text, factor);
+  if (parsed) return parsed;
+  return with_hint(parsed.error(),
+                   {"write absolute:T with a positive number, such as absolute:0.01"});
+}
+
+constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOn, "on"},
+                                                          {Check::kOff, "off"},
+                                                          {Check::kAuto, "auto"},
+                                                          {Check::kWavefrontFine, "wavefront-fine"},
+                                                          {Check::kExact, "exact"}};
+
+Names check_names() {
+  Names names;
+  for (const auto& [value, name] : kChecks) names.emplace_back(name);
+  return names;
+}
+
+Text check_text(const State& s) {
+  for (const auto& [value, name] : kChecks) {
+    if (value == s.check) return Text(name);
+  }
+  return {};
+}
+
+Result<void> set_check(State& s, const Text& text) {
+  for (const auto& [value, name] : kChecks) {
+    if (name != text) continue;
+    s.check = value;
+    return {};
+  }
+  return bad_value(text, "is no check; there are " + joined(check_names()));
+}
+
+}  // namespace
+
+std::vector<Setting> method_settings() {
+  return {
+      {.name = "method",
+       .value_name = "NAME",
+       .help = "how distance is computed",
+       .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: the "
+                 "classic; exact: slow, and the truth.",
+       .get = [](const State& s) { return to_text(s.options.method); },
+       .set = [](State& s, const Text& t) { return store(parse_method(t), s.options.method); },
+       .values = method_names},
+      {.name = "backend",
+       .of_heat = true,
+       .value_name = "NAME",
+       .help = "linear solver",
+       .get = [](const State& s) { return s.options.backend; },
+       .set = [](State& s, const Text& t) { return store(parse_backend(t), s.options.backend); },
+       .values = backend_names},
+      {.name = "time-step",
+       .of_heat = true,
+       .value_name = "RULE",
+       .help = "how the diffusion time t is chosen",
+       .forms = "mean-edge (t = m h^2, default), mean-face-area (t = m A/F), absolute:T",
+       .detail = "mean-edge: t = m h\u00b2; mean-face-area: t = m A/F; absolute: t itself.",
+       .get = [](const State& s) { return to_text(s.options.time_step); },
+       .set =
+           [](State& s, const Text& t) {
+             return store(parse_time_step_option(t, s.options.time_step.factor),
+                          s.options.time_step);
+           },
+       .values =
+           [] {
+             return Names{"mean-edge", "mean-face-area", "absolute:0.01"};
+           }},
+      {.name = "time-factor",
+       .kind = kNumber,
+       .of_heat = true,
+       .option = "-m,--time-factor",
+       .value_name = "M",
+       .help = "m of the time step",
+       .detail = "Around 1 is right for most meshes; larger smooths the distances, smaller costs "
+                 "accuracy on coarse meshes.",
+       .get = [](const State& s) { return number_text(s.options.time_step.factor); },
+       .set =
+           [](State& s, const Text& t) {
+             return store(parse_time_factor(t), s.options.time_step.factor);
+           }},
+      {.name = "constraint",
+       .of_heat = true,
+       .value_name = "MODE",
+       .help = "what makes the Poisson system solvable",
+       .forms = "pin-sources (default), pin-vertex[:V], penalty[:VALUE], conserve-energy, "
+                "pseudo-inverse",
+       .detail = "pin-sources: \u03c6 = 0 on every source; pin-vertex: on one vertex; penalty: a "
+                 "number on the diagonal; conserve-energy: the total of \u03c6 is fixed; "
+                 "pseudo-inverse: the smallest solution.",
+       .get = [](const State& s) { return to_text(s.options.constraint); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_constraint_option(t), s.options.constraint); },
+       .values =
+           [] {
+             return Names{"pin-sources", "pin-vertex", "penalty:10", "conserve-energy",
+                          "pseudo-inverse"};
+           }},
+      {.name = "heat",
+       .of_heat = true,
+       .value_name = "MODE",
+       .help = "what the heat step diffuses",
+       .detail = "unit: 1 on every source; diffuse: weighted with the source's area; hold: u = 1 "
+                 "held on the sources.",
+       .get = [](const State& s) { return to_text(s.options.heat); },
+       .set = [](State& s, const Text& t) { return store(parse_heat_mode(t), s.options.heat); },
+       .values = heat_mode_names},
+      {.name = "boundary",
+       .of_heat = true,
+       .value_name = "RULE",
+       .help = "the condition on u along the border",
+       .detail = "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
+                 "both.",
+       .get = [](const State& s) { return to_text(s.options.boundary); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_boundary_rule(t), s.options.boundary); },
+       .values = boundary_rule_names},
+      {.name = "laplacian",
+       .of_heat = true,
+       .value_name = "KIND",
+       .help = "which triangulation carries the operators",
+       .detail =
+           "auto flips edges where weights would be negative, on the tufted cover where edges "
+           "have three faces, and inserts vertices (refined) where faces are too large or the "
+           "border is obtuse; cotan takes the mesh as it is.",
+       .get = [](const State& s) { return to_text(s.options.laplacian); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
+       .values = laplacian_names},
+      {.name = "variant",
+       .of_heat = true,
+       .value_name = "NAME",
+       .help = "how the method is discretised",
+       .detail = "corrected: this program's; classic: as first published.",
+       .get = [](const State& s) { return to_text(s.options.variant); },
+       .set = [](State& s, const Text& t) { return store(parse_variant(t), s.options.variant); },
+       .values = variant_names},
+      {.name = "precision",
+       .of_heat = true,
+       .value_name = "NAME",
+       .help = "how accurately systems are solved",
+       .detail = "compact: factors at half the size where the backend can; refined: the same, and "
+                 "each solve made accurate by another; full: factors in double.",
+       .get = [](const State& s) { return to_text(s.options.precision); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_precision(t), s.options.precision); },
+       .values = precision_names},
+      {.name = "memory-limit",
+       .of_heat = true,
+       .value_name = "SIZE",
+       .help = "most that a backend's factors may take, in MB or with K, M or G; what needs more "
+               "fails before it starts",
+       .forms = "800, 4G, free (default: what the machine has left)",
+       .get =
+           [](const State& s) {
+             const double limit = s.options.memory_limit_mb;
+             return limit == 0 ? Text(kFree) : number_text(limit);
+           },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_memory_limit(t), s.options.memory_limit_mb); },
+       .values =
+           [] {
+             return Names{kFree, "500"};
+           }},
+      {.name = "strict",
+       .kind = kSwitch,
+       .of_heat = true,
+       .bare = "on",
+       .help = "a backend that fails is an error; otherwise the next one takes over",
+       .get = [](const State& s) { return switch_text(s.options.strict); },
+       .set = [](State& s, const Text& t) { return store(parse_switch(t), s.options.strict); }},
+      {.name = "threads",
+       .kind = kNumber,
+       .value_name = "N",
+       .help = "that work at once; 0: one a core",
+       .get = [](const State& s) { return std::to_string(s.options.threads); },
+       .set = [](State& s, const Text& t) { return store(parse_threads(t), s.options.threads); }},
+      {.name = "refine",
+       .kind = kNumber,
+       .value_name = "N",
+       .help =
+           "cuts each face into four N times, up to 6, before anything is solved: 4^N times the "
+           "faces, memory and time; the output keeps the model's vertices",
+       .detail = "Each time there are four times as many faces to solve on, and less error; the "
+                 "distances shown are those at the model's own vertices.",
+       .get = [](const State& s) { return std::to_string(s.options.refine); },
+       .set = [](State& s, const Text& t) { return store(parse_refine(t), s.options.refine); },
+       .values =
+           [] {
+             return Names{"0", "1", "2", "3"};
+           }},
+      {.name = "weld",
+       .group = kModel,
+       .value_name = "EPS",
+       .help = "vertices at most this far apart (model units; 0: equal) are one, which closes "
+               "cracks; all keep their ids",
+       .get =
+           [](const State& s) {
+             return s.reading.weld ? number_text(*s.reading.weld) : Text("off");
+           },
+       .set = [](State& s, const Text& t) { return store(parse_weld(t), s.reading.weld); }},
+      {.name = "format",
+       .group = kModel,
+       .value_name = "NAME",
+       .help = "of the model, whatever its name",
+       .get =
+           [](const State& s) {
+             return s.reading.format.empty() ? Text("auto") : s.reading.format;
+           },
+       .set = [](State& s, const Text& t) { return store(parse_format(t), s.reading.format); },
+       .values =
+           [] {
+             Names names = mesh_formats();
+             names.insert(names.begin(), "auto");
+             return names;
+           }},
+      {.name = "check",
+       .group = kCheck,
+       .help = "what the distances are held against",
+       .get = check_text,
+       .set = set_check,
+       .values = check_names},
+  };
+}
+
+}  // namespace geotherm::app

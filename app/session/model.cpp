@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/model.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "app/session/progress.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/io.h"
+#include "geotherm/mesh.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm::app {
+
+Result<std::string> parse_format(const std::string& text) {
+  if (text.empty() || text == "auto") return std::string();
+  const auto known = check_mesh_format(text);
+  if (!known) return known.error();
+  return text;
+}
+
+Result<std::optional<double>> parse_weld(const std::string& text) {
+  if (text.empty() || text == "off") return std::optional<double>();
+  const auto distance = number_in<double>(text);
+  if (distance && *distance >= 0 && std::isfinite(*distance)) return std::optional(*distance);
+  return Error{ErrorCode::kBadInput,
+               "'" + one_line(text) +
+                   "' is no distance; give a length in model units, or 0 for vertices that are "
+                   "equal"};
+}
+
+namespace {
+
+void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& notes) {
+  if (file.polygons > 0) {
+    notes.push_back(counted(file.polygons, "polygon was", "polygons were") + " triangulated");
+  }
+  if (file.welded > 0) {
+    notes.push_back("the file shares no vertices between faces: " +
+                    counted(file.welded, "equal corner was", "equal corners were") +
+                    " welded, and vertices are numbered by first appearance");
+  }
+}
+
+Model model_of(MeshFile file, std::string name, const std::string& path, double load_ms) {
+  Model model{std::move(name), path, nullptr, load_ms, {}};
+  note_polygons_and_welding(file, model.notes);
+  model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
+  return model;
+}
+
+Result<Model> from_file(const std::string& text, const ModelReading& reading,
+                        const Progress& progress) {
+  const std::filesystem::path path(text);
+  std::error_code unknown;
+  if (!path.has_extension() && !std::filesystem::exists(path, unknown)) {
+    std::vector<std::string_view> names;
+    for (const BundledModel& model : bundled_models()) names.push_back(model.name);
+    return Error{ErrorCode::kBadFile, "'" + one_line(text) +
+                                          "' is neither a file nor a bundled model; bundled are " +
+                                          joined(names)};
+  }
+  if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
+  const Stopwatch watch;
+  auto file = reading.format.empty() ? read_mesh(text) : read_mesh(text, reading.format);
+  if (!file) {
+    const bool memory = file.error().code == ErrorCode::kOutOfMemory;
+    const bool there = std::filesystem::exists(path, unknown);
+    Error error = file.error();
+    if (!memory) error.code = ErrorCode::kBadFile;
+    return with_hint(std::move(error), {memory  ? "take a mesh with fewer faces"
+                                        : there ? "choose another file, or export this one again"
+                                                : "check the path"});
+  }
+  return model_of(*std::move(file), path.stem().string(), text, watch.milliseconds());
+}
+
+Result<Model> bundled(const std::string& name, const ModelReading& reading,
+                      const Progress& progress) {
+  if (!reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--format: " + name + " is a bundled model and no file; leave --format out"};
+  }
+  const auto file = bundled_file(name);
+  if (!file) return file.error();
+  auto model = from_file(*file, reading, progress);
+  if (model) model->path.clear();
+  return model;
+}
+
+Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
+  const std::string name = "standard input";
+  if (reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "the model - is standard input, which has no extension; add --format with obj, "
+                 "ply, off or stl"};
+  }
+  if (!report(progress, "reading " + name, -1)) return cancelled_error();
+  const Stopwatch watch;
+  auto file = read_mesh(STDIN_FILENO, reading.format, name);
+  if (!file) {
+    return with_hint(file.error(), {"check what writes it, and that it is " + reading.format});
+  }
+  return model_of(*std::move(file), name, std::string(kStandardInput), watch.milliseconds());
+}
+
+std::string weld_note(Index merged, double distance) {
+  const std::string where = distance > 0 ? "within " + significant(distance) + " of another"
+                                         : "exactly where another one is";
+  if (merged == 0) return "no vertex lies " + where + ": none was merged";
+  return counted(merged, "vertex", "vertices") + " " + where +
+         (merged == 1 ? " was merged with it" : " were merged with them") +
+         "; merged vertices share a distance";
+}
+
+}  // namespace
+
+Result<Model> load_model(const std::string& text, const ModelReading& reading,
+                         const Progress& progress) {
+  auto model = text == kStandardInput ? from_standard_input(reading, progress)
+               : is_bundled(text)     ? bundled(text, reading, progress)
+                                      : from_file(text, reading, progress);
+  if (!model || !reading.weld) return model;
+  if (!report(progress, "welding", -1)) return cancelled_error();
+  auto welded = weld(*model->mesh, *reading.weld);
+  if (!welded) return about("--weld", welded.error());
+  model->notes.push_back(weld_note(welded->merged, *reading.weld));
+  model->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+  return model;
+}
+
+namespace {
+
+constexpr BundledModel kModels[] = {
+    {"terrain", 33'000, "mountains cut by rivers, a height field with an open border",
+     "a landscape with one boundary"},
+    {"sleeve", 37'000, "a bent garment sleeve with folds, open at the shoulder and the cuff",
+     "a tube with two boundaries"},
+    {"cube", 30'000, "a cube with exact edges and corners", "with exact edges"},
+    {"gargoyle", 200'000, "a horned, winged creature that crouches on a plinth", "200,000 faces"},
+    {"bunny", 4'000, "a sitting rabbit", "4,000 faces"},
+};
+
+/// Where files of models are looked for, in this order.
+std::vector<std::filesystem::path> folders() {
+  const char* const chosen = std::getenv("GEOTHERM_MODELS");
+  if (chosen && *chosen) return {chosen};
+  std::vector<std::filesystem::path> found;
+  std::error_code unknown;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown) {
+    found.push_back((program.parent_path() / GEOTHERM_INSTALLED_MODELS).lexically_normal());
+  }
+  found.emplace_back(GEOTHERM_SOURCE_MODELS);
+  return found;
+}
+
+}  // namespace
+
+std::span<const BundledModel> bundled_models() { return kModels; }
+
+bool is_bundled(std::string_view name) {
+  return std::ranges::find(kModels, name, &BundledModel::name) != std::end(kModels);
+}
+
+Result<std::string> bundled_file(std::string_view name) {
+  const std::string file = std::string(name) + ".ply";
+  std::vector<std::string> tried;
+  for (const std::filesystem::path& folder : folders()) {
+    std::error_code unknown;
+    if (std::filesystem::exists(folder / file, unknown)) return (folder / file).string();
+    tried.push_back(one_line(folder.string()));
+  }
+  return Error{ErrorCode::kBadFile, "the bundled model " + std::string(name) + " has no file " +
+                                        file + " in " + joined(tried, " or ") +
+                                        "; install geotherm again, or set GEOTHERM_MODELS to the "
+                                        "folder that holds it"};
+}
+
+}  // namespace geotherm::app

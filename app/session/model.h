@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
+#include "geotherm/types.h"
+
+// How a model is read, beside its name.
+namespace geotherm::app {
+
+struct ModelReading {
+  std::string format;          ///< obj, ply, off or stl; empty: what the extension says
+  std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
+
+  bool operator==(const ModelReading&) const = default;
+};
+
+/// The name that is standard input.
+inline constexpr std::string_view kStandardInput = "-";
+
+/// "auto", and empty, are the extension's.
+Result<std::string> parse_format(const std::string& text);
+/// "off", and empty, are none.
+Result<std::optional<double>> parse_weld(const std::string& text);
+
+struct Model {
+  std::string name;  ///< the file's name without folder and extension, or the bundled name
+  std::string path;  ///< empty for a bundled model, - for standard input
+  std::shared_ptr<const TriangleMesh> mesh;
+  double load_ms = 0;              ///< reading
+  std::vector<std::string> notes;  ///< what reading had to do, one sentence each
+};
+
+/// `text`: a bundled model's name, kStandardInput, else a path. Errors: kBadInput (a format or a
+/// distance that does not go with the model), kBadFile, kOutOfMemory, kCancelled.
+Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
+                         const Progress& progress = {});
+
+/// A model that comes with the program, as the file NAME.ply.
+struct BundledModel {
+  std::string_view name;
+  Index faces;  ///< about
+  std::string_view description;
+  std::string_view feature;  ///< what menus say beside the name
+};
+
+/// All of them: terrain, sleeve, cube, gargoyle, bunny.
+std::span<const BundledModel> bundled_models();
+
+bool is_bundled(std::string_view name);
+
+/// The path of a bundled model's file: in the folder that the variable GEOTHERM_MODELS of the
+/// environment names; without it, in the data folder of the installed program, else in the source
+/// tree that the program was built from. Errors: kBadFile, with the folders that were looked in.
+Result<std::string> bundled_file(std::string_view name);
+
+}  // namespace geotherm::app

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/outputs.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "solver/core/text.h"
+#include "solver/mesh/output_file.h"
+
+namespace geotherm::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error cannot_write(const std::string& path, const std::string& cause) {
+  return {ErrorCode::kBadFile, one_line(path) + ": cannot be written: " + cause};
+}
+
+Result<void> check_place(const std::string& path) {
+  std::error_code unknown;
+  if (path.empty()) return Error{ErrorCode::kBadInput, "an output file has no name; give one"};
+  if (fs::is_directory(path, unknown)) {
+    return cannot_write(path, "it is a folder; give the name of a file in it");
+  }
+  if (fs::exists(path, unknown)) {
+    if (::access(path.c_str(), W_OK) == 0) return {};
+    return cannot_write(path, std::generic_category().message(errno) + "; choose another name");
+  }
+  const fs::path parent = fs::path(path).parent_path();
+  const std::string folder = parent.empty() ? "." : parent.string();
+  if (!fs::exists(folder, unknown)) {
+    return cannot_write(path, "there is no folder " + one_line(folder) + "; make it first");
+  }
+  if (!fs::is_directory(folder, unknown)) {
+    return cannot_write(path, one_line(folder) + " is no folder; choose another place");
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
+  return cannot_write(path, "folder " + one_line(folder) + ": " +
+                                std::generic_category().message(errno) + "; choose another place");
+}
+
+std::string resolved_path(const std::string& path) {
+  std::error_code unknown;
+  return fs::weakly_canonical(fs::absolute(path, unknown), unknown).string();
+}
+
+/// `resolved`: of both. Hard links are the same file, too.
+bool same_file(const std::string& a, const std::string& resolved_a, const std::string& b,
+               const std::string& resolved_b) {
+  std::error_code unknown;
+  return resolved_a == resolved_b || fs::equivalent(a, b, unknown);
+}
+
+}  // namespace
+
+void Outputs::protect(const std::string& path, std::string_view called) {
+  if (!path.empty()) inputs_.push_back({path, resolved_path(path), std::string(called)});
+}
+
+Result<void> Outputs::expect(const std::string& path, std::string_view option) {
+  std::error_code unknown;
+  const bool is_new = path != "-" && !fs::exists(path, unknown);
+  const std::string resolved = path == "-" ? path : resolved_path(path);
+  const auto is_this = [&](const File& other) {
+    // What does not exist yet has no second name, and asking the system about each pair of a
+    // thousand frames takes its time.
+    if (is_new || other.is_new) return resolved == other.resolved;
+    return path == "-" || other.path == "-" ? path == other.path
+                                            : same_file(path, resolved, other.path, other.resolved);
+  };
+  for (const File& other : files_) {
+    if (!is_this(other)) continue;
+    return Error{ErrorCode::kBadInput,
+                 std::string(option) + ": " + (path == "-" ? "standard output" : one_line(path)) +
+                     " is asked for twice; give each output a place of its own"};
+  }
+  if (path != "-") {
+    if (auto place = check_place(path); !place) return place;
+    for (const Input& input : inputs_) {
+      if (!same_file(path, resolved, input.path, input.resolved)) continue;
+      return Error{ErrorCode::kBadInput, std::string(option) + ": " + one_line(path) + " is " +
+                                             input.called + "; give another name"};
+    }
+  }
+  files_.push_back({path, resolved, is_new});
+  return {};
+}
+
+bool Outputs::uses_stdout() const {
+  for (const File& file : files_) {
+    if (file.path == "-") return true;
+  }
+  return false;
+}
+
+Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
+  Result<void> done = write();
+  if (!done) {
+    remove_written();
+    return with_hint(done.error(), {"make room there, or choose another place"});
+  }
+  for (File& file : files_) {
+    if (file.path == path) file.written = true;
+  }
+  return done;
+}
+
+Result<void> Outputs::write_text(const std::string& path, std::string text,
+                                 std::string& standard_output) {
+  return write(path, [&]() -> Result<void> {
+    if (path != "-") return write_file(path, text);
+    standard_output = std::move(text);
+    return {};
+  });
+}
+
+std::vector<std::string> Outputs::made() const {
+  std::vector<std::string> paths;
+  for (const File& file : files_) {
+    if (file.written && file.is_new && file.path != "-") paths.push_back(file.path);
+  }
+  return paths;
+}
+
+void Outputs::remove_written() {
+  for (const std::string& path : made()) ::unlink(path.c_str());
+}
+
+bool holds_mesh(const std::string& path) {
+  const std::string extension = io::file_extension(path);
+  return extension == ".ply" || extension == ".vtp";
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geotherm/error.h"
+
+namespace geotherm::app {
+
+/// The output files of one command: checked before the work, written after it, and when one of them
+/// fails, those that the command made are removed again.
+class Outputs {
+ public:
+  /// A file that the command reads: expect() then refuses it. `called`: "the model itself".
+  /// Nothing happens without a path.
+  void protect(const std::string& path, std::string_view called);
+
+  /// `option`: how the command line calls it, for messages. "-" is standard output.
+  /// Errors: kBadInput (the same path twice, standard output twice, a protected file), kBadFile
+  /// (no such folder, a directory, no permission).
+  Result<void> expect(const std::string& path, std::string_view option);
+
+  /// True when an output goes to standard output, which is then for nothing else.
+  bool uses_stdout() const;
+
+  /// Runs `write`, which writes `path`.
+  Result<void> write(const std::string& path, const std::function<Result<void>()>& write);
+
+  /// The same for `text` as a whole; where `path` is "-" it ends up in `standard_output`.
+  Result<void> write_text(const std::string& path, std::string text, std::string& standard_output);
+
+  /// The files that were written and were not there before.
+  std::vector<std::string> made() const;
+
+  /// Removes the files that were made so far, for a command whose work failed between two of them.
+  void remove_written();
+
+ private:
+  struct File {
+    std::string path;
+    std::string resolved;  ///< the same for all names of a file, but for hard links
+    bool is_new;
+    bool written = false;
+  };
+  struct Input {
+    std::string path, resolved, called;
+  };
+  std::vector<File> files_;
+  std::vector<Input> inputs_;
+};
+
+/// Whether a file of distances holds the mesh as well, so that a property can be added to it
+/// without harm: .ply and .vtp.
+bool holds_mesh(const std::string& path);
+
+/// What a command that has done its work hands to whoever called it; nothing has been printed.
+struct CommandOutput {
+  std::string text;  ///< for standard output
+  std::vector<std::string> warnings;
+  std::vector<std::string> made;  ///< new files, to be removed when the text cannot be printed
+  std::string note = {};          ///< a line for standard error that is no warning; empty: none
+  /// Why the work counts as failed although there is something to print.
+  std::optional<Error> failure = {};
+};
+
+}  // namespace geotherm::app

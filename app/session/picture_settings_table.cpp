@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// The settings of pictures and of the camera.
+#include <algorithm>
+#include <utility>
+
+#include "app/picture/picture_text.h"
+#include "app/session/settings.h"
+#include "app/session/text.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+using Names = std::vector<std::string>;
+using State = ViewerState;
+using Text = std::string;
+using enum SettingGroup;
+using enum SettingKind;
+
+Result<void> set_range(State& s, const Text& text) {
+  const auto range = parse_range(text);
+  if (!range) return range.error();
+  s.picture.range_min = range->min;
+  s.picture.range_max = range->max;
+  return {};
+}
+
+Result<void> set_size(State& s, const Text& text) {
+  const auto size = parse_size(text);
+  if (!size) return size.error();
+  s.picture.width = size->width;
+  s.picture.height = size->height;
+  return {};
+}
+
+Result<void> set_pan(State& s, const Text& text) {
+  const auto pan = parse_pan(text);
+  if (!pan) return pan.error();
+  s.picture.camera.pan_right = pan->right;
+  s.picture.camera.pan_up = pan->up;
+  return {};
+}
+
+/// Which maps there are is known to whoever draws; here it is a name.
+Result<void> set_colour_map(State& s, const Text& text) {
+  const bool is_name = !text.empty() && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+  if (!is_name) return Error{ErrorCode::kBadInput, "'" + one_line(text) + "' is no colour map"};
+  s.picture.colour_map = text;
+  return {};
+}
+
+/// A switch of the picture; `bare`: what its option stands for.
+template <bool PictureSettings::*kMember>
+Setting picture_switch(std::string_view name, std::string_view option, std::string_view bare,
+                       std::string_view help) {
+  return {
+      .name = name,
+      .group = kPicture,
+      .kind = kSwitch,
+      .option = option,
+      .bare = bare,
+      .help = help,
+      .get = [](const State& s) { return switch_text(s.picture.*kMember); },
+      .set = [](State& s, const Text& t) { return store(parse_switch(t), s.picture.*kMember); }};
+}
+
+}  // namespace
+
+std::vector<Setting> picture_settings_table() {
+  return {
+      {.name = "view",
+       .group = kPicture,
+       .value_name = "VIEW",
+       .help = "what is shown",
+       .get = [](const State& s) { return to_text(s.picture.view); },
+       .set = [](State& s, const Text& t) { return store(parse_view(t), s.picture.view); },
+       .values = view_names},
+      {.name = "size",
+       .group = kPicture,
+       .value_name = "WxH",
+       .help = "of the picture, in pixels, up to 8192x8192",
+       .get =
+           [](const State& s) {
+             return std::to_string(s.picture.width) + "x" + std::to_string(s.picture.height);
+           },
+       .set = set_size},
+      {.name = "samples",
+       .group = kPicture,
+       .kind = kNumber,
+       .value_name = "N",
+       .help = "a pixel",
+       .detail = "4: smooth edges; 1: faster.",
+       .get = [](const State& s) { return std::to_string(s.picture.samples); },
+       .set = [](State& s, const Text& t) { return store(parse_samples(t), s.picture.samples); },
+       .values =
+           [] {
+             return Names{"1", "4"};
+           }},
+      {.name = "colour-map",
+       .group = kPicture,
+       .option = "--colour-map,--colormap",
+       .value_name = "NAME",
+       .help = "colours of the distances",
+       .get = [](const State& s) { return s.picture.colour_map; },
+       .set = set_colour_map},
+      picture_switch<&PictureSettings::reverse>("reverse", "", "on",
+                                                "the colour map is turned round"),
+      {.name = "range",
+       .group = kPicture,
+       .value_name = "MIN:MAX",
+       .help = "distances at the ends of the colour map; auto: 0 to the largest",
+       .get = [](const State& s) { return range_text(s.picture); },
+       .set = set_range},
+      {.name = "spacing",
+       .group = kPicture,
+       .value_name = "D",
+       .help = "between isolines in model units; 0: none; auto: a round number",
+       .get =
+           [](const State& s) {
+             return s.picture.line_spacing ? number_text(*s.picture.line_spacing) : Text("auto");
+           },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_spacing(t), s.picture.line_spacing); }},
+      {.name = "light",
+       .group = kPicture,
+       .value_name = "NAME",
+       .help = "on the surface",
+       .get = [](const State& s) { return to_text(s.picture.light); },
+       .set = [](State& s, const Text& t) { return store(parse_light(t), s.picture.light); },
+       .values = light_names},
+      {.name = "background",
+       .group = kPicture,
+       .value_name = "NAME",
+       .help = "of the picture",
+       .get = [](const State& s) { return to_text(s.picture.background); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_background(t), s.picture.background); },
+       .values = background_names},
+      picture_switch<&PictureSettings::bar>("bar", "--no-bar", "off", "the colour bar"),
+      picture_switch<&PictureSettings::caption>("caption", "--no-caption", "off",
+                                                "the line about model, t and backend"),
+      picture_switch<&PictureSettings::markers>("markers", "--no-markers", "off",
+                                                "marks where the sources are"),
+      {.name = "azimuth",
+       .group = kCamera,
+       .kind = kNumber,
+       .value_name = "DEGREES",
+       .help = "of the eye about the vertical axis",
+       .get = [](const State& s) { return number_text(s.picture.camera.azimuth); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_azimuth(t), s.picture.camera.azimuth); }},
+      {.name = "elevation",
+       .group = kCamera,
+       .kind = kNumber,
+       .value_name = "DEGREES",
+       .help = "of the eye, -90 to 90",
+       .get = [](const State& s) { return number_text(s.picture.camera.elevation); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_elevation(t), s.picture.camera.elevation); }},
+      {.name = "zoom",
+       .group = kCamera,
+       .kind = kNumber,
+       .value_name = "FACTOR",
+       .help = "1: as large as it fits",
+       .get = [](const State& s) { return number_text(s.picture.camera.zoom); },
+       .set = [](State& s, const Text& t) { return store(parse_zoom(t), s.picture.camera.zoom); }},
+      {.name = "pan",
+       .group = kCamera,
+       .value_name = "RIGHT:UP",
+       .help = "shift in picture heights",
+       .get =
+           [](const State& s) {
+             return number_text(s.picture.camera.pan_right) + ":" +
+                    number_text(s.picture.camera.pan_up);
+           },
+       .set = set_pan},
+      {.name = "centre",
+       .group = kCamera,
+       .option = "--centre,--center",
+       .value_name = "X:Y:Z",
+       .help = "what is in the middle, in model units, and what turntables turn about; implies fit "
+               "sphere",
+       .get = [](const State& s) { return centre_text(s.picture.camera); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse_centre(t), s.picture.camera.centre); }},
+      {.name = "fit",
+       .group = kCamera,
+       .value_name = "HOW",
+       .help = "how the model fills the picture",
+       .detail = "tight: as large as it can be from here; sphere: the same size from everywhere.",
+       .get = [](const State& s) { return to_text(s.picture.camera.fit); },
+       .set = [](State& s, const Text& t) { return store(parse_fit(t), s.picture.camera.fit); },
+       .values = fit_names},
+      {.name = "projection",
+       .group = kCamera,
+       .value_name = "NAME",
+       .help = "of space onto the picture",
+       .get =
+           [](const State& s) {
+             return Text(s.picture.camera.orthographic ? "orthographic" : "perspective");
+           },
+       .set =
+           [](State& s, const Text& t) {
+             return store(parse_projection(t), s.picture.camera.orthographic);
+           },
+       .values =
+           [] {
+             return Names{"perspective", "orthographic"};
+           }},
+  };
+}
+
+}  // namespace geotherm::app

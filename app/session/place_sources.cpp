@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/place_sources.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/mesh.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/mesh/connectivity.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A point farther from the surface than this share of the model's size is worth a word.
+constexpr double kFar = 0.01;
+
+std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
+  std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (const Face& face : mesh.faces()) {
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    for (const Index corner : face) used[corner] = 1;
+  }
+  return used;
+}
+
+/// splitmix64 (Steele, Lea, Flood 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t below(std::uint64_t bound) {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return (z ^ (z >> 31)) % bound;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+
+class Resolver {
+ public:
+  explicit Resolver(const TriangleMesh& mesh) : mesh_(mesh), used_(vertices_in_faces(mesh)) {}
+
+  Result<void> operator()(const VertexList& list) {
+    for (const Index v : list.vertices) {
+      if (auto added = add_vertex(v, list.offset); !added) return added;
+    }
+    return {};
+  }
+
+  Result<void> operator()(const RandomVertices& random) {
+    auto vertices = random_vertices(mesh_, random.count, random.seed);
+    if (!vertices) return vertices.error();
+    return (*this)(VertexList{*std::move(vertices), random.offset});
+  }
+
+  Result<void> operator()(const WholeBoundary&) {
+    const EdgeTable& edges = clean().edges;
+    bool found = false;
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      if (edges.sides(e).size() != 1) continue;
+      add_edge(edges.low(e), edges.high(e));
+      found = true;
+    }
+    if (found) return {};
+    return bad("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
+               " edges has two faces or more); choose vertices instead");
+  }
+
+  Result<void> operator()(const FacePoint& point) {
+    if (point.face >= mesh_.face_count()) {
+      return bad("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
+                 std::to_string(mesh_.face_count() - 1));
+    }
+    const Face& face = mesh_.faces()[point.face];
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+      return bad("face " + std::to_string(point.face) +
+                 " repeats a corner and has no inside; choose another");
+    }
+    for (int k = 0; k < 3; ++k) {
+      if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
+    }
+    add_point(SurfacePoint::in_face(point.face, point.weights), point.offset);
+    return {};
+  }
+
+  Result<void> operator()(const SpacePoint& point) {
+    const auto found = closest_point(mesh_, point.position);
+    if (!found) return found.error();
+    if (found->distance > kFar * model_size()) {
+      out_.warnings.push_back(where_ + ": the closest point of the surface is " +
+                              significant(found->distance) + " away (the model's size is " +
+                              significant(model_size()) + ")");
+    }
+    if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
+    add_point(found->point, point.offset);
+    return {};
+  }
+
+  Result<void> operator()(const VertexCurve& curve) {
+    for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
+      if (auto added = add_vertex(curve.vertices[i], 0); !added) {
+        return about(place(curve, i), added.error());
+      }
+    }
+    const EdgeGraph graph(mesh_.positions(), clean().edges);
+    Index gaps = 0;
+    std::size_t first_gap = 0;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+      const Index a = mesh_.standing_for(curve.vertices[i - 1]);
+      const Index b = mesh_.standing_for(curve.vertices[i]);
+      if (a == b) continue;
+      if (graph.adjacent(a, b)) {
+        add_edge(a, b);
+        continue;
+      }
+      const auto path = graph.shortest_path(a, b);
+      if (!path) return about(place(curve, i), path.error());
+      if (gaps++ == 0) first_gap = i;
+      for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
+    }
+    // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
+    if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
+    return {};
+  }
+
+  Result<void> add(const Source& source) {
+    where_ = source.where;
+    const auto placed = std::visit(*this, source.spec);
+    if (placed) return {};
+    return about(where_, placed.error(), source.blame);
+  }
+
+  /// What was added since the last call.
+  ResolvedSources finish() {
+    out_.set.edges.assign(edges_.begin(), edges_.end());
+    const auto is_zero = [](double offset) { return offset == 0; };
+    if (std::ranges::all_of(out_.set.offsets, is_zero)) out_.set.offsets.clear();
+    vertices_.clear();
+    edges_.clear();
+    return std::exchange(out_, {});
+  }
+
+ private:
+  void add_point(const SurfacePoint& point, double offset) {
+    out_.set.points.push_back(point);
+    out_.set.offsets.push_back(offset);
+  }
+
+  /// One that is there already keeps the smaller offset.
+  Result<void> add_vertex(Index v, double offset) {
+    if (v >= mesh_.vertex_count()) {
+      return bad("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
+                 std::to_string(mesh_.vertex_count() - 1));
+    }
+    v = mesh_.standing_for(v);
+    if (!used_[v]) {
+      return bad("vertex " + std::to_string(v) +
+                 " belongs to no face, so that no distance starts there; choose another");
+    }
+    const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
+    if (fresh) {
+      add_point(SurfacePoint::at_vertex(v), offset);
+    } else {
+      double& least = out_.set.offsets[known->second];
+      least = std::min(least, offset);
+    }
+    return {};
+  }
+
+  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
+
+  /// Where the i-th vertex stands.
+  static std::string place(const VertexCurve& curve, std::size_t i) {
+    return curve.lines.empty() ? "number " + std::to_string(i + 1) + " of the curve"
+                               : "line " + std::to_string(curve.lines[i]);
+  }
+
+  void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
+    out_.warnings.push_back(
+        where_ + ": " + grouped(gaps) + " of " +
+        counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") + " of the curve " +
+        (gaps == 1 ? "is" : "are") + " no mesh edge and became the shortest path along edges (" +
+        (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
+        " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")");
+  }
+
+  const CleanFaces& clean() {
+    if (!clean_) clean_ = clean_faces(mesh_);
+    return *clean_;
+  }
+
+  double model_size() {
+    if (size_ >= 0) return size_;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+      if (!used_[v]) continue;
+      low = low.cwiseMin(mesh_.positions()[v]);
+      high = high.cwiseMax(mesh_.positions()[v]);
+    }
+    return size_ = (high - low).stableNorm();
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<char> used_;
+  std::optional<CleanFaces> clean_;
+  double size_ = -1;
+  std::string where_;
+  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
+  std::set<std::array<Index, 2>> edges_;
+  ResolvedSources out_;
+};
+
+}  // namespace
+
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh) {
+  Resolver resolver(mesh);
+  for (const Source& source : sources) {
+    if (auto added = resolver.add(source); !added) return added.error();
+  }
+  return resolver.finish();
+}
+
+Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleMesh& mesh) {
+  Resolver resolver(mesh);
+  EachSource each;
+  const auto place = [&](const Source& one) -> Result<void> {
+    if (auto added = resolver.add(one); !added) return added;
+    ResolvedSources placed = resolver.finish();
+    each.sets.push_back(std::move(placed.set));
+    each.warnings.insert(each.warnings.end(), placed.warnings.begin(), placed.warnings.end());
+    return {};
+  };
+  for (const Source& source : sources) {
+    VertexList list;
+    if (const auto* named = std::get_if<VertexList>(&source.spec)) list = *named;
+    if (const auto* random = std::get_if<RandomVertices>(&source.spec)) {
+      auto vertices = random_vertices(mesh, random->count, random->seed);
+      if (!vertices) return about(source.where, vertices.error(), source.blame);
+      list = {*std::move(vertices), random->offset};
+    }
+    Source one{source.spec, source.where, source.blame};
+    if (list.vertices.empty()) {
+      if (auto placed = place(one); !placed) return placed.error();
+    }
+    for (const Index v : list.vertices) {
+      one.spec = VertexList{{v}, list.offset};
+      if (auto placed = place(one); !placed) return placed.error();
+    }
+  }
+  return each;
+}
+
+Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
+                                           std::uint64_t seed) {
+  const std::vector<char> used = vertices_in_faces(mesh);
+  std::vector<Index> pool;
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v]) pool.push_back(static_cast<Index>(v));
+  }
+  if (static_cast<std::size_t>(count) > pool.size()) {
+    return bad(grouped(count) + " different vertices were asked for; " +
+               grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
+  }
+  Random random(seed);
+  for (Index i = 0; i < count; ++i) {
+    std::swap(pool[i], pool[i + random.below(pool.size() - i)]);
+  }
+  pool.resize(static_cast<std::size_t>(count));
+  return pool;
+}
+
+Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
+  if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
+  const Source pin{VertexList{{constraint.pin_vertex}},
+                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
+                   ErrorCode::kBadInput};
+  const auto placed = resolve_sources({&pin, 1}, mesh);
+  if (!placed) return placed.error();
+  return {};
+}
+
+std::vector<Index> vertices_of(const SourceSet& set) {
+  std::set<Index> vertices;
+  for (const SurfacePoint& point : set.points) {
+    if (point.is_vertex()) vertices.insert(point.vertex);
+  }
+  for (const auto& edge : set.edges) vertices.insert(edge.begin(), edge.end());
+  return {vertices.begin(), vertices.end()};
+}
+
+}  // namespace geotherm::app

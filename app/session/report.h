@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include "app/session/answer.h"
+
+namespace geotherm::app {
+
+/// Keeps the keys in the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+/// The keys of `model` that every report has.
+Json model_json(const std::string& name, const MeshSummary& mesh);
+
+/// Those and all others of the mesh report.
+Json full_model_json(const std::string& name, const MeshReport& mesh);
+
+/// A vertex id, or {"face", "weights"}.
+Json point_json(const SurfacePoint& point);
+
+/// Vertices as ids (ascending, ends of edges included), points in faces as {"face", "weights"}.
+Json sources_json(const SourceSet& sources);
+
+/// The key `options` of every report of a solve: the method as it is, `options` as they were asked
+/// for. `answer`: one of its answers, for the backend that gave it and those that failed.
+Json options_json(const DistanceMethod& method, const MethodOptions& options,
+                  const DistanceResult& answer);
+
+/// The key `error` of every report of distances. Figures of what was not measured are null.
+Json error_json(const AccuracyReport& report);
+/// The same of some of many source sets.
+Json error_json(const SampleCheck& check);
+
+Json solve_json(const Answer& figures);
+
+/// Text with a line end. Objects are indented down to the second level, what is deeper stands on
+/// one line. Numbers have the digits that read back as the same double; what is not finite is null.
+std::string to_text(const Json& json);
+
+/// What `solve` shows to people.
+std::string solve_table(const Answer& figures);
+
+/// What `info` shows to people.
+std::string info_table(const Model& model, const MeshReport& mesh);
+
+}  // namespace geotherm::app

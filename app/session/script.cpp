@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/script.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+
+#include "app/session/state.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/io.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Nothing but blanks, a comment or the line that is there for shells.
+bool is_empty(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line.front() == '#' || line == kInertLine;
+}
+
+Result<std::string> read_text(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    return Error{ErrorCode::kBadFile, one_line(path) + ": is a directory, not a script"};
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.bad() && file.is_open()) return text;
+  const std::string reason = std::error_code(errno, std::generic_category()).message();
+  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason + "; name a file of commands"};
+}
+
+}  // namespace
+
+Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::string& name) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::vector<ScriptLine> lines;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(text.size(), end == std::string_view::npos ? end : end + 1));
+    if (is_empty(line)) continue;
+    auto command = parse_command(line);
+    if (!command) {
+      return Error{ErrorCode::kBadFile, one_line(name) + ": line " + std::to_string(number) + ", " +
+                                            told(command.error())};
+    }
+    lines.push_back({number, *std::move(command)});
+  }
+  return lines;
+}
+
+Result<std::vector<ScriptLine>> read_script(const std::string& path) {
+  const auto text = read_text(path);
+  if (!text) return text.error();
+  return parse_script(*text, path);
+}
+
+std::vector<std::string> files_written_by(const std::string& script) {
+  std::vector<std::string> files;
+  std::set<std::string> seen = {script};
+  std::deque<std::string> left = {script};
+  for (; !left.empty(); left.pop_front()) {
+    const auto lines = read_script(left.front());
+    if (!lines) continue;
+    for (const ScriptLine& line : *lines) {
+      const auto* const run = std::get_if<command::Run>(&line.command);
+      if (run != nullptr && seen.insert(run->path).second) left.push_back(run->path);
+      const std::string* const path = saved_path(line.command);
+      if (path != nullptr && std::ranges::find(files, *path) == files.end()) {
+        files.push_back(*path);
+      }
+    }
+  }
+  return files;
+}
+
+namespace {
+
+bool moves_camera(const Command& command) {
+  return std::holds_alternative<command::Orbit>(command) ||
+         std::holds_alternative<command::Zoom>(command) ||
+         std::holds_alternative<command::Pan>(command) ||
+         std::holds_alternative<command::Place>(command);
+}
+
+command::Place place_of(const CameraSettings& camera) {
+  return {camera.azimuth, camera.elevation, camera.zoom, camera.pan_right, camera.pan_up};
+}
+
+}  // namespace
+
+bool continues(const Command& before, const Command& now) {
+  if (const auto* set = std::get_if<command::Set>(&now)) {
+    const auto* last = std::get_if<command::Set>(&before);
+    return undo_rule(now).merged && last != nullptr && last->name == set->name;
+  }
+  if (const auto* move = std::get_if<command::MoveSource>(&now)) {
+    const auto* last = std::get_if<command::MoveSource>(&before);
+    return last != nullptr && last->index == move->index;
+  }
+  if (std::holds_alternative<command::ExtendCurve>(now)) {
+    return std::holds_alternative<command::ExtendCurve>(before) ||
+           std::holds_alternative<command::AddSources>(before);
+  }
+  return false;
+}
+
+bool CommandLog::add(const Command& command, const ViewerState& after) {
+  std::optional<Command>* last = lines_.empty() ? nullptr : &lines_.back().command;
+  const bool has_last = last != nullptr && last->has_value();
+  if (has_last && moves_camera(**last) && moves_camera(command)) {
+    *last = place_of(after.picture.camera);
+    return true;
+  }
+  if (has_last && continues(**last, command)) {
+    const auto* more = std::get_if<command::ExtendCurve>(&command);
+    auto* const curve = std::get_if<command::ExtendCurve>(&**last);
+    if (more == nullptr) {
+      *last = command;
+      return true;
+    }
+    if (curve != nullptr) {
+      curve->vertices.insert(curve->vertices.end(), more->vertices.begin(), more->vertices.end());
+      return true;
+    }
+  }
+  lines_.push_back({command, {}});
+  return false;
+}
+
+void CommandLog::fail_last_open() {
+  const auto line = std::find_if(lines_.rbegin(), lines_.rend(), [](const Line& l) {
+    return l.command && std::holds_alternative<command::Open>(*l.command);
+  });
+  if (line == lines_.rend()) return;
+  line->comment = "did not open: " + to_text(*line->command);
+  line->command.reset();
+}
+
+void CommandLog::add_comment(const std::string& text) { lines_.push_back({std::nullopt, text}); }
+
+std::string CommandLog::last_line() const {
+  if (lines_.empty()) return {};
+  return lines_.back().command ? to_text(*lines_.back().command) : "# " + lines_.back().comment;
+}
+
+std::string CommandLog::script() const {
+  std::string text;
+  for (const Line& line : lines_) {
+    text += (line.command ? to_text(*line.command) : "# " + line.comment) + '\n';
+  }
+  return text;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Error bad(const std::string& path, const std::string& cause) {
+  return {ErrorCode::kBadInput, one_line(path) + ": " + cause};
+}
+
+/// Whether the file or one of the folders that the path names is hidden.
+bool is_hidden(const fs::path& path) {
+  return std::ranges::any_of(path, [](const fs::path& part) {
+    return part.string().starts_with('.') && part != "." && part != "..";
+  });
+}
+
+/// Extension and hidden names; `path` has no links in it, or they have been followed.
+Result<void> check_name(const std::string& path, const Command& command) {
+  if (is_hidden(path)) {
+    return bad(path,
+               "commands write no hidden files and nothing into hidden folders; choose a path "
+               "without names that begin with a dot");
+  }
+  if (std::holds_alternative<command::SaveDistances>(command)) return check_distance_path(path);
+  std::string what = "sessions and logs are", extension = ".geotherm";
+  if (std::holds_alternative<command::SavePicture>(command)) {
+    what = "pictures are";
+    extension = ".png";
+  } else if (std::holds_alternative<command::SaveFigures>(command)) {
+    what = "figures are";
+    extension = ".json";
+  }
+  if (io::file_extension(path) == extension) return {};
+  return bad(path, what + " written as " + extension + "; name a FILE" + extension);
+}
+
+}  // namespace
+
+const std::string* saved_path(const Command& command) {
+  return std::visit(
+      []<class Kind>(const Kind& c) -> const std::string* {
+        constexpr bool kSaves = std::is_same_v<Kind, command::SavePicture> ||
+                                std::is_same_v<Kind, command::SaveDistances> ||
+                                std::is_same_v<Kind, command::SaveFigures> ||
+                                std::is_same_v<Kind, command::SaveSession> ||
+                                std::is_same_v<Kind, command::SaveLog>;
+        if constexpr (kSaves) return &c.path;
+        return nullptr;
+      },
+      command);
+}
+
+Result<void> check_saved_name(const Command& command) {
+  const std::string& path = *saved_path(command);
+  if (path == "-") {
+    return Error{ErrorCode::kBadInput, "a command writes files alone; give the name of one, not -"};
+  }
+  if (auto checked = check_name(path, command); !checked) return checked;
+  // From the current folder, which may itself lie in a hidden one.
+  std::error_code unknown;
+  const std::string target = fs::proximate(path, unknown).string();
+  if (unknown) return {};  // Opening the file says what is wrong with its path.
+  if (const auto checked = check_name(target, command); !checked) {
+    return bad(path, "leads by a link to " + told(checked.error()));
+  }
+  return {};
+}
+
+Result<void> check_replaced_by_script(const Command& command) {
+  const std::string& path = *saved_path(command);
+  std::error_code unknown;
+  if (!fs::exists(fs::symlink_status(path, unknown))) return {};
+  return bad(path,
+             "is there already, and a script replaces only files that it wrote itself in this "
+             "run; choose another name, or remove the file");
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "app/session/script.h"
+#include "app/session/session_state.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::size_t kMaxLogLines = 4000;
+constexpr std::size_t kMaxUndo = 200;
+/// Scripts that run scripts end here: most likely they run each other.
+constexpr int kMaxScripts = 100;
+
+template <class... Kinds>
+bool is_any_of(const Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+/// Those that need answers that belong to the state.
+bool needs_answers(const Command& command) {
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
+                   command::Compare, command::Quit>(command);
+}
+
+bool same_but_camera(const ViewerState& a, ViewerState b) {
+  b.picture.camera = a.picture.camera;
+  b.rotating = a.rotating;
+  b.picked = a.picked;
+  return a == b;
+}
+
+}  // namespace
+
+Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(hooks))) {
+  if (!state_->hooks.wake) return;
+  state_->worker.emplace(state_->hooks.wake);
+  state_->compare_worker.emplace(state_->hooks.wake);
+}
+
+Session::~Session() = default;
+
+void Session::State::note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings) {
+  if (log.size() >= kMaxLogLines) log.erase(log.begin(), log.begin() + kMaxLogLines / 4);
+  log.push_back({kind, std::move(text), std::move(settings)});
+  last_logged_merges = kind == LogLine::Kind::kCommand;
+}
+
+void Session::State::step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to) {
+  ViewerState back = std::move(from.back());
+  from.pop_back();
+  to.push_back(state);
+  back.picture.camera = state.picture.camera;
+  back.rotating = state.rotating;
+  back.picked = state.picked;
+  state = std::move(back);
+  last_undoable.reset();
+}
+
+Result<void> Session::State::perform(const Command& command, const Session& session, Giver giver) {
+  if (std::holds_alternative<command::Undo>(command)) {
+    if (undo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to undo"};
+    step_back(undo, redo);
+    return {};
+  }
+  if (std::holds_alternative<command::Redo>(command)) {
+    if (redo.empty()) return Error{ErrorCode::kBadInput, "there is nothing to redo"};
+    step_back(redo, undo);
+    return {};
+  }
+  if (std::holds_alternative<command::Quit>(command)) {
+    quits = true;
+    return {};
+  }
+  if (const auto* run = std::get_if<command::Run>(&command)) return run_script(run->path);
+  if (const auto* wish = std::get_if<command::Compare>(&command)) {
+    if (!explored.a) {
+      return Error{ErrorCode::kBadInput,
+                   "there is nothing to compare yet; open a model and give it a source"};
+    }
+    return start_compare(*wish);
+  }
+  if (saved_path(command) != nullptr) return save(command, session, giver);
+
+  if (const auto* set = std::get_if<command::Set>(&command); set && set->name == "colour-map") {
+    const auto& maps = hooks.colour_maps;
+    if (!maps.empty() && std::ranges::find(maps, set->value) == maps.end()) {
+      return Error{ErrorCode::kBadInput, "there is no colour map '" + one_line(set->value) +
+                                             "'; there are " + joined(maps)};
+    }
+  }
+  auto next = app::apply(state, command);
+  if (!next) return next.error();
+  if (std::holds_alternative<command::Open>(command)) {
+    if (!before_opening) before_opening = Before{state, opening, undo, redo};
+    opening = ++last_opening;
+    undo.clear();
+    redo.clear();
+    last_undoable.reset();
+  }
+  if (undo_rule(command).undoable && *next != state) {
+    if (!last_undoable || !continues(*last_undoable, command)) undo.push_back(state);
+    if (undo.size() > kMaxUndo) undo.erase(undo.begin());
+    redo.clear();
+    last_undoable = command;
+    if (!undo.empty() && same_but_camera(undo.back(), *next)) {
+      // Dragged back to where it began: there is nothing to take back, as when it is replayed.
+      undo.pop_back();
+      last_undoable.reset();
+    }
+  }
+  // Whoever asks again after a failure or a cancellation wants it tried again.
+  if (undo_rule(command).undoable && !failure.empty()) requested.reset();
+  state = *std::move(next);
+  return {};
+}
+
+Result<void> Session::State::submit(const Command& command, const Session& session, Giver giver) {
+  const bool saves = saved_path(command) != nullptr;
+  if (saves && !hooks.writes_files) {
+    note(LogLine::Kind::kNote, "not written: " + to_text(command));
+    return {};
+  }
+  const bool said = saves || std::holds_alternative<command::Compare>(command);
+  if (said) note(LogLine::Kind::kCommand, to_text(command));  // before what it has to say
+  auto done = perform(command, session, giver);
+  if (!done) {
+    if (!said) note(LogLine::Kind::kCommand, to_text(command));
+    note(LogLine::Kind::kError, told(done.error()));
+    return done;
+  }
+  if (const auto* run = std::get_if<command::Run>(&command)) {
+    commands.add_comment("run " + one_line(run->path));
+    note(LogLine::Kind::kCommand, to_text(command));
+    last_logged_merges = false;
+  } else {
+    const bool merged = commands.add(command, state);
+    if (merged && last_logged_merges) {
+      log.back().text = commands.last_line();
+    } else if (!said) {
+      note(LogLine::Kind::kCommand, commands.last_line());
+    }
+  }
+  return {};
+}
+
+Result<void> Session::State::run_script(const std::string& path) {
+  if (++scripts_run > kMaxScripts) {
+    script.clear();
+    scripts_run = 0;
+    return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMaxScripts) +
+                                           " scripts have run each other; end the circle"};
+  }
+  auto lines = read_script(path);
+  if (!lines) return lines.error();
+  std::deque<std::pair<std::string, ScriptLine>> all;
+  for (ScriptLine& line : *lines) all.emplace_back(one_line(path), std::move(line));
+  script.insert(script.begin(), std::make_move_iterator(all.begin()),
+                std::make_move_iterator(all.end()));
+  return {};
+}
+
+/// Runs what scripts ask for, as far as it can be done now.
+void Session::State::pump(const Session& session) {
+  while (!script.empty() && !quits) {
+    if (first_error) {
+      note(LogLine::Kind::kError,
+           "the script ends here: " +
+               counted(static_cast<Index>(script.size()), "line was", "lines were") + " left out");
+      script.clear();
+      break;
+    }
+    if (needs_answers(script.front().second.command)) {
+      refresh();
+      if (works()) return;
+      if (first_error) continue;
+    }
+    const auto [name, line] = std::move(script.front());
+    script.pop_front();
+    const auto done = submit(line.command, session, Giver::kScript);
+    if (!done && !first_error) first_error = done.error();
+    if (first_error) {
+      first_error = about(name + ": line " + std::to_string(line.number), *first_error);
+    }
+  }
+  if (script.empty()) scripts_run = 0;
+  refresh();
+}
+
+Result<void> Session::submit(const Command& command) { return submit_all({&command, 1}); }
+
+Result<void> Session::submit_all(std::span<const Command> commands) {
+  State& s = *state_;
+  if (s.script.empty()) s.first_error.reset();
+  Result<void> done;
+  for (const Command& command : commands) {
+    if (done = s.submit(command, *this, State::Giver::kUser); !done) break;
+  }
+  s.pump(*this);
+  if (!done || s.hooks.wake) return done;
+  return finish();
+}
+
+bool Session::update() {
+  const bool changed = state_->take();
+  state_->pump(*this);
+  return changed;
+}
+
+Result<void> Session::finish() {
+  State& s = *state_;
+  do {
+    if (s.worker) s.worker->wait();
+    if (s.compare_worker) s.compare_worker->wait();
+    s.take();
+    s.pump(*this);
+  } while (s.works() || (!s.script.empty() && !s.quits));
+  const std::optional<Error> error = std::exchange(s.first_error, std::nullopt);
+  return error ? Result<void>(*error) : Result<void>();
+}
+
+void Session::set_dragging(bool dragging) {
+  if (state_->dragging == dragging) return;
+  state_->dragging = dragging;
+  state_->refresh();
+}
+
+void Session::say(LogLine::Kind kind, std::string text) { state_->note(kind, std::move(text)); }
+
+const ViewerState& Session::state() const { return state_->state; }
+const Explored& Session::explored() const { return state_->explored; }
+const std::string& Session::failure() const { return state_->failure; }
+bool Session::can_undo() const { return !state_->undo.empty(); }
+bool Session::can_redo() const { return !state_->redo.empty(); }
+bool Session::quits() const { return state_->quits; }
+std::span<const LogLine> Session::log() const { return state_->log; }
+std::span<const QueryRecord> Session::queries() const { return state_->queries; }
+const SessionCompare& Session::compare() const { return state_->compare; }
+std::string Session::script() const { return state_->commands.script(); }
+
+}  // namespace geotherm::app

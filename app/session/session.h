@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/session/command.h"
+#include "app/session/compare.h"
+#include "app/session/explored.h"
+
+namespace geotherm::app {
+
+/// A line of the log panel.
+struct LogLine {
+  enum class Kind { kCommand, kNote, kWarning, kError };
+  Kind kind = Kind::kNote;
+  std::string text;
+  std::vector<SettingHint> settings = {};  ///< of an error: what may help
+};
+
+/// Times of one query, for the plot.
+struct QueryRecord {
+  std::string backend;
+  QueryTiming timing;
+};
+
+/// What runs in the background.
+struct SessionWork {
+  bool busy = false;
+  std::string stage;  ///< "reading", "factorize", ...
+  double share = -1;  ///< 0 to 1; negative: unknown
+};
+
+/// The last comparison of backends.
+struct SessionCompare {
+  bool running = false;
+  std::vector<CompareRow> rows;
+  std::string reference;
+};
+
+/// What a session is given to work with.
+struct SessionHooks {
+  /// Does the work on threads of its own and calls this, from any thread, when update() has
+  /// something to take. Empty: submit() does the work itself and returns when it is done.
+  std::function<void()> wake;
+  Progress progress;  ///< watches the work that submit() does itself
+  /// Writes a picture of the state and what is explored. Empty: pictures cannot be saved.
+  std::function<Result<void>(const command::SavePicture&, const class Session&)> save_picture;
+  std::vector<std::string> colour_maps;  ///< empty: any name will do
+  /// Commands that write files are skipped, and said to be: a log from elsewhere is replayed.
+  bool writes_files = true;
+};
+
+/// The program while it runs: takes commands, works out what they ask for and says how it went.
+/// For one thread; what runs elsewhere is handed over by update().
+///
+/// Sets the state at once; answers follow. A change that concerns the answer starts work that
+/// reuses what it can (HeatMethod::with) and replaces what still waits: the latest wins. Work on
+/// settings that no longer hold is cancelled; a query whose sources alone have changed is let
+/// finish, so that the picture follows a drag. A failure leaves what is shown and goes to the log.
+class Session {
+ public:
+  explicit Session(SessionHooks hooks = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Errors: the command's, also written to the log; the state is then unchanged.
+  Result<void> submit(const Command& command);
+  /// The same for several, with one answer for where they lead. Ends with the first error.
+  Result<void> submit_all(std::span<const Command> commands);
+
+  /// Takes over finished work. True when something changed.
+  bool update();
+  /// Waits for all work, of scripts as well, and takes it over. Errors: the first failure of work
+  /// or script since the last call.
+  Result<void> finish();
+
+  /// While a drag goes on, answers come without quality figures: the query and nothing else.
+  void set_dragging(bool dragging);
+
+  const ViewerState& state() const;
+  const Explored& explored() const;
+  /// What is shown does not belong to the state: work goes on, or it failed.
+  bool stale() const;
+  SessionWork work() const;
+  void cancel();                       ///< what runs now
+  const std::string& failure() const;  ///< of the last work; empty: it went well
+  bool can_undo() const;
+  bool can_redo() const;
+  bool quits() const;
+
+  /// Adds a line to the log.
+  void say(LogLine::Kind kind, std::string text);
+  /// Everything that is to be known, oldest first; the last few thousand lines.
+  std::span<const LogLine> log() const;
+  std::span<const QueryRecord> queries() const;  ///< the last ones, oldest first
+  const SessionCompare& compare() const;
+
+  /// The commands since the start as a script; drags of the camera in one line each.
+  std::string script() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace geotherm::app

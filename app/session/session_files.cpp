@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// What a session writes.
+#include <filesystem>
+#include <system_error>
+
+#include "app/session/machine.h"
+#include "app/session/model.h"
+#include "app/session/model_solver.h"
+#include "app/session/outputs.h"
+#include "app/session/report.h"
+#include "app/session/script.h"
+#include "app/session/session_state.h"
+#include "app/session/text.h"
+#include "geotherm/io.h"
+
+namespace geotherm::app {
+namespace {
+
+/// What sessions and logs begin with.
+std::string script_head() {
+  std::string head = "# geotherm commands; see docs/commands.md\n";
+  return head.append(kInertLine).append("\n");
+}
+
+Error not_yet(const char* what) {
+  return {ErrorCode::kBadInput, std::string("there are no ") + what +
+                                    " yet; open a model, give it a source and wait for the answer"};
+}
+
+/// One name for each file.
+std::string full_path(const std::string& path) {
+  std::error_code unknown;
+  return std::filesystem::weakly_canonical(path, unknown).string();
+}
+
+/// The file of a command, never the model.
+Result<Outputs> output_file(const std::string& model, const std::string& path,
+                            const char* command) {
+  Outputs outputs;
+  if (!is_bundled(model)) outputs.protect(model, "the model itself");
+  if (auto expected = outputs.expect(path, command); !expected) return expected.error();
+  return outputs;
+}
+
+Result<void> write_text(const std::string& model, const std::string& path, const char* command,
+                        const std::string& text) {
+  auto outputs = output_file(model, path, command);
+  if (!outputs) return outputs.error();
+  std::string unused;
+  return outputs->write_text(path, text, unused);
+}
+
+Result<void> save_distances(const command::SaveDistances& save, const Session& session) {
+  const Explored& explored = session.explored();
+  const Answer* answer = shown_answer(explored, session.state().shown);
+  if (answer == nullptr || session.stale()) return not_yet("distances");
+  const bool difference = session.state().shown == Shown::kDifference && explored.difference;
+  const std::vector<double>& values =
+      difference ? explored.difference->values : answer->result.distances;
+  auto outputs = output_file(session.state().model, save.path, "save distances");
+  if (!outputs) return outputs.error();
+  const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
+  std::vector<Index> nearest;
+  if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
+    ModelSolver solver(explored.model->model);
+    auto found =
+        solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);
+    if (!found) return found.error();
+    nearest = *std::move(found);
+  }
+  return outputs->write(save.path,
+                        [&] { return write_distances(save.path, *mesh, values, nearest); });
+}
+
+Result<void> save_figures(const command::SaveFigures& save, const Session& session) {
+  const Explored& explored = session.explored();
+  const Answer* answer = shown_answer(explored, session.state().shown);
+  if (answer == nullptr || session.stale()) return not_yet("figures");
+  return write_text(session.state().model, save.path, "save figures", to_text(solve_json(*answer)));
+}
+
+std::string session_text(const ViewerState& state) {
+  std::string text = script_head() + to_text(command::Reset{}) + '\n';
+  for (const Command& command : commands_to(state)) text += to_text(command) + '\n';
+  return text;
+}
+
+}  // namespace
+
+Result<void> Session::State::check_place(const Command& command, Giver giver) const {
+  if (auto named = check_saved_name(command); !named) return named;
+  // A user has been asked, or knows. Scripts may replace what scripts of this run have written.
+  if (giver == Giver::kUser || saved_by_scripts.contains(full_path(*saved_path(command))))
+    return {};
+  return check_replaced_by_script(command);
+}
+
+Result<void> Session::State::save(const Command& command, const Session& session, Giver giver) {
+  const std::string& path = *saved_path(command);
+  if (auto allowed = check_place(command, giver); !allowed) return allowed;
+  Result<void> done;
+  if (const auto* picture = std::get_if<command::SavePicture>(&command)) {
+    if (!hooks.save_picture) {
+      return Error{ErrorCode::kNotAvailable, "pictures cannot be drawn here"};
+    }
+    if (!explored.model) return not_yet("pictures");
+    done = hooks.save_picture(*picture, session);
+  } else if (const auto* distances = std::get_if<command::SaveDistances>(&command)) {
+    done = save_distances(*distances, session);
+  } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
+    done = save_figures(*figures, session);
+  } else if (std::holds_alternative<command::SaveSession>(command)) {
+    done = write_text(state.model, path, "save session", session_text(state));
+  } else if (std::holds_alternative<command::SaveLog>(command)) {
+    done = write_text(state.model, path, "save log", script_head() + commands.script());
+  }
+  if (!done) return done;
+  if (giver == Giver::kScript) {
+    saved_by_scripts.insert(full_path(path));
+  } else {
+    saved_by_scripts.erase(full_path(path));
+  }
+  note(LogLine::Kind::kNote, "wrote " + one_line(path));
+  return {};
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "app/session/explorer.h"
+#include "app/session/script.h"
+#include "app/session/session.h"
+#include "app/session/state.h"
+#include "app/session/worker.h"
+
+// What session*.cpp share.
+namespace geotherm::app {
+
+struct Session::State {
+  explicit State(SessionHooks given) : hooks(std::move(given)) {}
+
+  /// Whom a command comes from: a script may have been written by anybody.
+  enum class Giver { kUser, kScript };
+
+  // session.cpp: commands.
+  Result<void> submit(const Command& command, const Session& session, Giver giver);
+  Result<void> perform(const Command& command, const Session& session, Giver giver);
+  Result<void> run_script(const std::string& path);
+  void pump(const Session& session);
+  void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
+  void note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings = {});
+
+  // session_work.cpp: what runs elsewhere.
+  ExploreRequest wanted() const;
+  void refresh();
+  void start(const ExploreRequest& request);
+  bool take();
+  void say_failure(const Error& error);
+  bool close_opening();
+  void note_warnings(const Explored& before);
+  void note_error(const Explored& before);
+  void take_answer(const ExploreRequest& request, Result<Explored> answer);
+  Result<void> start_compare(const command::Compare& command);
+  bool works();
+
+  // session_files.cpp: what is written.
+  Result<void> save(const Command& command, const Session& session, Giver giver);
+  Result<void> check_place(const Command& command, Giver giver) const;
+
+  SessionHooks hooks;
+  ViewerState state = initial_state();
+  Explored explored;
+  std::vector<ViewerState> undo, redo;
+  std::optional<Command> last_undoable;
+  CommandLog commands;
+  bool last_logged_merges = false;
+  std::vector<LogLine> log;
+  std::vector<QueryRecord> queries;
+  SessionCompare compare;
+  std::string failure;
+  std::optional<Error> first_error;
+  std::deque<std::pair<std::string, ScriptLine>> script;  ///< where from, what
+  int scripts_run = 0;
+  std::set<std::string> saved_by_scripts;  ///< full paths, without links
+  std::uint64_t opening = 0, last_opening = 0;
+  struct Before {
+    ViewerState state;
+    std::uint64_t opening;
+    std::vector<ViewerState> undo, redo;
+  };
+  std::optional<Before> before_opening;  ///< while it is not known whether the model opens
+  bool dragging = false, quits = false;
+
+  std::optional<ExploreRequest> requested;  ///< the last that was started
+  std::optional<ExploreRequest> answered;   ///< what `explored` answers
+
+  // From the workers. Each message is taken by take().
+  struct Early {
+    std::uint64_t opening;
+    Explored explored;
+    ExploreRequest request;  ///< what it answers, where it does
+  };
+  struct Answered {
+    ExploreRequest request;
+    Result<Explored> answer;
+  };
+  struct Compared {
+    Result<std::vector<CompareRow>> rows;
+  };
+  std::mutex inbox_mutex;
+  std::vector<std::variant<Early, Answered, Compared>> inbox;
+  void post(std::variant<Early, Answered, Compared> message);
+
+  Explorer explorer;                             ///< the worker's
+  std::optional<Worker> worker, compare_worker;  // last: they use all of the above
+};
+
+}  // namespace geotherm::app

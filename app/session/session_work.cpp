@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// What a session has worked out, on its worker's thread or at once.
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "app/picture/picture_text.h"
+#include "app/session/compare.h"
+#include "app/session/explored.h"
+#include "app/session/place_sources.h"
+#include "app/session/session_state.h"
+#include "app/session/text.h"
+#include "app/session/wording.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::size_t kMaxQueries = 240;
+constexpr int kCompareQueries = 10;
+constexpr int kCompareBatch = 16;
+
+std::string summary(const Explored& explored, const Explored& before) {
+  const Answer& a = *explored.a;
+  std::string text = "solved with " + solver_at_work(*a.method, a.result) + ": query " +
+                     milliseconds(a.result.timing.query) + " ms";
+  const bool same_method =
+      before.a && before.model == explored.model && before.a->method == a.method;
+  if (!same_method) text += ", set-up " + milliseconds(a.setup_ms) + " ms";
+  text += ", largest distance " + significant(a.distance.max);
+  if (explored.difference) {
+    text += "; A - B: at most " + significant(explored.difference->most) + ", mean " +
+            significant(explored.difference->mean);
+  }
+  return text;
+}
+
+/// What is asked for but for the check of answers that are shown before it.
+ExploreRequest without_check(ExploreRequest request) {
+  if (request.check == Check::kOn) request.check = Check::kOff;
+  return request;
+}
+
+}  // namespace
+
+ExploreRequest Session::State::wanted() const {
+  ExploreRequest request;
+  request.model = state.model;
+  request.reading = state.reading;
+  request.opening = opening;
+  request.sources = state.sources;
+  request.options = state.options;
+  request.kept = state.kept;
+  request.fields = needs_fields(state.picture.view) || state.picked.has_value();
+  request.quality = !dragging;
+  const View view = state.picture.view;
+  const bool usual = state.check == Check::kOff || state.check == Check::kOn;
+  request.check = usual && view == View::kExactError ? Check::kAuto : state.check;
+  // What moves is not checked: it comes to rest first.
+  if (dragging && request.check == Check::kOn) request.check = Check::kOff;
+  request.target = state.target;
+  request.nearest = view == View::kRegions;
+  return request;
+}
+
+bool Session::State::works() {
+  const std::lock_guard lock(inbox_mutex);
+  return !inbox.empty() || compare.running || (worker && worker->status().busy);
+}
+
+/// Starts what the state asks for and nobody works on.
+void Session::State::refresh() {
+  if (state.model.empty()) return;
+  const ExploreRequest request = wanted();
+  if (requested && requested->covers(request)) {
+    // What is shown belongs to the state: a model that did not open is a matter of the log.
+    if (answered && answered->covers(request) && explored.b_failure.empty()) failure.clear();
+    return;
+  }
+  start(request);
+}
+
+void Session::State::start(const ExploreRequest& request) {
+  // An answer that is shown and only checked gives way to the next one.
+  const bool only_checks = requested && requested->check == Check::kOn && answered &&
+                           answered->covers(without_check(*requested));
+  const bool cancel = only_checks || (requested && !requested->same_setup(request));
+  requested = request;
+  failure.clear();
+  const auto job = [this, request](const Progress& progress) {
+    Answered message{request, explorer.explore(request, progress, [&](Explored early) {
+                       post(Early{request.opening, std::move(early), without_check(request)});
+                     })};
+    post(std::move(message));
+  };
+  if (worker) {
+    worker->start(job, cancel);
+    return;
+  }
+  job(hooks.progress);
+  take();
+}
+
+void Session::State::post(std::variant<Early, Answered, Compared> message) {
+  {
+    const std::lock_guard lock(inbox_mutex);
+    inbox.push_back(std::move(message));
+  }
+  if (hooks.wake) hooks.wake();
+}
+
+bool Session::State::take() {
+  std::vector<std::variant<Early, Answered, Compared>> messages;
+  {
+    const std::lock_guard lock(inbox_mutex);
+    messages.swap(inbox);
+  }
+  for (auto& message : messages) {
+    if (auto* early = std::get_if<Early>(&message)) {
+      if (early->opening != opening) continue;  // of a model that is no longer wanted
+      if (early->explored.a) {
+        take_answer(early->request, std::move(early->explored));
+        continue;
+      }
+      const std::uint64_t version = explored.version;
+      explored = std::move(early->explored);
+      explored.version = version + 1;
+      before_opening.reset();
+      note(LogLine::Kind::kNote, "opened " + one_line(explored.model->model.name) + ": " +
+                                     grouped(explored.model->mesh.vertices) + " vertices, " +
+                                     grouped(explored.model->mesh.faces) + " faces");
+      for (const std::string& warning : explored.model->warnings) {
+        note(LogLine::Kind::kWarning, warning);
+      }
+    } else if (auto* answered_now = std::get_if<Answered>(&message)) {
+      take_answer(answered_now->request, std::move(answered_now->answer));
+    } else if (auto* compared = std::get_if<Compared>(&message)) {
+      compare.running = false;
+      if (compared->rows) {
+        compare.rows = *std::move(compared->rows);
+        note(LogLine::Kind::kNote,
+             "compared " + counted(static_cast<Index>(compare.rows.size()), "backend", "backends"));
+      } else {
+        note(LogLine::Kind::kError, told(compared->rows.error()));
+      }
+    }
+  }
+  return !messages.empty();
+}
+
+void Session::State::say_failure(const Error& error) {
+  failure = told(error);
+  if (!first_error) first_error = error;
+  note(LogLine::Kind::kError, failure, settings_of(error.hint));
+}
+
+/// The model does not open: the one before it is still there. False: none was being opened.
+bool Session::State::close_opening() {
+  if (!before_opening) return false;
+  state = std::move(before_opening->state);
+  opening = before_opening->opening;
+  undo = std::move(before_opening->undo);
+  redo = std::move(before_opening->redo);
+  before_opening.reset();
+  requested = answered;
+  commands.fail_last_open();
+  return true;
+}
+
+void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer) {
+  const bool is_last = requested && requested->covers(request) && request.covers(*requested);
+  if (!answer) {
+    if (!is_last) return;  // replaced, or the failure of what nobody wants any more
+    const bool said = answer.error().code == ErrorCode::kCancelled && !failure.empty();
+    if (!said) say_failure(answer.error());
+    if (close_opening() && explored.model) refresh();
+    return;
+  }
+  if (request.opening != opening) return;  // of a model that is no longer wanted
+  const std::uint64_t version = explored.version;
+  const Explored before = std::exchange(explored, *std::move(answer));
+  explored.version = version + 1;
+  answered = request;
+  if (is_last) failure.clear();
+  if (is_last && !explored.b_failure.empty()) {
+    say_failure({ErrorCode::kNumericalFailure, explored.b_failure});
+  }
+  if (!explored.a) return;
+  if (explored.checked) {
+    note_error(before);
+    return;
+  }
+  if (queries.size() >= kMaxQueries) queries.erase(queries.begin());
+  queries.push_back(
+      {solver_at_work(*explored.a->method, explored.a->result), explored.a->result.timing});
+  if (!request.quality) return;  // a drag goes on
+  note(LogLine::Kind::kNote, summary(explored, before));
+  const View view = state.picture.view;
+  if (needs_fields(view) && explored.a->method->heat() == nullptr) {
+    note(LogLine::Kind::kWarning,
+         "the view " + to_text(view) + " shows the heat u, which the method " +
+             to_text(explored.a->options.method) + " has not; set method heat");
+  }
+  if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
+    note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);
+  }
+  note_warnings(before);
+}
+
+/// What an answer warns of and the one before it did not.
+void Session::State::note_warnings(const Explored& before) {
+  for (const std::string& warning : explored.a->warnings) {
+    const bool known = before.a && before.model == explored.model &&
+                       std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
+    if (!known) note(LogLine::Kind::kWarning, warning);
+  }
+}
+
+/// How wrong the answer is that was shown before.
+void Session::State::note_error(const Explored& before) {
+  const auto& error = explored.a->error;
+  if (error && error->measured && !error->is_poor()) {
+    note(LogLine::Kind::kNote, "error: " + accuracy_line(*error));
+  }
+  note_warnings(before);
+}
+
+Result<void> Session::State::start_compare(const command::Compare& command) {
+  CompareTask task;
+  auto solvers = solvers_named(command.backends, state.options);
+  if (!solvers) return solvers.error();
+  task.solvers = *std::move(solvers);
+  task.reference = solver_name(task.solvers.front());
+  task.queries.push_back(explored.set);
+  const TriangleMesh& mesh = *explored.model->model.mesh;
+  for (int i = 1; i < kCompareBatch; ++i) {
+    const auto random = random_vertices(mesh, 1, static_cast<std::uint64_t>(i));
+    if (!random) break;
+    const SourceSet set = SourceSet::of_vertices(*random);
+    if (i < kCompareQueries) task.queries.push_back(set);
+    task.batch.push_back(set);
+  }
+  task.batch.push_back(explored.set);
+  compare.running = true;
+  compare.rows.clear();
+  compare.reference = task.reference;
+  const auto job = [this, task, model = explored.model](const Progress& progress) {
+    try {
+      post(Compared{compare_backends(model->model, task, progress)});
+    } catch (const std::bad_alloc&) {
+      post(Compared{Error{ErrorCode::kOutOfMemory, "the memory ended while comparing backends"}});
+    }
+  };
+  if (compare_worker) {
+    compare_worker->start(job, true);
+    return {};
+  }
+  job(hooks.progress);
+  take();
+  return {};
+}
+
+bool Session::stale() const {
+  const State& s = *state_;
+  if (s.state.model.empty()) return false;
+  ExploreRequest wanted = s.wanted();
+  wanted.fields = wanted.quality = false;
+  wanted = without_check(std::move(wanted));
+  return !s.answered || !s.answered->covers(wanted);
+}
+
+SessionWork Session::work() const {
+  for (const std::optional<Worker>* worker : {&state_->worker, &state_->compare_worker}) {
+    if (!*worker) continue;
+    const Worker::Status status = (*worker)->status();
+    if (status.busy) return {true, status.stage, status.share};
+  }
+  return {};
+}
+
+void Session::cancel() {
+  State& s = *state_;
+  if (s.compare_worker) s.compare_worker->cancel();
+  if (!s.worker || !s.worker->status().busy) return;
+  s.worker->cancel();
+  s.close_opening();
+  // What waited says nothing any more, so it is said here.
+  s.failure = "the work was cancelled; change something to start it again";
+  s.first_error = Error{ErrorCode::kCancelled, s.failure};
+  s.note(LogLine::Kind::kError, s.failure);
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/session/state.h"
+#include "geotherm/error.h"
+
+// The one table of settings. An entry makes the command-line option, its line of help, the command
+// of scripts and its completion, the row of the panel, and the JSON.
+namespace geotherm::app {
+
+/// What a setting is about; the heading of its options in the help.
+enum class SettingGroup { kModel, kMethod, kCheck, kPicture, kCamera };
+
+/// How a setting is written in JSON and drawn in a panel.
+enum class SettingKind {
+  kWord,
+  kNumber,
+  kSwitch,  ///< "on" or "off"
+};
+
+struct Setting {
+  std::string_view name;  ///< of the command and, behind two dashes, of the option
+  SettingGroup group = SettingGroup::kMethod;
+  SettingKind kind = SettingKind::kWord;
+  bool of_heat = false;          ///< only the heat method uses it
+  std::string_view option = {};  ///< spellings of the option where they are others
+  std::string_view bare = {};    ///< what the option stands for by itself; empty: it takes a value
+  std::string_view value_name = {};  ///< of the option's value in the help, such as "M"
+  std::string_view help = {};        ///< a phrase
+  std::string_view forms = {};       ///< of the values, where `values` has examples of them
+  std::string_view detail = {};      ///< what the values mean, in sentences; may be empty
+  std::string (*get)(const ViewerState& state) = nullptr;
+  /// Errors: kBadInput or kNotAvailable, with the text and what is expected.
+  Result<void> (*set)(ViewerState& state, const std::string& text) = nullptr;
+  /// The values there are, or examples; empty where there are too many to list.
+  std::vector<std::string> (*values)() = nullptr;
+
+  /// Whether it changes the answer, not only the picture.
+  bool of_method() const { return group == SettingGroup::kMethod || group == SettingGroup::kModel; }
+};
+
+/// All of them, in the order of panels and help.
+std::span<const Setting> settings();
+/// Null when there is no such name.
+const Setting* find_setting(std::string_view name);
+
+/// One more setting for as long as this lives, for tests. Not to be made beside other threads.
+class ExtraSetting {
+ public:
+  explicit ExtraSetting(const Setting& setting);
+  ~ExtraSetting();
+  ExtraSetting(const ExtraSetting&) = delete;
+  ExtraSetting& operator=(const ExtraSetting&) = delete;
+};
+
+/// Stores a value, or hands on why there is none.
+template <class Value, class Into>
+Result<void> store(Result<Value> parsed, Into& into) {
+  if (!parsed) return parsed.error();
+  into = *std::move(parsed);
+  return {};
+}
+
+/// The groups of the table; settings() joins them.
+std::vector<Setting> method_settings();
+std::vector<Setting> picture_settings_table();
+
+}  // namespace geotherm::app

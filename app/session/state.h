@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/picture/picture_settings.h"
+#include "app/session/command.h"
+#include "app/session/model.h"
+#include "app/session/sources.h"
+#include "geotherm/build_method.h"
+
+namespace geotherm::app {
+
+/// Which distances are shown when some settings are kept as B.
+enum class Shown {
+  kA,           ///< the present settings
+  kB,           ///< the kept ones
+  kDifference,  ///< d_A - d_B
+};
+
+/// What distances are held against.
+enum class Check {
+  kOff,
+  kOn,    ///< usual_reference(), for answers that rest: they are shown before they are checked
+  kAuto,  ///< the best method that fits the mesh (reference_for())
+  kWavefrontFine,
+  kExact,
+};
+
+/// All that decides what the program shows; a plain value. What commands change and session files
+/// hold. Answers, panels and windows are not part of it.
+struct ViewerState {
+  std::string model;                  ///< a path or a bundled name; empty: none is open
+  ModelReading reading;               ///< how the model is read
+  std::vector<SourceSpec> sources;    ///< one set
+  MethodOptions options;              ///< A
+  std::optional<MethodOptions> kept;  ///< B
+  Shown shown = Shown::kA;            ///< kA unless `kept`
+  Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
+  std::optional<SourceSpec> target;   ///< paths lead from this single point to the sources
+  PictureSettings picture;            ///< width and height: of saved pictures
+  std::optional<FacePoint> picked;    ///< the point whose figures are shown
+  bool rotating = false;
+
+  bool operator==(const ViewerState&) const = default;
+};
+
+/// The state that the viewer starts with: nothing open, the camera the same size from everywhere.
+ViewerState initial_state();
+
+/// The state after a command. Pure: commands that save, compare, run a file, undo or quit change
+/// nothing here. Errors: kBadInput, one sentence (no such source, nothing kept as B, ...).
+Result<ViewerState> apply(const ViewerState& state, const Command& command);
+
+/// Commands that lead from initial_state() to `state`, and back to it exactly.
+std::vector<Command> commands_to(const ViewerState& state);
+
+/// Whether undo takes the command back: what concerns sources, method, picture, A and B; not the
+/// camera. `merged`: together with the one before it, as of a drag.
+struct UndoRule {
+  bool undoable = false, merged = false;
+};
+UndoRule undo_rule(const Command& command);
+
+}  // namespace geotherm::app

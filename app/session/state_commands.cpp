@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// From states back to commands, and which of them can be undone.
+#include "app/session/settings.h"
+#include "app/session/state.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Adds the commands that make these settings equal, one by one.
+void add_settings(ViewerState& from, const ViewerState& to, std::vector<Command>& commands) {
+  for (const Setting& setting : settings()) {
+    const std::string wanted = setting.get(to);
+    if (setting.get(from) == wanted) continue;
+    commands.emplace_back(command::Set{std::string(setting.name), wanted});
+    [[maybe_unused]] const auto set = setting.set(from, wanted);
+  }
+}
+
+}  // namespace
+
+std::vector<Command> commands_to(const ViewerState& state) {
+  std::vector<Command> commands;
+  ViewerState now = initial_state();
+  if (!state.model.empty()) {
+    commands.emplace_back(command::Open{state.model});
+    now = *app::apply(now, commands.back());
+  }
+  if (state.kept) {
+    ViewerState kept = now;
+    kept.options = *state.kept;
+    add_settings(now, kept, commands);
+    commands.emplace_back(command::Keep{});
+  }
+  add_settings(now, state, commands);
+  // After the method: not every method takes every source.
+  if (now.sources != state.sources) {
+    if (state.sources.empty()) {
+      commands.emplace_back(command::ClearSources{});
+    } else {
+      commands.emplace_back(command::SetSources{state.sources});
+    }
+  }
+  if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
+  if (state.target) commands.emplace_back(command::Target{state.target});
+  if (state.picked) commands.emplace_back(command::Pick{state.picked});
+  if (state.rotating) commands.emplace_back(command::Rotate{true});
+  return commands;
+}
+
+UndoRule undo_rule(const Command& command) {
+  if (const auto* set = std::get_if<command::Set>(&command)) {
+    for (const char* camera : {"azimuth", "elevation", "zoom", "pan", "centre", "fit"}) {
+      if (set->name == camera) return {};
+    }
+    return {true, set->name == "time-factor"};  // a slider
+  }
+  const auto is = [&command]<class... Kinds>(std::variant<Kinds...>*) {
+    return (std::holds_alternative<Kinds>(command) || ...);
+  };
+  const bool merged =
+      is(static_cast<std::variant<command::MoveSource, command::ExtendCurve>*>(nullptr));
+  const bool undoable =
+      merged ||
+      is(static_cast<std::variant<
+             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
+             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Keep,
+             command::Forget, command::Swap, command::Show, command::Flip, command::Target>*>(
+          nullptr));
+  return {undoable, merged};
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geotherm/accuracy.h"
+#include "geotherm/build_method.h"
+#include "geotherm/error.h"
+#include "geotherm/heat_method.h"
+#include "geotherm/mesh_report.h"
+#include "geotherm/options.h"
+#include "solver/geometry/cracks.h"
+
+// What people are told, in sentences: what the library says, with settings as options of the
+// command line; methods and meshes in words.
+namespace geotherm::app {
+
+/// "SUBJECT: WHAT; try --backend cg, which needs no factor".
+std::string told(const Error& error);
+std::string told(const Hint& hint);
+std::string told(const Warning& warning);
+std::vector<std::string> told(const std::vector<Warning>& warnings);
+std::string told(const AccuracyReport& report);
+
+/// The error with where it happened in front: "WHERE: WHAT".
+Error about(const std::string& where, Error error);
+Error about(const std::string& where, Error error, ErrorCode code);
+
+/// The error with this hint, unless it has one.
+Error with_hint(Error error, Hint hint);
+
+/// What does the work, in a word: the backend of the heat method, or the name of another method.
+std::string solver_name(const MethodOptions& options);
+
+/// The same of what has given an answer, which may be another backend than the one asked for.
+std::string solver_at_work(const DistanceMethod& method, const DistanceResult& result);
+
+/// "t = 0.0123, cholmod", or the name of another method.
+std::string method_caption(const DistanceMethod& method);
+
+/// "cotan", or what else the Laplacian of a method is that was built.
+std::string laplacian_name(const HeatMethod& method);
+
+/// What `--laplacian auto` becomes on a mesh, and because of what.
+struct LaplacianChoice {
+  LaplacianKind kind;
+  std::string why;
+};
+LaplacianChoice auto_laplacian(const MeshReport& mesh);
+
+/// "31 vertices inserted (4 on the border) for 40 large faces and 3 obtuse border edges".
+/// Precondition: there are some.
+std::string refinement_in_words(const RefinementCounts& refinement);
+
+/// "2,002 vertices, 4,000 faces, 1 component, no boundary".
+std::string mesh_in_words(const MeshSummary& mesh);
+
+/// What closes the cracks. Precondition: there are some.
+std::string crack_note(const CrackReport& cracks);
+
+/// What a user should know before trusting distances on the mesh, one sentence each.
+std::vector<std::string> mesh_warnings(const MeshReport& mesh);
+
+}  // namespace geotherm::app

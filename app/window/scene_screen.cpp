@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "app/window/scene_screen.h"
+
+#include "app/drawing/picture_scene.h"
+#include "app/session/explored.h"
+#include "engine/renderer.h"
+
+namespace geotherm::app {
+namespace {
+
+DrawnPicture in_our_words(engine::Image image) {
+  return {image.width, image.height, std::move(image.pixels)};
+}
+
+}  // namespace
+
+SceneScreen::SceneScreen(engine::Device device, engine::Renderer renderer)
+    : device_(std::move(device)), renderer_(std::move(renderer)) {}
+
+Result<std::unique_ptr<SceneScreen>> SceneScreen::prepare(const engine::DeviceOptions& options) {
+  auto device = engine::Device::open(options);
+  if (!device) return device.error();
+  auto renderer = engine::Renderer::build(*device);
+  if (!renderer) return renderer.error();
+  return std::unique_ptr<SceneScreen>(new SceneScreen(*std::move(device), *std::move(renderer)));
+}
+
+Result<std::unique_ptr<SceneScreen>> SceneScreen::open(engine::Window& window,
+                                                       const engine::DeviceOptions& options) {
+  engine::DeviceOptions for_window = options;
+  for_window.window = &window;
+  auto screen = prepare(for_window);
+  if (!screen) return screen;
+  auto target = engine::WindowTarget::build((*screen)->device_, window);
+  if (!target) return target.error();
+  (*screen)->window_target_ = *std::move(target);
+  return screen;
+}
+
+Result<std::unique_ptr<SceneScreen>> SceneScreen::open_without_window(
+    glm::ivec2 extent, const engine::DeviceOptions& options) {
+  auto screen = prepare(options);
+  if (!screen) return screen;
+  auto target = engine::OffscreenTarget::build((*screen)->device_, extent);
+  if (!target) return target.error();
+  (*screen)->offscreen_target_ = *std::move(target);
+  return screen;
+}
+
+Result<bool> SceneScreen::follow_window() {
+  return window_target_ ? window_target_->follow_window() : Result<bool>(true);
+}
+
+glm::ivec2 SceneScreen::window_extent() const {
+  return window_target_ ? window_target_->extent() : offscreen_target_->extent();
+}
+
+Result<void> SceneScreen::set_panel_font(const engine::PanelFont& font) {
+  return renderer_.set_panel_font(font);
+}
+
+Result<void> SceneScreen::update_data(const Session& session) {
+  const Explored& explored = session.explored();
+  const ViewerState& state = session.state();
+  if (!explored.model) return {};
+  if (base_ != explored.model->base) {
+    std::vector<glm::vec3> positions = scene_vectors(explored.model->base->positions);
+    if (auto done = upload_surface(renderer_, *explored.model->base, positions); !done) return done;
+    base_ = explored.model->base;
+    data_ = *base_;
+    positions_ = std::move(positions);
+    uploaded_.reset();
+  }
+  const PictureSettings& settings = state.picture;
+  const Uploaded now{explored.version, state.shown, settings.view, settings.colour_map,
+                     settings.reverse};
+  if (uploaded_ == now) return {};
+  set_explored(data_, explored, state.shown, settings.view);
+  if (auto done = upload_answer(renderer_, data_, settings); !done) return done;
+  uploaded_ = now;
+  laid_out_.reset();
+  return {};
+}
+
+/// Letters cost milliseconds: what does not change is not laid out again.
+void SceneScreen::update_legend(const PictureSettings& settings) {
+  PictureSettings but_camera = settings;
+  but_camera.camera = {};
+  if (laid_out_ == but_camera) return;
+  const PictureScale scale = picture_scale(data_, settings);
+  legend_ = engine::lay_out(legend_of(data_, settings, scale), area_.extent);
+  laid_out_ = std::move(but_camera);
+}
+
+Result<void> SceneScreen::update(const Session& session, const PictureArea& area) {
+  area_ = area;
+  if (auto done = update_data(session); !done) return done;
+  PictureSettings settings = session.state().picture;
+  settings.width = area.extent.x;
+  settings.height = area.extent.y;
+  samples_ = settings.samples;
+  update_legend(settings);
+  scene_ = scene_of(data_, settings, picture_scale(data_, settings));
+  scene_.surface.visible = has_model();
+  scene_.camera = camera_of(data_, settings.camera, positions_, area.extent, legend_.insets);
+  if (!has_model()) legend_ = {};
+  return {};
+}
+
+Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
+  renderer_.set_samples(fast && device_.info().software ? 1 : samples_);
+  if (window_target_) {
+    window_target_->set_picture_corner(area_.corner);
+    return renderer_.render(*window_target_, scene_, legend_.overlay, &panels);
+  }
+  offscreen_target_->set_origin(-area_.corner);
+  return renderer_.render(*offscreen_target_, scene_, legend_.overlay, &panels);
+}
+
+Result<DrawnPicture> SceneScreen::picture(const PictureData& data,
+                                          const PictureSettings& settings) {
+  renderer_.set_samples(settings.samples);
+  const PictureScale scale = picture_scale(data, settings);
+  const glm::vec2 extent(settings.width, settings.height);
+  const engine::LegendLayout legend = engine::lay_out(legend_of(data, settings, scale), extent);
+  engine::Scene scene = scene_of(data, settings, scale);
+  scene.camera = camera_of(data, settings.camera, positions_, extent, legend.insets);
+  auto image = engine::draw_picture(device_, renderer_, scene, legend.overlay);
+  if (!image) return image.error();
+  return in_our_words(*std::move(image));
+}
+
+Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,
+                                                    const engine::PanelDraw& panels) {
+  auto target = engine::OffscreenTarget::build(device_, extent);
+  if (!target) return target.error();
+  (*target)->set_origin(-area_.corner);
+  renderer_.set_samples(samples_);
+  const auto drawn = renderer_.render(**target, scene_, legend_.overlay, &panels);
+  if (!drawn) return drawn.error();
+  engine::Image image;
+  image.width = extent.x;
+  image.height = extent.y;
+  image.pixels.resize(4 * static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y));
+  (*target)->read(image, {0, 0}, extent);
+  return in_our_words(std::move(image));
+}
+
+DrawingDevice SceneScreen::device() const { return to_drawing_device(device_.info()); }
+
+std::vector<std::string> SceneScreen::validation_messages() const {
+  return device_.validation_messages();
+}
+
+}  // namespace geotherm::app

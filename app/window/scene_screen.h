@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <optional>
+
+#include "app/cli/drawing.h"
+#include "app/session/session.h"
+#include "engine/overlay/overlay.h"
+#include "engine/renderer.h"
+#include "engine/target.h"
+#include "engine/window/window_target.h"
+
+namespace geotherm::app {
+
+/// Where the picture lies within the window, pixels of the window.
+struct PictureArea {
+  glm::ivec2 corner{0, 0}, extent{1, 1};
+};
+
+/// Draws what a session shows, into a window and into pictures, with one renderer. Uploads what has
+/// changed and nothing else. Errors: kNoDevice (also: the device was lost), kOutOfMemory.
+class SceneScreen {
+ public:
+  /// `options.window`: where to.
+  static Result<std::unique_ptr<SceneScreen>> open(engine::Window& window,
+                                                   const engine::DeviceOptions& options);
+  /// Draws into memory what a window of this size would show.
+  static Result<std::unique_ptr<SceneScreen>> open_without_window(
+      glm::ivec2 extent, const engine::DeviceOptions& options);
+
+  /// Follows the window's size. False: nothing can be drawn into it now.
+  Result<bool> follow_window();
+  glm::ivec2 window_extent() const;
+
+  Result<void> set_panel_font(const engine::PanelFont& font);
+
+  /// Brings data and camera up to date with the session, for a picture of this size. Cost: what has
+  /// changed since the last call.
+  Result<void> update(const Session& session, const PictureArea& area);
+  /// `fast`: one sample a pixel where the device is software.
+  Result<void> draw(const engine::PanelDraw& panels, bool fast);
+
+  /// A picture of what was brought up to date last, with other settings than those of the window.
+  Result<DrawnPicture> picture(const PictureData& data, const PictureSettings& settings);
+  /// What draw() would show in a window of this size.
+  Result<DrawnPicture> picture_of_window(glm::ivec2 extent, const engine::PanelDraw& panels);
+
+  const PictureArea& area() const { return area_; }
+  const engine::Camera& camera() const { return scene_.camera; }
+  const PictureData& data() const { return data_; }
+  const engine::Insets& insets() const { return legend_.insets; }
+  DrawingDevice device() const;
+  std::vector<std::string> validation_messages() const;
+  bool has_model() const { return base_ != nullptr; }
+
+ private:
+  SceneScreen(engine::Device device, engine::Renderer renderer);
+  static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
+  Result<void> update_data(const Session& session);
+  void update_legend(const PictureSettings& settings);
+
+  // In the order of creation; the last go first.
+  engine::Device device_;
+  engine::Renderer renderer_;
+  std::unique_ptr<engine::WindowTarget> window_target_;
+  std::unique_ptr<engine::OffscreenTarget> offscreen_target_;
+
+  // What has been uploaded.
+  std::shared_ptr<const PictureData> base_;
+  PictureData data_;
+  std::vector<glm::vec3> positions_;
+  struct Uploaded {
+    std::uint64_t version = 0;
+    Shown shown = Shown::kA;
+    View view = View::kContours;
+    std::string colour_map;
+    bool reverse = false;
+    bool operator==(const Uploaded&) const = default;
+  };
+  std::optional<Uploaded> uploaded_;
+
+  std::optional<PictureSettings> laid_out_;  ///< what the legend was made for
+  engine::LegendLayout legend_;
+  engine::Scene scene_;
+  PictureArea area_;
+  int samples_ = 4;
+};
+
+}  // namespace geotherm::app
