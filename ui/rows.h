@@ -7,7 +7,7 @@
 #include "app/session/settings.h"
 #include "ui/frame.h"
 
-// Rows of panels that show a setting (app/explore/settings.h) and change it by a command.
+// Rows of panels that show a setting (app/session/settings.h) and change it by a command.
 namespace geotherm::ui {
 
 /// The setting's text; empty where there is no such setting.

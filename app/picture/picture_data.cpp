@@ -8,6 +8,7 @@
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/quality_fields.h"
+#include "solver/geometry/face_gradient.h"
 
 namespace geotherm::app {
 namespace {

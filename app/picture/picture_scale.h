@@ -11,6 +11,17 @@
 
 namespace geotherm::app {
 
+/// Marks on a scale.
+struct Ticks {
+  double step = 0;
+  std::vector<double> values;       ///< ascending multiples of the step, 0 itself as plain 0
+  std::vector<std::string> labels;  ///< with the same number of decimals; 0 is "0"
+};
+
+/// At most `most` (>= 2) ticks in [min, max], min < max, at round numbers; where `spacing` is above
+/// 0 they are round multiples of it, if two or more of these fit, so that ticks meet isolines.
+Ticks make_ticks(double min, double max, int most, double spacing = 0);
+
 /// What a view that paints every face in a colour of its own shows; nothing for the others.
 std::optional<QualityField> face_field(View view);
 
@@ -61,16 +72,5 @@ double round_number_above(double x);
 /// Spacing of isolines over values from 0 to `range`: a round number that gives about 20 of them.
 /// 1 where there is no range.
 double round_spacing(double range);
-
-/// Marks on a scale.
-struct Ticks {
-  double step = 0;
-  std::vector<double> values;       ///< ascending multiples of the step, 0 itself as plain 0
-  std::vector<std::string> labels;  ///< with the same number of decimals; 0 is "0"
-};
-
-/// At most `most` (>= 2) ticks in [min, max], min < max, at round numbers; where `spacing` is above
-/// 0 they are round multiples of it, if two or more of these fit, so that ticks meet isolines.
-Ticks make_ticks(double min, double max, int most, double spacing = 0);
 
 }  // namespace geotherm::app

@@ -27,6 +27,10 @@ DistanceSummary summarize(std::span<const double> distances) {
   return summary;
 }
 
+CheckedAnswers checked_answers(const Answer& answer) {
+  return {*answer.method, answer.options, {&answer.sources, 1}, {&answer.result.distances, 1}};
+}
+
 std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached) {
   std::vector<std::string> notes;
   const Index loose = mesh.unreferenced_vertices;

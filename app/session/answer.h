@@ -39,6 +39,9 @@ struct Answer {
   std::shared_ptr<const AccuracyReport> replaced = {};  ///< of the poor answer before this one
 };
 
+/// The answer as the library checks it; valid as long as the answer.
+CheckedAnswers checked_answers(const Answer& answer);
+
 /// One sentence for each reason why `unreached` vertices have no distance.
 std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached);
 

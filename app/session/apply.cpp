@@ -7,7 +7,7 @@
 #include "app/picture/picture_text.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/state.h"
+#include "app/session/command.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/backend.h"

@@ -13,10 +13,6 @@ namespace {
 /// Sources of many that are checked.
 constexpr std::size_t kMaxSampled = 8;
 
-CheckedAnswers answers_of(const Answer& answer) {
-  return {*answer.method, answer.options, {&answer.sources, 1}, {&answer.result.distances, 1}};
-}
-
 /// Every source set of a few, a few of many, spread over them evenly.
 std::vector<std::size_t> spread(std::size_t count) {
   const std::size_t taken = std::min(count, kMaxSampled);
@@ -102,7 +98,7 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
   if (!settings.quick) {
     const CheckMode search = settings.against ? CheckMode::kUsual : settings.mode;
     if (report.measured) {
-      auto found = find_remedy(report, model_.mesh, answers_of(answer), reference_->answers, search,
+      auto found = find_remedy(report, model_.mesh, checked_answers(answer), reference_->answers, search,
                                with_prefix(progress, "finding the cause: "));
       if (!found) return found;
     }
@@ -125,7 +121,7 @@ Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
       reference_in(settings.mode, answer.method->kind(), model_.mesh->face_count()));
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
   auto report =
-      hold(answers_of(answer), kind, settings.mode, *answer.method, part_of(progress, 0.0, 0.6));
+      hold(checked_answers(answer), kind, settings.mode, *answer.method, part_of(progress, 0.0, 0.6));
   if (!report) return report.error();
   return settle(answer, *std::move(report), settings, part_of(progress, 0.6, 1.0));
 }
@@ -140,7 +136,7 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
                        const Progress& part) -> Result<Answer> {
     auto next = distances(options, sources, query, part_of(part, 0.0, 0.5));
     if (!next) return next;
-    auto report = hold(answers_of(*next), against, CheckMode::kUsual, *answer.method,
+    auto report = hold(checked_answers(*next), against, CheckMode::kUsual, *answer.method,
                        part_of(part, 0.5, 1.0));
     if (!report) return report.error();
     next->error = std::make_shared<const AccuracyReport>(*std::move(report));

@@ -9,6 +9,7 @@
 #include "app/session/wording.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm::app {
 namespace {
@@ -148,7 +149,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
       [&] {
         if (!checks) return;
         const MethodKind kind = answer->method->kind();
-        report = hold(answers_of(*answer),
+        report = hold(checked_answers(*answer),
                       reference_in(wanted.check.mode, kind, model_.mesh->face_count()),
                       wanted.check.mode, *answer->method, with_prefix(checking, "checking: "));
       },

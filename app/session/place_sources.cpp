@@ -44,7 +44,7 @@ class Random {
   std::uint64_t state_;
 };
 
-Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+Error misplaced(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
 
 class Resolver {
  public:
@@ -72,18 +72,18 @@ class Resolver {
       found = true;
     }
     if (found) return {};
-    return bad("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
+    return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
                " edges has two faces or more); choose vertices instead");
   }
 
   Result<void> operator()(const FacePoint& point) {
     if (point.face >= mesh_.face_count()) {
-      return bad("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
+      return misplaced("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
                  std::to_string(mesh_.face_count() - 1));
     }
     const Face& face = mesh_.faces()[point.face];
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
-      return bad("face " + std::to_string(point.face) +
+      return misplaced("face " + std::to_string(point.face) +
                  " repeats a corner and has no inside; choose another");
     }
     for (int k = 0; k < 3; ++k) {
@@ -159,12 +159,12 @@ class Resolver {
   /// One that is there already keeps the smaller offset.
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
-      return bad("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
+      return misplaced("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
                  std::to_string(mesh_.vertex_count() - 1));
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return bad("vertex " + std::to_string(v) +
+      return misplaced("vertex " + std::to_string(v) +
                  " belongs to no face, so that no distance starts there; choose another");
     }
     const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
@@ -269,7 +269,7 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
     if (used[v]) pool.push_back(static_cast<Index>(v));
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
-    return bad(grouped(count) + " different vertices were asked for; " +
+    return misplaced(grouped(count) + " different vertices were asked for; " +
                grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
   }
   Random random(seed);

@@ -11,6 +11,9 @@
 // What long work says before and while it runs: how much it will write, need and take.
 namespace geotherm::app {
 
+/// Shows one sentence at once, beside the progress bar; empty: nobody wants to know.
+using Announce = std::function<void(const std::string&)>;
+
 /// A bar on standard error, drawn over itself at most ten times a second and removed when it goes.
 /// Draws nothing in the first tenth of a second, so that short work shows none.
 class ProgressBar {
@@ -47,9 +50,6 @@ bool error_is_terminal();
 
 /// The same progress with `prefix` before each stage.
 Progress with_prefix(Progress progress, std::string prefix);
-
-/// Shows one sentence at once, beside the progress bar; empty: nobody wants to know.
-using Announce = std::function<void(const std::string&)>;
 
 /// A progress that announces, once, how long work will take whose reports of `stage` hold the true
 /// share of what is done: at the second of them or soon after, where more than a second is left.

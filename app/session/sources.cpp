@@ -21,7 +21,7 @@ namespace {
 constexpr double kWeightSum = 1e-3;
 constexpr double kWeightRounding = 4 * std::numeric_limits<double>::epsilon();
 
-Error bad(std::string message, Hint hint = {}) {
+Error unreadable(std::string message, Hint hint = {}) {
   return {ErrorCode::kBadInput, std::move(message), std::move(hint)};
 }
 
@@ -42,7 +42,7 @@ Result<std::array<double, 3>> three_numbers(std::span<const std::string_view> pa
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = number_in<double>(parts[k]);
     if (!number || !std::isfinite(*number)) {
-      return bad(quoted(parts[k]) + " is no finite number", {"write one such as -1.5 or 2e-3"});
+      return unreadable(quoted(parts[k]) + " is no finite number", {"write one such as -1.5 or 2e-3"});
     }
     numbers[k] = *number;
   }
@@ -54,7 +54,7 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
   for (const std::string_view part : split(text, ',')) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
-      return bad(quoted(text) + " is no source",
+      return unreadable(quoted(text) + " is no source",
                  {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
                   "random:K[:SEED], boundary, face:ID:b0:b1:b2 or xyz:x:y:z"});
     }
@@ -68,7 +68,7 @@ Result<SourceSpec> parse_curve(std::string_view ids) {
   for (const std::string_view part : split(ids, ',')) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
-      return bad(quoted(part) + " is no vertex of a curve",
+      return unreadable(quoted(part) + " is no vertex of a curve",
                  {"write curve:V1,V2,... with ids from 0"});
     }
     curve.vertices.push_back(*vertex);
@@ -81,19 +81,19 @@ Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::st
   const auto count = parts.size() > 1 ? number_in<Index>(parts[1]) : std::nullopt;
   const auto seed = parts.size() == 3 ? number_in<std::uint64_t>(parts[2]) : random.seed;
   if (!count || !seed || parts.size() > 3) {
-    return bad(quoted(text) + " does not say how many vertices",
+    return unreadable(quoted(text) + " does not say how many vertices",
                {"write random:K or random:K:SEED, both whole "
                 "numbers"});
   }
   if (*count < 1)
-    return bad("random:" + std::to_string(*count) + " asks for no vertex", {"give 1 or more"});
+    return unreadable("random:" + std::to_string(*count) + " asks for no vertex", {"give 1 or more"});
   return SourceSpec(RandomVertices{*count, *seed});
 }
 
 Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::string_view>& parts) {
   const auto face = parts.size() == 5 ? number_in<Index>(parts[1]) : std::nullopt;
   if (!face || *face < 0) {
-    return bad(quoted(text) + " is no point in a face",
+    return unreadable(quoted(text) + " is no point in a face",
                {"write face:ID:b0:b1:b2, with the weights of its corners"});
   }
   auto weights = three_numbers(std::span(parts).subspan(2));
@@ -101,13 +101,13 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   double sum = 0;
   for (const double w : *weights) {
     if (w < 0) {
-      return bad(quoted(text) + ": the weight " + significant(w) + " is negative",
+      return unreadable(quoted(text) + ": the weight " + significant(w) + " is negative",
                  {"barycentric weights are not, and sum to 1"});
     }
     sum += w;
   }
   if (std::abs(sum - 1) > kWeightSum) {
-    return bad(quoted(text) + ": the weights sum to " + significant(sum),
+    return unreadable(quoted(text) + ": the weights sum to " + significant(sum),
                {"barycentric weights are not negative and sum to 1"});
   }
   if (std::abs(sum - 1) > kWeightRounding) {
@@ -124,7 +124,7 @@ Result<SourceSpec> parse_plain(std::string_view text) {
   if (parts[0] == "face") return parse_face(text, parts);
   if (parts[0] == "xyz") {
     if (parts.size() != 4) {
-      return bad(quoted(text) + " is no point in space", {"write xyz:x:y:z, in model units"});
+      return unreadable(quoted(text) + " is no point in space", {"write xyz:x:y:z, in model units"});
     }
     auto point = parse_space_point({parts[1], parts[2], parts[3]});
     if (!point) return about(quoted(text), point.error());
@@ -201,12 +201,12 @@ Result<SourceSpec> parse_source(std::string_view text) {
   if (!spec) return spec;
   double* offset = offset_of(*spec);
   if (offset == nullptr) {
-    return bad(quoted(text) + ": a curve has no offset",
+    return unreadable(quoted(text) + ": a curve has no offset",
                {"give the offsets of points, as in 17@0.5"});
   }
   const auto number = number_in<double>(text.substr(at + 1));
   if (!number || !std::isfinite(*number) || *number < 0) {
-    return bad(quoted(text) + ": " + quoted(text.substr(at + 1)) + " is no offset",
+    return unreadable(quoted(text) + ": " + quoted(text.substr(at + 1)) + " is no offset",
                {"write a distance in model units, 0 or more, as in 17@0.5"});
   }
   *offset = *number == 0 ? 0.0 : *number;  // no minus zero
