@@ -51,8 +51,8 @@ class Drawing {
                             const TakeFrame& frame) = 0;
 };
 
-/// What this build draws with: the engine, or a stand-in that says that there is none. Opens nothing
-/// yet.
+/// What this build draws with: the engine, or a stand-in that says that there is none. Opens
+/// nothing yet.
 std::unique_ptr<Drawing> make_drawing();
 
 }  // namespace geotherm::app
