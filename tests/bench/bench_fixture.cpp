@@ -27,7 +27,7 @@ bench::SolveGroup group_of(const std::string& mesh, Index faces, bool regular) {
 
 bench::BenchRun sample_run() {
   bench::BenchRun run;
-  run.machine = {.cpu = "a processor", .blas = "a BLAS", .compiler = "a compiler", .cores = 2};
+  run.machine = {{.cpu = "a processor", .cores = 2, .blas = "a BLAS"}, "a compiler"};
   run.threads = 2;
   run.limits = {.threads = 2,
                 .reading = {{4e6, 100, 200}, {1e9, 20, 30}},
