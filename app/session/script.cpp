@@ -10,7 +10,7 @@
 #include <set>
 #include <system_error>
 
-#include "app/session/state.h"
+#include "app/session/command.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/io.h"

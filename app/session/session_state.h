@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
+#include "app/session/command.h"
 #include "app/session/explorer.h"
 #include "app/session/script.h"
 #include "app/session/session.h"
-#include "app/session/state.h"
 #include "app/session/worker.h"
 
 // What session*.cpp share.

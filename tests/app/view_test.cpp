@@ -6,7 +6,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/picture/picture_scale.h"
-#include "app/session/state.h"
+#include "app/session/command.h"
 #include "tests/app/fake_drawing.h"
 #include "tests/mesh/mesh_files.h"
 #include "tests/support/source_texts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/state.h"
+#include "app/session/command.h"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "app/session/command.h"
 #include "app/session/explored.h"
 #include "app/session/session.h"
-#include "app/session/state.h"
 #include "geotherm/backend.h"
 #include "tests/explore/session_fixture.h"
 

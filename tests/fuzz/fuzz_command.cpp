@@ -5,7 +5,6 @@
 #include "app/session/command.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/state.h"
 #include "app/session/text.h"
 #include "tests/fuzz/fuzz_targets.h"
 
