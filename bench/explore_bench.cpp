@@ -71,7 +71,7 @@ class Hand {
   Result<double> drag(Index vertex) {
     const Stopwatch watch;
     const std::uint64_t before = session_.explored().version;
-    const command::MoveSource move{0, std::to_string(vertex)};
+    const command::MoveSource move{0, VertexList{{vertex}}};
     if (auto done = session_.submit(move); !done) return done.error();
     while (session_.explored().version == before) {
       bell_.wait();

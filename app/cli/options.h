@@ -15,30 +15,9 @@
 #include "app/session/sources.h"
 #include "geotherm/error.h"
 
-// The table of settings on the command line.
+// What options of several sub-commands are called and how they are read: the settings of the table,
+// models and sources, checks, pictures.
 namespace geotherm::app {
-
-/// Where distance is 0, as typed.
-struct SourceArguments {
-  std::vector<std::string> sources;
-  std::string file;
-  bool curve = false;
-};
-
-/// The model as a word of its own, and how it is read.
-CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
-void add_source_options(CLI::App& command, SourceArguments& arguments);
-void add_quiet_option(CLI::App& command, bool& quiet);
-
-/// The files that these name, which no output may replace.
-void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
-
-/// The sources of a command that cannot do without. Errors: those of sources_of(), kBadInput
-/// (none).
-Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
-
-/// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
-Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
 
 /// Settings as typed: texts by name.
 struct SettingArguments {
@@ -65,6 +44,28 @@ Result<ViewerState> settings_in(const SettingArguments& arguments);
 /// Says which of the typed settings of methods have no effect beside the others.
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
                           std::vector<std::string>& warnings);
+
+/// Where distance is 0, as typed.
+struct SourceArguments {
+  std::vector<std::string> sources;
+  std::string file;
+  bool curve = false;
+};
+
+/// The model as a word of its own, and how it is read.
+CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
+void add_source_options(CLI::App& command, SourceArguments& arguments);
+void add_quiet_option(CLI::App& command, bool& quiet);
+
+/// The files that these name, which no output may replace.
+void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);
+
+/// The sources of a command that cannot do without. Errors: those of sources_of(), kBadInput
+/// (none).
+Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
+
+/// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
+Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
 
 /// How distances are to be checked, as typed.
 struct CheckArguments {

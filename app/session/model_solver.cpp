@@ -7,9 +7,9 @@
 #include "app/session/machine.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
+#include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm::app {
 namespace {
