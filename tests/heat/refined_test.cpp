@@ -12,6 +12,7 @@
 #include "geotherm/accuracy.h"
 #include "geotherm/build_method.h"
 #include "geotherm/io.h"
+#include "solver/geometry/intrinsic_surface.h"
 #include "tests/support/solve.h"
 
 namespace geotherm::test {

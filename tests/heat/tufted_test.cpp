@@ -6,6 +6,7 @@
 #include <random>
 
 #include "geotherm/build_method.h"
+#include "solver/mesh/connectivity.h"
 #include "tests/support/compare.h"
 #include "tests/support/solve.h"
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "solver/mesh/connectivity.h"
 #include "tests/path/path_support.h"
 
 namespace geotherm::test {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geotherm/build_method.h"
+#include "solver/path/path_surface.h"
 
 namespace geotherm::test {
 namespace {
