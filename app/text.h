@@ -53,7 +53,7 @@ std::optional<Number> number_in(std::string_view text) {
 /// The text with line ends in place of some blanks: no line longer than `width` unless a word is.
 std::string wrapped(const std::string& text, std::size_t width);
 
-/// Fit for one line: what cannot be shown becomes '?' (solver/core/printable.h).
+/// Fit for one line: what cannot be shown becomes '?' (solver/core/text.h).
 std::string one_line(std::string_view text);
 
 }  // namespace geotherm::app

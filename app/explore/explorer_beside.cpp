@@ -5,6 +5,7 @@
 #include "app/solve_steps.h"
 #include "app/told.h"
 #include "geotherm/heat_method.h"
+#include "geotherm/polyhedral_methods.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "geotherm/quality_fields.h"
+#include "solver/geometry/face_gradient.h"
 
 namespace geotherm::app {
 namespace {

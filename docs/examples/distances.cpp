@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Distances from a vertex of a model, written beside it.
+// Distances from a vertex of a model, written to a file or, as here, to standard output.
 #include <geotherm/geotherm.h>  // find_package(geotherm CONFIG), link geotherm::solver
 
-#include "fail.h"
+#include "require.h"
 
 using namespace geotherm;
 
 int main() {
-  auto file = read_mesh("bunny.ply");
-  if (!file) return fail(file.error());
-  auto mesh = std::make_shared<const TriangleMesh>(std::move(file->mesh));
-  auto method = build_method(mesh);  // everything that does not depend on the sources
-  if (!method) return fail(method.error());
-  auto result = (*method)->solve(SourceSet::of_vertices({17}));
-  if (!result) return fail(result.error());
-  auto written = write_distances("-", *mesh, result->distances);
-  return written ? 0 : fail(written.error());
+  auto mesh = std::make_shared<const TriangleMesh>(require(read_mesh("bunny.ply")).mesh);
+  auto method = require(build_method(mesh));  // everything that does not depend on the sources
+  auto result = require(method->solve(SourceSet::of_vertices({17})));
+  require(write_distances("-", *mesh, result.distances));
 }

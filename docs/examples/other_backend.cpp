@@ -2,17 +2,16 @@
 // The same with each backend of this build.
 #include <geotherm/geotherm.h>
 
-#include "fail.h"
+#include "require.h"
 
 using namespace geotherm;
 
 int main() {
-  auto file = read_mesh("bunny.ply");
-  if (!file) return fail(file.error());
-  auto mesh = std::make_shared<const TriangleMesh>(std::move(file->mesh));
+  auto mesh = std::make_shared<const TriangleMesh>(require(read_mesh("bunny.ply")).mesh);
   for (const std::string& name : backend_names()) {
-    auto method = HeatMethod::build(mesh, {.backend = name, .precision = Precision::kFull});
-    if (!method) return fail(method.error());
-    std::printf("%s: %.1f MB\n", name.c_str(), method->memory_mb());
+    HeatOptions options;
+    options.backend = name;
+    auto method = require(HeatMethod::build(mesh, options));
+    std::printf("%s: %.1f MB\n", name.c_str(), method.memory_mb());
   }
 }

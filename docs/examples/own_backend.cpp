@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "fail.h"
+#include "require.h"
 
 using namespace geotherm;
 
@@ -69,13 +69,13 @@ class DenseBackend final : public Backend {
 
 int main() {
   AddedBackend added(std::make_unique<DenseBackend>());  // known while this lives
-  auto square =
-      TriangleMesh::build({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-  if (!square) return fail(square.error());
-  auto mesh = std::make_shared<const TriangleMesh>(*std::move(square));
-  auto method = build_method(mesh, {{.backend = "dense", .strict = true}, MethodKind::kHeat, 4});
-  if (!method) return fail(method.error());
-  auto result = (*method)->solve(SourceSet::of_vertices({17}));
-  if (!result) return fail(result.error());
-  std::printf("%.4f\n", result->distances[0]);
+  auto square = require(
+      TriangleMesh::build({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
+  auto mesh = std::make_shared<const TriangleMesh>(require(subdivide(square, 4)));
+  HeatOptions options;
+  options.backend = "dense";
+  options.strict = true;  // no other backend takes over
+  auto method = require(HeatMethod::build(mesh, options));
+  auto result = require(method.solve(SourceSet::of_vertices({0})));
+  std::printf("%.4f\n", result.distances[2]);
 }

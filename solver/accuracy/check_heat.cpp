@@ -221,7 +221,7 @@ void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
 
 bool is_extreme_time(double unit_t) { return unit_t > kLargeTime || unit_t < kSmallTime; }
 
-Error with_time_cure(Error error, double unit_t, TimeRule rule) {
+Error with_time_hint(Error error, double unit_t, TimeRule rule) {
   const bool numerical =
       error.code == ErrorCode::kNumericalFailure || error.code == ErrorCode::kBudgetEnded;
   if (!numerical || !is_extreme_time(unit_t)) return error;
@@ -233,8 +233,8 @@ Error with_time_cure(Error error, double unit_t, TimeRule rule) {
   return error;
 }
 
-Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& faces,
-                   DistanceResult& result) {
+Result<void> assess_heat(const HeatOptions& options, double unit_t, const FaceCounts& faces,
+                         DistanceResult& result) {
   const Quality& q = result.quality;
   add_lost_faces(options, faces, result);
   add_clamped_vertices(options, result);
@@ -251,7 +251,7 @@ Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& 
     if (!std::isfinite(residual) || (residual > kUselessResidual && !by_design)) {
       const Hint others = {"try another backend or ",
                            SettingHint{"laplacian", {"intrinsic-delaunay"}}};
-      return with_time_cure({ErrorCode::kNumericalFailure, text + ", which is no solution",
+      return with_time_hint({ErrorCode::kNumericalFailure, text + ", which is no solution",
                              is_extreme_time(unit_t) ? Hint() : others},
                             unit_t, options.time_step.rule);
     }

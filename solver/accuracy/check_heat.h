@@ -42,14 +42,12 @@ FaceCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
 bool is_extreme_time(double unit_t);
 
 /// A kNumericalFailure or kBudgetEnded of the heat step with what to do about the diffusion time
-/// added, where that is extreme.
-/// `unit_t`: t in squares of the mean edge.
-Error with_time_cure(Error error, double unit_t, TimeRule rule);
+/// added, where that is extreme. `unit_t`: t in squares of the mean edge.
+Error with_time_hint(Error error, double unit_t, TimeRule rule);
 
 /// Appends to an answer what a person should know about its quality figures, which must be filled
-/// in. Errors: kNumericalFailure where residuals say
-/// that this is no answer at all.
-Result<void> judge(const HeatOptions& options, double unit_t, const FaceCounts& faces,
-                   DistanceResult& result);
+/// in. Errors: kNumericalFailure where residuals say that this is no answer at all.
+Result<void> assess_heat(const HeatOptions& options, double unit_t, const FaceCounts& faces,
+                         DistanceResult& result);
 
 }  // namespace geotherm

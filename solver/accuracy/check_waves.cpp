@@ -3,9 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace geotherm {
+namespace {
 
+/// Mean of | |grad d| - 1 | by area, over the faces whose corners are all reached; 0 where there is
+/// none; edges that are too steep are counted. `distances`: V, in the units of the mesh. Cost:
+/// O(F).
 double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances,
                           SteepSides& steep) {
   double sum = 0, area = 0;
@@ -32,8 +37,10 @@ double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> dis
   return area > 0 ? sum / area : 0;
 }
 
-void judge_wave(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
-                const SourceSeeds& seeds, DistanceResult& result) {
+}  // namespace
+
+void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
+                  const SourceSeeds& seeds, DistanceResult& result) {
   double above = 0;
   for (const auto& vertex : seeds.vertices) {
     above = std::max(above, result.distances[vertex.vertex] - vertex.offset);

@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-
 #include "geotherm/distance_method.h"
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/wave/wave_surface.h"
 
 namespace geotherm {
 
-/// Mean of | |grad d| - 1 | by area, over the faces whose corners are all reached; 0 where there is
-/// none; edges that are too steep are counted. `distances`: V, in the units of the mesh. Cost:
-/// O(F).
-double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances,
-                          SteepSides& steep);
-
 /// Fills in the quality figures that waves know: how far a source vertex is above its offset (0 but
 /// for round-off: its value is a minimum that starts there), the slope, and the bounds of
 /// distance_bounds.h, with their warnings. `result.distances` are still in units of the intrinsic
 /// mesh, with those of inserted vertices at the end. Cost: O(F).
-void judge_wave(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
-                const SourceSeeds& seeds, DistanceResult& result);
+void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
+                  const SourceSeeds& seeds, DistanceResult& result);
 
 }  // namespace geotherm

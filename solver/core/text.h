@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of files and what is found in files, made fit to be shown to people.
+// Numbers, names of files and what is found in files, as text that people are shown.
 #pragma once
 
 #include <array>

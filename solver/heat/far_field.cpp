@@ -18,6 +18,7 @@
 #include "solver/heat/field_kernels.h"
 
 namespace geotherm {
+namespace {
 
 /// In how many masks each of 16 bits is set: all bits of a mask are counted at once.
 class BitCounts {
@@ -43,8 +44,6 @@ class BitCounts {
   std::array<std::int64_t, kBits> long_{};
   std::uint16_t added_ = 0;
 };
-
-namespace {
 
 /// With direct solvers some 50 million edges at t = h^2: more than fit in memory.
 constexpr int kMaxLevels = std::numeric_limits<HeatField::Level>::max();

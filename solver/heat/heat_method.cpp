@@ -149,7 +149,7 @@ Trial<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOpt
       });
   if (!heat_done) {
     const Error error =
-        with_time_cure(heat_done.error(), next->times.extreme, options.time_step.rule);
+        with_time_hint(heat_done.error(), next->times.extreme, options.time_step.rule);
     return {error, is_extreme_time(next->times.extreme) && error.code != ErrorCode::kOutOfMemory
                        ? Successor::kNone
                        : successor_of(error)};

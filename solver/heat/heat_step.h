@@ -36,7 +36,7 @@ PerComponent consistent_share(Variant variant, const PerComponent& relative_t);
 /// Held vertices up to this many are reached through the shared factor (HeatMode::kHold).
 inline constexpr std::size_t kMaxHeldRows = 128;
 
-/// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of heat_options.h.
+/// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of options.h.
 class HeatStep {
  public:
   /// What diffuse() gives.

@@ -153,7 +153,7 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   auto heat = p.heat.diffuse(anchors, p.options.heat, query.quality, work,
                              part_of(progress, 0.0, kHeatShare));
   const auto with_cure = [&](Error error) {
-    return with_time_cure(std::move(error), extreme_time(p.times, anchors),
+    return with_time_hint(std::move(error), extreme_time(p.times, anchors),
                           p.options.time_step.rule);
   };
   if (!heat) return with_cure(heat.error());
@@ -198,7 +198,7 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
                                              SteepSides(tolerance), field, phi, column, anchors[c],
                                              held_at_zero(p), work.threads, result.quality);
       check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
-      const auto judged = judge(p.options, extreme_time(p.times, anchors[c]), faces, result);
+      const auto judged = assess_heat(p.options, extreme_time(p.times, anchors[c]), faces, result);
       if (!judged) return judged.error();
     }
     if (query.fields) {

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -20,6 +21,8 @@
 
 namespace geotherm {
 namespace {
+
+namespace fs = std::filesystem;
 
 enum State : int { kFree, kTaken, kOpening, kOpen };
 
@@ -60,7 +63,23 @@ class NoSignals {
   sigset_t before_{};
 };
 
-}  // namespace
+/// A name that is removed by remove_unfinished_files() while this lives. For several threads. Where
+/// more than 32 live at once, those above are left behind.
+class UnfinishedFile {
+ public:
+  /// Creates the file, which must not exist: descriptor(), or -1 with errno. From the first moment
+  /// on it is known; the calling thread takes no signal in between.
+  explicit UnfinishedFile(const std::string& path);
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int slot_ = -1;
+  int descriptor_ = -1;
+};
 
 UnfinishedFile::UnfinishedFile(const std::string& path) : slot_(take_slot(path)) {
   int code = 0;
@@ -82,21 +101,6 @@ UnfinishedFile::UnfinishedFile(const std::string& path) : slot_(take_slot(path))
 UnfinishedFile::~UnfinishedFile() {
   if (slot_ >= 0) slots[slot_].state = kFree;
 }
-
-void remove_unfinished_files() noexcept {
-  constexpr int kMaxWaits = 1000, kMilliseconds = 1;
-  closed = true;
-  for (Slot& slot : slots) {
-    for (int i = 0; slot.state == kOpening && i < kMaxWaits; ++i) {
-      ::poll(nullptr, 0, kMilliseconds);
-    }
-    if (slot.state == kOpen) ::unlink(slot.path.data());
-  }
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 Error failure(const std::string& path, int code) {
   return {ErrorCode::kBadFile,
@@ -122,6 +126,17 @@ std::string target_of(const std::string& path) {
 }
 
 }  // namespace
+
+void remove_unfinished_files() noexcept {
+  constexpr int kMaxWaits = 1000, kMilliseconds = 1;
+  closed = true;
+  for (Slot& slot : slots) {
+    for (int i = 0; slot.state == kOpening && i < kMaxWaits; ++i) {
+      ::poll(nullptr, 0, kMilliseconds);
+    }
+    if (slot.state == kOpen) ::unlink(slot.path.data());
+  }
+}
 
 struct GrowingFile::State {
   std::string path;       ///< as given, for messages

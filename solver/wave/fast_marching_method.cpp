@@ -116,7 +116,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
   for (double& distance : result.distances) distance += march.base;
   if (query.nearest) result.nearest_source = std::move(march.label);
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(MethodKind::kFastMarching, surface, sources, *seeds, result);
+  if (query.quality) assess_waves(MethodKind::kFastMarching, surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface.base.mean_edge;
   result.timing.query += watch.lap();

@@ -88,7 +88,7 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                  {"use ", SettingHint{"method", {"exact", "heat"}}}};
   }
   result.timing.query = watch.lap();
-  if (query.quality) judge_wave(kind(), *surface, sources, *seeds, result);
+  if (query.quality) assess_waves(kind(), *surface, sources, *seeds, result);
   watch.lap();
   const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
   result.distances.resize(own);

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         IncludeCase{"SolverUsesStandard", "solver/heat/a.h", "<vector>"},
         IncludeCase{"SolverUsesEigen", "solver/heat/a.h", "<Eigen/Core>"},
         IncludeCase{"ExampleUsesTheFrontDoor", "docs/examples/a.cpp", "<geotherm/geotherm.h>"},
-        IncludeCase{"ExampleUsesItsNeighbour", "docs/examples/a.cpp", "\"fail.h\""},
+        IncludeCase{"ExampleUsesItsNeighbour", "docs/examples/a.cpp", "\"require.h\""},
         IncludeCase{"HeatUsesAllBefore", "solver/heat/a.cpp", "\"geotherm/backend.h\""},
         IncludeCase{"BackendUsesCholmod", "solver/linear/a.cpp", "<cholmod.h>"},
         IncludeCase{"BackendHasItsOwnHeader", "solver/linear/cholmod_api.h", "<cholmod.h>"},

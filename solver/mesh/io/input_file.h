@@ -72,8 +72,6 @@ class InputFile {
   Version before_;
 };
 
-class InputFile;
-
 /// A file as a whole in memory.
 ///
 /// Behind the last byte at least kPadding zero bytes can be read, so a scanner needs no end test

@@ -16,6 +16,7 @@
 #include "solver/mesh/io/text_scanner.h"
 
 namespace geotherm::io {
+namespace {
 
 /// Gives equal positions one number, in order of first appearance. Equal means every bit equal,
 /// with -0 taken as 0. A hash table with open addressing; cost O(1) per corner on average.
@@ -63,8 +64,6 @@ class VertexWelder {
   std::vector<Vec3> positions_;
   std::vector<Index> slots_;  ///< the size is a power of two
 };
-
-namespace {
 
 constexpr std::size_t kHeaderBytes = 84;
 constexpr std::size_t kFaceBytes = 50;

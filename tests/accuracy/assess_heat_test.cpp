@@ -26,15 +26,15 @@ bool says(const std::string& text, const char* part) {
 TEST(Residuals, OfOrderOneAreFailuresWithTheNumberAndTheCure) {
   for (const double residual : {0.5, 7e14, kUnreached, kNan}) {
     for (DistanceResult result : {with_residuals(residual, 0), with_residuals(0, residual)}) {
-      const auto large = judge({}, 1e15, {}, result);
+      const auto large = assess_heat({}, 1e15, {}, result);
       ASSERT_FALSE(large) << residual;
       EXPECT_EQ(large.error().code, ErrorCode::kNumericalFailure);
       EXPECT_TRUE(says(sentence(large.error()), rounded_text(residual).c_str()));
       EXPECT_TRUE(says(sentence(large.error()), "smaller time-factor")) << large.error().message;
-      const auto small = judge({}, 1e-15, {}, result);
+      const auto small = assess_heat({}, 1e-15, {}, result);
       ASSERT_FALSE(small) << residual;
       EXPECT_TRUE(says(sentence(small.error()), "larger time-factor")) << small.error().message;
-      const auto usual = judge({}, 1, {}, result);
+      const auto usual = assess_heat({}, 1, {}, result);
       ASSERT_FALSE(usual) << residual;
       EXPECT_FALSE(says(sentence(usual.error()), "time")) << usual.error().message;
     }
@@ -43,7 +43,7 @@ TEST(Residuals, OfOrderOneAreFailuresWithTheNumberAndTheCure) {
 
 TEST(Residuals, ThatAreSmallButNotRoundOffAreAWarning) {
   DistanceResult result = with_residuals(2e-3, 1e-12);
-  ASSERT_TRUE(judge({}, 1, {}, result));
+  ASSERT_TRUE(assess_heat({}, 1, {}, result));
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(sentence(result.warnings[0]), "0.002")) << sentence(result.warnings[0]);
 }
@@ -52,21 +52,21 @@ TEST(Residuals, OfThePenaltyModeAreAWarningWhileTheyAreNumbers) {
   HeatOptions options;
   options.constraint.mode = ConstraintMode::kPenalty;
   DistanceResult result = with_residuals(0, 0.4);
-  EXPECT_TRUE(judge(options, 1, {}, result));
+  EXPECT_TRUE(assess_heat(options, 1, {}, result));
   EXPECT_EQ(result.warnings.size(), 1U);
   DistanceResult none = with_residuals(0, kNan);
-  EXPECT_FALSE(judge(options, 1, {}, none));
+  EXPECT_FALSE(assess_heat(options, 1, {}, none));
   DistanceResult cold = with_residuals(0.4, 0);
-  EXPECT_FALSE(judge(options, 1, {}, cold)) << "the heat step has no penalty";
+  EXPECT_FALSE(assess_heat(options, 1, {}, cold)) << "the heat step has no penalty";
 }
 
 TEST(Slopes, ThatNoDistanceHasAreAWarningWithTheCure) {
   DistanceResult good, blurred;
   good.quality.eikonal_error_mean = 0.3;
   blurred.quality.eikonal_error_mean = 0.61;
-  ASSERT_TRUE(judge({}, 1000, {}, good));
+  ASSERT_TRUE(assess_heat({}, 1000, {}, good));
   EXPECT_TRUE(good.warnings.empty());
-  ASSERT_TRUE(judge({}, 1000, {}, blurred));
+  ASSERT_TRUE(assess_heat({}, 1000, {}, blurred));
   ASSERT_EQ(blurred.warnings.size(), 1U);
   for (const char* part : {"0.61", "1e+03", "smaller time-factor"}) {
     EXPECT_TRUE(says(sentence(blurred.warnings[0]), part)) << sentence(blurred.warnings[0]);

@@ -107,7 +107,7 @@ TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
   result.distances = {0, 0, 3, kUnreached};
   result.quality.clamped_vertices = 1;
   result.quality.clamped_reach = 2.5;
-  ASSERT_TRUE(judge({}, 1, {}, result));
+  ASSERT_TRUE(assess_heat({}, 1, {}, result));
   ASSERT_EQ(result.warnings.size(), 1U);
   for (const char* part : {"1 vertex (33.3 %)", "no information", "too short", "up to 2.5 from",
                            "use method wavefront"}) {

@@ -30,7 +30,7 @@ class Bounds : public testing::TestWithParam<MethodKind> {
     DistanceResult result;
     for (double& d : distances) d /= surface->base.mean_edge;
     result.distances = std::move(distances);
-    judge_wave(GetParam(), *surface, sources, *seed_sources(*surface, sources), result);
+    assess_waves(GetParam(), *surface, sources, *seed_sources(*surface, sources), result);
     return result;
   }
 };
