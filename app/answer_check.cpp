@@ -42,16 +42,16 @@ AccuracyReport failed_check(MethodKind kind, const Error& error) {
   return report;
 }
 
-CureSearch search_of(CheckMode mode) {
+RemedySearch search_of(CheckMode mode) {
   switch (mode) {
     case CheckMode::kThorough:
-      return CureSearch::kWhereNotGood;
+      return RemedySearch::kWhereNotGood;
     case CheckMode::kUsual:
-      return CureSearch::kWherePoor;
+      return RemedySearch::kWherePoor;
     case CheckMode::kNone:
       break;
   }
-  return CureSearch::kNever;
+  return RemedySearch::kNever;
 }
 
 }  // namespace
@@ -95,10 +95,10 @@ Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& 
   }
 }
 
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CheckMode mode, const Progress& progress) try {
-  return geotherm::find_cure(report, mesh, answers, better, search_of(mode), progress);
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         CheckMode mode, const Progress& progress) try {
+  return geotherm::find_remedy(report, mesh, answers, better, search_of(mode), progress);
 } catch (const std::bad_alloc&) {
   return {};  // the figures stand without it
 }
@@ -168,7 +168,7 @@ Result<SampleCheck> check_sample(const std::shared_ptr<const TriangleMesh>& mesh
   if (!report) return report.error();
   if (search) {
     const auto found =
-        find_cure(*report, mesh, answers, better, mode, part_of(progress, kChecked, 1.0));
+        find_remedy(*report, mesh, answers, better, mode, part_of(progress, kChecked, 1.0));
     if (!found) return found.error();
   }
   return sample_check(*std::move(report), *sample, sets.size());

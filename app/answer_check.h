@@ -53,9 +53,9 @@ Result<AccuracyReport> check_against(const std::shared_ptr<const TriangleMesh>& 
                                      const Progress& progress);
 
 /// Looks for a cure as far as the mode asks for one. Errors: kCancelled.
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CheckMode mode, const Progress& progress);
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         CheckMode mode, const Progress& progress);
 
 /// The methods that answer instead of `poor`, the next where one is poor as well: wavefront,
 /// wavefront-fine and, where these are held against it, exact.

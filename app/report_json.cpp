@@ -274,7 +274,7 @@ Json error_json(const AccuracyReport& report) {
                {"mean_relative", figure(e.mean_relative)},
                {"max_of_range", figure(e.max_of_range)},
                {"verdict", told(report)},
-               {"cure", report.cure ? tried_json(*report.cure) : Json(nullptr)},
+               {"cure", report.remedy ? tried_json(*report.remedy) : Json(nullptr)},
                {"grade", report.measured ? Json(to_text(report.grade)) : Json(nullptr)},
                {"max", figure(e.max)},
                {"mean_signed", figure(e.mean_signed)},

@@ -129,8 +129,8 @@ Result<void> settle(SolveFigures& figures, const QueryOptions& query, const Chec
   if (figures.error->is_poor() && check.on_poor == OnPoor::kBetter) {
     return replace_poor(figures, check.mode, query, with_prefix(progress, "answering again: "));
   }
-  auto found = find_cure(*figures.error, figures.model.mesh, answers_of(figures), better,
-                         check.mode, with_prefix(progress, "finding the cause: "));
+  auto found = find_remedy(*figures.error, figures.model.mesh, answers_of(figures), better,
+                           check.mode, with_prefix(progress, "finding the cause: "));
   if (!found) return found;
   const std::string line = accuracy_line(*figures.error);
   if (check.on_poor == OnPoor::kFail) {

@@ -137,8 +137,8 @@ Result<void> Explorer::check(const ExploreRequest& request, const SourceSet& sou
   AccuracyReport report =
       hold_against(answers.distances, answer.options.method, reference_->answers);
   if (request.quality) {
-    auto found = find_cure(report, mesh, answers, reference_->answers, CheckMode::kUsual,
-                           part_of(progress, 0.6, 1.0));
+    auto found = find_remedy(report, mesh, answers, reference_->answers, CheckMode::kUsual,
+                             part_of(progress, 0.6, 1.0));
     if (!found) return found;
     auto warning = accuracy_warning(report, accuracy_line(report));
     if (!warning.empty()) answer.warnings.push_back(std::move(warning));

@@ -68,7 +68,7 @@ Hint advice_of(const AccuracyReport& report) {
     before = ", ";
   }
   add_gain(report, *best, before, advice);
-  if (!report.cure) advice.emplace_back(", the best of what was tried");
+  if (!report.remedy) advice.emplace_back(", the best of what was tried");
   return advice;
 }
 
@@ -161,19 +161,19 @@ AccuracyReport unmeasured(MethodKind method, std::string verdict) {
   return report;
 }
 
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CureSearch search, const Progress& progress) {
-  if (!report.measured || search == CureSearch::kNever) return {};
-  const bool wanted = search == CureSearch::kWherePoor ? report.grade == Grade::kPoor
-                                                       : report.grade >= Grade::kFair;
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         RemedySearch search, const Progress& progress) {
+  if (!report.measured || search == RemedySearch::kNever) return {};
+  const bool wanted = search == RemedySearch::kWherePoor ? report.grade == Grade::kPoor
+                                                         : report.grade >= Grade::kFair;
   if (!wanted || report.figures.differently_reached > 0) return {};
-  auto found =
-      diagnose(mesh, answers, better.method, better.distances,
-               search == CureSearch::kWherePoor ? kMaxFacesBesides : kMaxFacesDiagnosed, progress);
+  auto found = diagnose(mesh, answers, better.method, better.distances,
+                        search == RemedySearch::kWherePoor ? kMaxFacesBesides : kMaxFacesDiagnosed,
+                        progress);
   if (!found) return found.error();
   report.cause = std::move(found->cause);
-  report.cure = std::move(found->cure);
+  report.remedy = std::move(found->remedy);
   report.tried = std::move(found->tried);
   report.advice = advice_of(report);
   report.verdict =
@@ -194,13 +194,13 @@ Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>&
                      ? "this is the most accurate method there is"
                      : "the method " + to_text(checked) + " was not held against a better one");
   }
-  const bool searches = options.search != CureSearch::kNever;
+  const bool searches = options.search != RemedySearch::kNever;
   auto better = solve_reference(mesh, reference, answers.sources, options.threads, &answers.method,
                                 part_of(progress, 0.0, searches ? 0.3 : 1.0));
   if (!better) return better.error();
   AccuracyReport report = hold_against(answers.distances, checked, *better);
   if (auto found =
-          find_cure(report, mesh, answers, *better, options.search, part_of(progress, 0.3, 1.0));
+          find_remedy(report, mesh, answers, *better, options.search, part_of(progress, 0.3, 1.0));
       !found) {
     return found.error();
   }

@@ -33,8 +33,8 @@ class Search {
         left_(badness(before_)),
         exact_answers_(reference == MethodKind::kExact) {}
 
-  /// Tries what changes an option of the heat method. It is the cure if its answer is good. It is
-  /// the cause so far if it is the cure, or leaves less than `share` of what was left by the best
+  /// Tries what changes an option of the heat method. It is the remedy if its answer is good. It is
+  /// the cause so far if it is the remedy, or leaves less than `share` of what was left by the best
   /// before it, and lowers the mean error. What fails explains nothing. Errors: kCancelled.
   Result<void> try_option(const Candidate& candidate, double share, const Progress& progress) {
     const auto error = error_of(candidate.options, better_, progress);
@@ -42,7 +42,7 @@ class Search {
     const TriedSetting tried = keep(candidate.option, candidate.value, *error, reference_);
     const double left = badness(*error);
     const bool good = left <= 1 && left < badness(before_);
-    if (good) found.cure = tried;
+    if (good) found.remedy = tried;
     const double most = std::min(kMaxLeft * badness(before_), (found.cause ? share : 1) * left_);
     if (error->mean_relative >= before_.mean_relative || (left >= most && !good)) return {};
     found.cause = ErrorCause{candidate.option, candidate.value, candidate.because,
@@ -56,11 +56,11 @@ class Search {
     for (const MethodKind kind : {MethodKind::kWavefront, MethodKind::kWavefrontFine}) {
       if (!is_better(kind, answers_.method.kind())) continue;
       if (auto tried = try_method(kind, progress); !tried) return tried;
-      if (found.cure) return {};
+      if (found.remedy) return {};
     }
     if (exact_answers_ && is_better(MethodKind::kExact, answers_.method.kind())) {
       // Exact distances are without error by definition.
-      found.cure = keep("method", to_text(MethodKind::kExact), {}, MethodKind::kExact);
+      found.remedy = keep("method", to_text(MethodKind::kExact), {}, MethodKind::kExact);
     }
     return {};
   }
@@ -76,28 +76,28 @@ class Search {
     options.threads = answers_.options.threads;
     if (is_better(reference_, kind)) return try_against(options, reference_, better_, progress);
     const bool small = mesh_->face_count() <= kMaxFacesExact;
-    for (const MethodKind judge : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
-      if (!is_better(judge, kind) || (judge == MethodKind::kExact && !small)) continue;
-      const auto better = solve_reference(mesh_, judge, answers_.sources, options.threads,
+    for (const MethodKind reference : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
+      if (!is_better(reference, kind) || (reference == MethodKind::kExact && !small)) continue;
+      const auto better = solve_reference(mesh_, reference, answers_.sources, options.threads,
                                           &answers_.method, progress);
       if (better) {
-        exact_answers_ = exact_answers_ || judge == MethodKind::kExact;
-        return try_against(options, judge, better->distances, progress);
+        exact_answers_ = exact_answers_ || reference == MethodKind::kExact;
+        return try_against(options, reference, better->distances, progress);
       }
       if (better.error().code == ErrorCode::kCancelled) return better.error();
     }
     return {};
   }
 
-  Result<void> try_against(const MethodOptions& options, MethodKind judge,
+  Result<void> try_against(const MethodOptions& options, MethodKind reference,
                            std::span<const std::vector<double>> better, const Progress& progress) {
     // Where the method is the reference, its answers are there.
     const auto error = options.method == reference_
                            ? Result<DistanceError>(joint_error(better_, better).figures)
                            : error_of(options, better, progress);
     if (!error) return unless_cancelled(error.error());
-    const TriedSetting tried = keep("method", to_text(options.method), *error, judge);
-    if (badness(*error) <= 1) found.cure = tried;
+    const TriedSetting tried = keep("method", to_text(options.method), *error, reference);
+    if (badness(*error) <= 1) found.remedy = tried;
     return {};
   }
 
@@ -162,14 +162,14 @@ Result<void> try_heat_options(Search& search, const TriangleMesh& mesh,
     const double next = done + kOptionsDone / count;
     const double share = candidate.because.empty() ? kWorthOther : 1;
     const auto tried = search.try_option(candidate, share, part_of(progress, done, next));
-    if (!tried || search.found.cure) return tried;
+    if (!tried || search.found.remedy) return tried;
     done = next;
   }
   const Candidate refined = refined_candidate(answers.options);
   if (faces * refined.faces > most_faces) return {};
   const auto tried = search.try_option(refined, kWorthFaces, part_of(progress, done, kFacesDone));
   // Only where a finer mesh makes the answer good, the mesh is what was wrong.
-  if (!search.found.cure && search.found.cause && search.found.cause->option == refined.option) {
+  if (!search.found.remedy && search.found.cause && search.found.cause->option == refined.option) {
     search.found.cause->because.clear();
   }
   return tried;
@@ -189,7 +189,7 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
     const auto tried = try_heat_options(search, *mesh, answers, most_faces, progress);
     if (!tried) return tried.error();
   }
-  if (!search.found.cure) {
+  if (!search.found.remedy) {
     if (auto tried = search.try_methods(part_of(progress, kFacesDone, 1.0)); !tried) {
       return tried.error();
     }

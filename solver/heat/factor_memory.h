@@ -39,7 +39,7 @@ FactorPlan plan_factors(BoundaryRule rule, std::optional<BoundaryRule> kept, boo
 /// Says no before the memory ends. With `limit_mb` > 0 (in 2^20 bytes) all factors and the working
 /// space of those that are made must stay below it; otherwise what is still missing must fit into
 /// free_memory(). Factors are as large as the precision has the larger kind. What holds no factor
-/// always fits. Error kOutOfMemory, with what is needed, what there is, and the cure.
+/// always fits. Error kOutOfMemory, with what is needed, what there is, and the remedy.
 Result<void> check_factor_memory(const Analysis& analysis, std::string_view backend,
                                  Precision precision, const FactorPlan& plan, double limit_mb);
 

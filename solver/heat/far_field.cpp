@@ -47,7 +47,7 @@ class BitCounts {
 
 /// With direct solvers some 50 million edges at t = h^2: more than fit in memory.
 constexpr int kMaxLevels = std::numeric_limits<HeatField::Level>::max();
-/// Rows to ask that are worth a thread: some 0.1 ms.
+/// Minimum rows per thread: some 0.1 ms of asking.
 constexpr std::int64_t kRowsOfThread = 1000;
 /// Ranges of faces that are.
 constexpr std::int64_t kRangesOfThread = 4;

@@ -72,7 +72,7 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
 }
 
 Trial<HeatMethod> HeatMethod::State::substitute(const std::string& name,
-                                                std::span<const Fallback> failed,
+                                                std::span<const Fallback> before,
                                                 const Progress& progress) const {
   constexpr std::chrono::milliseconds kBetweenLooks(2);
   std::unique_lock lock(substitutes->mutex, std::defer_lock);
@@ -82,7 +82,7 @@ Trial<HeatMethod> HeatMethod::State::substitute(const std::string& name,
   }
   auto& methods = substitutes->methods;
   if (const auto known = methods.find(name); known != methods.end()) return known->second;
-  Trial<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), failed, progress);
+  Trial<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), before, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
   if (!cancelled) methods.emplace(name, made);
   return made;

@@ -73,7 +73,7 @@ struct HeatMethod::State {
                                          const Progress& progress) const;
 
   /// The method that answers with another backend. Waits for a thread that sets the same one up.
-  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> failed,
+  Trial<HeatMethod> substitute(const std::string& name, std::span<const Fallback> before,
                                const Progress& progress) const;
 
   /// The backend that was asked for.
@@ -88,7 +88,7 @@ std::string backend_name(const HeatOptions& options);
 /// Threads that are worth having for the set-up of this mesh.
 int setup_threads(const HeatOptions& options, const TriangleMesh& mesh);
 
-/// Numbers that no mesh is needed to judge. Error kBadInput.
+/// Checks what can be checked without a mesh. Error kBadInput.
 Result<void> check_options(const HeatOptions& options);
 
 /// For what std::bad_alloc ends: nothing lets it out.

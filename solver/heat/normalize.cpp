@@ -14,7 +14,7 @@ namespace {
 /// Of the largest distance: values below 0 by less are what solvers leave of a 0.
 constexpr double kRoundOff = 1e-6;
 
-/// Vertices worth a thread, with one column.
+/// Minimum vertices per thread, with one column.
 constexpr std::int64_t kVerticesOfThread = 1 << 15;
 
 /// Whether a row is a vertex of the mesh, not one that was inserted.

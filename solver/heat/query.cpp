@@ -198,8 +198,9 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
                                              SteepSides(tolerance), field, phi, column, anchors[c],
                                              held_at_zero(p), work.threads, result.quality);
       check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
-      const auto judged = assess_heat(p.options, extreme_time(p.times, anchors[c]), faces, result);
-      if (!judged) return judged.error();
+      const auto assessed =
+          assess_heat(p.options, extreme_time(p.times, anchors[c]), faces, result);
+      if (!assessed) return assessed.error();
     }
     if (query.fields) {
       result.heat = heat_in_file_order(p.surface, heat->field, column);
@@ -211,7 +212,7 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   return {};
 }
 
-/// Hands out groups to threads until all are done, one has failed or the caller has had enough.
+/// Hands out groups to threads until all are done, one has failed or the work is cancelled.
 class GroupRunner {
  public:
   GroupRunner(const QueryPipeline& pipeline, std::span<const SourceSet> sets,

@@ -29,7 +29,7 @@ constexpr double kNarrow = 2.5, kWide = 5;
 
 /// Rows whose logarithms are taken before they are looked at.
 constexpr std::int64_t kRowsOfPiece = 1024;
-/// Ranges of faces that are worth a thread, with one column.
+/// Minimum ranges of faces per thread, with one column.
 constexpr std::int64_t kRanges = 2;
 
 /// The unit vector against the gradient whose values at the corners are these, however small.

@@ -13,7 +13,7 @@
 namespace geotherm {
 namespace {
 
-/// Hands out sets to threads until all are done, one has failed or the caller has had enough.
+/// Hands out sets to threads until all are done, one has failed or the work is cancelled.
 class SetRunner {
  public:
   SetRunner(std::span<const SourceSet> sets, const Progress& progress, const SolveSet& solve)

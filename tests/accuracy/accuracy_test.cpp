@@ -70,14 +70,14 @@ TEST(AccuracyTest, AFewGrosslyWrongVerticesArePoorWhateverTheMean) {
   EXPECT_TRUE(report->is_poor());
   EXPECT_EQ(report->figures.worst, 333);
   EXPECT_EQ(report->verdict.rfind("poor: up to ", 0), 0U) << report->verdict;
-  ASSERT_TRUE(report->cure) << report->verdict;
-  EXPECT_LE(report->cure->max_of_range, kMaxOfRange);
+  ASSERT_TRUE(report->remedy) << report->verdict;
+  EXPECT_LE(report->remedy->max_of_range, kMaxOfRange);
 }
 
 TEST(AccuracyTest, SeveralSetsHaveTheMeanOfTheMeansAndTheLargestOfAny) {
   const MeshPtr mesh = finish(jittered_plane(12, 0.3, 2));
   const Asked both = ask(mesh, {}, {0, 80});
-  const AccuracyOptions options{.search = CureSearch::kNever};
+  const AccuracyOptions options{.search = RemedySearch::kNever};
   const auto joint = check_accuracy(mesh, both.answers(), options);
   ASSERT_TRUE(joint);
   double mean = 0, most = 0;
@@ -105,13 +105,13 @@ TEST(AccuracyTest, APoorAnswerNamesACureThatGivesWhatItSays) {
   const Asked asked = ask(mesh, options, {0});
   const auto report = check_accuracy(mesh, asked.answers());
   ASSERT_TRUE(report && report->is_poor());
-  ASSERT_TRUE(report->cure) << report->verdict;
-  ASSERT_EQ(hint_text({setting_of(*report->cure)}), "time-factor 1") << report->verdict;
+  ASSERT_TRUE(report->remedy) << report->verdict;
+  ASSERT_EQ(hint_text({setting_of(*report->remedy)}), "time-factor 1") << report->verdict;
   const auto cured = check_accuracy(mesh, ask(mesh, {}, {0}).answers());
   ASSERT_TRUE(cured);
   // Factors are shared where they can be, which rounds otherwise.
   constexpr double kRounding = 1e-6;
-  EXPECT_NEAR(cured->figures.mean_relative, report->cure->mean_relative, kRounding);
+  EXPECT_NEAR(cured->figures.mean_relative, report->remedy->mean_relative, kRounding);
   EXPECT_FALSE(cured->is_poor());
 }
 
@@ -129,12 +129,12 @@ TEST(AccuracyTest, TheVerdictHasTheFigureThatMakesItPoorAndTheSameOfTheCure) {
   ASSERT_TRUE(report.is_poor());
   ASSERT_GT(report.figures.mean_relative, kGoodError);
   ASSERT_LT(report.figures.mean_relative, kFairError);
-  ASSERT_TRUE(find_cure(report, mesh, asked.answers(), better, CureSearch::kWherePoor));
-  ASSERT_TRUE(report.cure) << report.verdict;
+  ASSERT_TRUE(find_remedy(report, mesh, asked.answers(), better, RemedySearch::kWherePoor));
+  ASSERT_TRUE(report.remedy) << report.verdict;
   EXPECT_TRUE(report.verdict.starts_with("poor: up to 20 % of the largest distance"))
       << report.verdict;
-  const std::string gain = "with " + hint_text({setting_of(*report.cure)}) + " it is up to " +
-                           percent_text(report.cure->max_of_range);
+  const std::string gain = "with " + hint_text({setting_of(*report.remedy)}) + " it is up to " +
+                           percent_text(report.remedy->max_of_range);
   EXPECT_NE(sentence(report).find(gain), std::string::npos) << sentence(report);
   EXPECT_EQ(sentence(report).find(percent_text(report.figures.mean_relative)), std::string::npos);
 }

@@ -54,7 +54,7 @@ TEST(DiagnoseTest, AnAnswerWithoutErrorHasNoCause) {
   const Distances same(mesh->positions().size(), 1);
   const auto found = diagnosis_of(mesh, {}, same, MethodKind::kExact, same);
   ASSERT_TRUE(found);
-  EXPECT_FALSE(found->cause || found->cure);
+  EXPECT_FALSE(found->cause || found->remedy);
   EXPECT_TRUE(found->tried.empty());
 }
 
@@ -81,10 +81,10 @@ TEST(DiagnoseTest, TheCheapestGoodSettingEndsTheSearch) {
   wrong.time_step.factor = 1000;
   const auto found =
       diagnosis_of(mesh, wrong, distances_of(mesh, wrong), MethodKind::kExact, better);
-  ASSERT_TRUE(found && found->cure);
-  EXPECT_EQ(hint_text({setting_of(*found->cure)}), "time-factor 1");
+  ASSERT_TRUE(found && found->remedy);
+  EXPECT_EQ(hint_text({setting_of(*found->remedy)}), "time-factor 1");
   EXPECT_EQ(found->tried.size(), 1U);
-  EXPECT_LT(found->cure->mean_relative, 1e-6) << "the cure is what the reference was made with";
+  EXPECT_LT(found->remedy->mean_relative, 1e-6) << "the cure is what the reference was made with";
 }
 
 /// Distances of which all but one are those of the heat method with its usual options, and that one
@@ -104,8 +104,8 @@ TEST(DiagnoseTest, AGoodSettingIsTheCureHoweverLittleItLowersTheError) {
   MethodOptions wrong;
   wrong.time_step.factor = 1.5;
   const auto found = diagnosis_of(mesh, wrong, poor, MethodKind::kExact, better);
-  ASSERT_TRUE(found && found->cure);
-  EXPECT_EQ(hint_text({setting_of(*found->cure)}), "time-factor 1");
+  ASSERT_TRUE(found && found->remedy);
+  EXPECT_EQ(hint_text({setting_of(*found->remedy)}), "time-factor 1");
   EXPECT_EQ(found->tried.size(), 1U);
 }
 
@@ -116,8 +116,8 @@ TEST(DiagnoseTest, ExactDistancesAreOfferedWhereTheyAreTheReferenceAndNoOtherMet
   for (double& d : waves) d *= 4;
   const auto found = diagnosis_of(mesh, of_method(MethodKind::kFastMarching),
                                   Distances(waves.size(), 1), MethodKind::kExact, waves);
-  ASSERT_TRUE(found && found->cure);
-  EXPECT_EQ(hint_text({setting_of(*found->cure)}), "method exact");
+  ASSERT_TRUE(found && found->remedy);
+  EXPECT_EQ(hint_text({setting_of(*found->remedy)}), "method exact");
 }
 
 TEST(DiagnoseTest, TheMeshIsTooCoarseOnlyWhereAFinerOneIsGood) {
@@ -143,12 +143,12 @@ TEST(DiagnoseTest, TheReferenceItselfIsHeldAgainstABetterMethodBeforeItIsNamed) 
   const Distances wrong(waves.size(), 3);
   const auto found = diagnosis_of(mesh, of_method(MethodKind::kFastMarching), wrong,
                                   MethodKind::kWavefront, waves);
-  ASSERT_TRUE(found && found->cure);
-  EXPECT_EQ(hint_text({setting_of(*found->cure)}), "method wavefront");
-  EXPECT_EQ(found->cure->against, MethodKind::kExact);
+  ASSERT_TRUE(found && found->remedy);
+  EXPECT_EQ(hint_text({setting_of(*found->remedy)}), "method wavefront");
+  EXPECT_EQ(found->remedy->against, MethodKind::kExact);
   const Distances exact = distances_of(mesh, of_method(MethodKind::kExact));
-  EXPECT_DOUBLE_EQ(found->cure->mean_relative, distance_error(waves, exact).mean_relative);
-  EXPECT_GT(found->cure->mean_relative, 0);
+  EXPECT_DOUBLE_EQ(found->remedy->mean_relative, distance_error(waves, exact).mean_relative);
+  EXPECT_GT(found->remedy->mean_relative, 0);
 }
 
 /// Three sheets that meet in one line.

@@ -84,7 +84,7 @@ TEST_F(SessionTruth, APoorAnswerNamesASettingThatIsRight) {
   run({"open " + small_model(), "source set 5", "time-factor 3000"});
   const auto& error = session.explored().a->error;
   ASSERT_TRUE(error && error->is_poor());
-  EXPECT_TRUE(error->cure) << error->verdict;
+  EXPECT_TRUE(error->remedy) << error->verdict;
 }
 
 TEST_F(SessionTruth, TheErrorBelongsToTheSources) {

@@ -122,10 +122,10 @@ std::string accuracy_fault(const FuzzCase& given, const std::vector<double>& hea
   if (!method) return message_fault(sentence(method.error()));
   const CheckedAnswers answers{**method, given.options, {&given.sources, 1}, {&heat, 1}};
   const auto report =
-      check_accuracy(given.mesh, answers, {.search = CureSearch::kWhereNotGood, .threads = 1});
+      check_accuracy(given.mesh, answers, {.search = RemedySearch::kWhereNotGood, .threads = 1});
   if (!report) return message_fault(sentence(report.error()));
   if (const std::string fault = message_fault(sentence(*report)); !fault.empty()) return fault;
-  if (report->cure && !(report->cure->mean_relative <= kGoodError))
+  if (report->remedy && !(report->remedy->mean_relative <= kGoodError))
     return "a cure that is not good";
   if (!report->cause) return "";
   const ErrorCause& cause = *report->cause;

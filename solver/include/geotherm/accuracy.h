@@ -95,14 +95,14 @@ struct TriedSetting {
   MethodKind against = MethodKind::kWavefront;  ///< what it was held against
 };
 /// One whose answer is good.
-using Cure = TriedSetting;
+using Remedy = TriedSetting;
 
 /// What to set.
 SettingHint setting_of(const TriedSetting& tried);
 
 struct Diagnosis {
   std::optional<ErrorCause> cause;  ///< absent: no option of the heat method lowers the error much
-  std::optional<Cure> cure;         ///< absent: all that could be tried failed
+  std::optional<Remedy> remedy;     ///< absent: all that could be tried failed
   std::vector<TriedSetting> tried;  ///< in order
 };
 
@@ -114,9 +114,9 @@ struct CheckedAnswers {
   std::span<const std::vector<double>> distances;  ///< one for each source set, V each
 };
 
-/// How much work a search for a cure takes on, as faces that are set up for one setting: a setting
-/// that shares all but one factor counts for a third of the mesh, a cover for two, a refined mesh
-/// for four. The first where it was asked for, the second where it was not.
+/// How much work a search for a remedy takes on, as faces that are set up for one setting: a
+/// setting that shares all but one factor counts for a third of the mesh, a cover for two, a
+/// refined mesh for four. The first where it was asked for, the second where it was not.
 inline constexpr Index kMaxFacesDiagnosed = 300'000;
 inline constexpr Index kMaxFacesBesides = 100'000;
 
@@ -142,7 +142,7 @@ Result<Diagnosis> diagnose(const std::shared_ptr<const TriangleMesh>& mesh,
                            const Progress& progress = {});
 
 /// When other settings are tried (diagnose()).
-enum class CureSearch {
+enum class RemedySearch {
   kNever,
   kWherePoor,     ///< on meshes of up to kMaxFacesBesides faces
   kWhereNotGood,  ///< also where the answer is fair, and on larger meshes (kMaxFacesDiagnosed)
@@ -152,7 +152,7 @@ struct AccuracyOptions {
   /// What the distances are held against: reference_for() is the most accurate method that fits the
   /// mesh. None: usual_reference().
   std::optional<MethodKind> reference = std::nullopt;
-  CureSearch search = CureSearch::kWherePoor;
+  RemedySearch search = RemedySearch::kWherePoor;
   int threads = 0;  ///< 0: all cores
 };
 
@@ -179,7 +179,7 @@ struct AccuracyReport {
   Hint advice;                 ///< what follows it in a sentence: why, what helps
   double milliseconds = 0;     ///< that the reference took, set-up and queries
   std::optional<ErrorCause> cause;  ///< the one option to which most of the error is due
-  std::optional<Cure> cure;         ///< a setting that was tried and is right
+  std::optional<Remedy> remedy;     ///< a setting that was tried and is right
   std::vector<TriedSetting> tried;  ///< all that was tried, in order
 
   /// A grossly wrong answer, known to be one.
@@ -206,9 +206,9 @@ AccuracyReport unmeasured(MethodKind method, std::string verdict);
 /// Looks for a setting that is right (diagnose()) as far as `search` allows, and puts it into the
 /// report and its advice. Preconditions: hold_against() made the report from answer.distances and
 /// `better`. Errors: kCancelled. Cost: that of diagnose().
-Result<void> find_cure(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                       const CheckedAnswers& answers, const ReferenceAnswers& better,
-                       CureSearch search, const Progress& progress = {});
+Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const CheckedAnswers& answers, const ReferenceAnswers& better,
+                         RemedySearch search, const Progress& progress = {});
 
 /// All of the above: how wrong the answers of a method are. `answers`: what it gave for which
 /// sources; the method and its options serve the search and are shared by it where they can be.
