@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geotherm/polyhedral_methods.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/intrinsic_surface.h"
 
