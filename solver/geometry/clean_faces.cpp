@@ -145,7 +145,7 @@ void orient_by_shape(std::span<const Vec3> positions, std::vector<Face>& faces,
 }
 
 /// Minimum edges or faces per thread.
-constexpr std::int64_t kGrain = 1 << 14;
+constexpr std::int64_t kMinCleanedPerThread = 1 << 14;
 
 /// The corner of a side's face that is none of its ends.
 Index opposite(const std::vector<Face>& faces, Side side) {
@@ -165,7 +165,7 @@ struct Flaws {
 };
 
 Flaws find_flaws(const std::vector<Face>& faces, const EdgeTable& edges, int threads) {
-  const int pieces = piece_count(threads, edges.edge_count(), kGrain);
+  const int pieces = piece_count(threads, edges.edge_count(), kMinCleanedPerThread);
   std::vector<Flaws> found(static_cast<std::size_t>(pieces));
   for_pieces(pieces, edges.edge_count(), [&](int piece, std::int64_t begin, std::int64_t end) {
     Flaws flaws;
@@ -247,7 +247,7 @@ Index orient(std::vector<Face>& faces, const EdgeTable& edges) {
 /// Copies the faces of the mesh that repeat no corner.
 void take_faces(const TriangleMesh& mesh, int threads, CleanFaces& out) {
   const auto count = static_cast<std::int64_t>(mesh.faces().size());
-  const int pieces = piece_count(threads, count, kGrain);
+  const int pieces = piece_count(threads, count, kMinCleanedPerThread);
   std::vector<std::size_t> before(static_cast<std::size_t>(pieces) + 1, 0);
   const auto is_usable = [&mesh](std::int64_t f) {
     return !repeats_corner(mesh.faces()[static_cast<std::size_t>(f)]);

@@ -10,7 +10,7 @@ namespace geotherm {
 namespace {
 
 /// Minimum vertices per thread.
-constexpr std::int64_t kGrain = 1 << 12;
+constexpr std::int64_t kMinRowsPerThread = 1 << 12;
 
 /// The consistent mass may cancel at most this share of a face's stiffness coupling.
 constexpr double kMaxOfStiffness = 0.5;
@@ -38,12 +38,13 @@ FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_f
 
 RawVector<double> FemOperator::side_weights() const {
   RawVector<double> weight(3 * mesh_->faces.size());
-  parallel_for(threads_, mesh_->face_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
-      const std::array<double, 3> w = weights(f);
-      std::ranges::copy(w, weight.data() + 3 * f);
-    }
-  });
+  parallel_for(
+      threads_, mesh_->face_count(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
+        for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
+          const std::array<double, 3> w = weights(f);
+          std::ranges::copy(w, weight.data() + 3 * f);
+        }
+      });
   return weight;
 }
 
@@ -52,7 +53,7 @@ RawVector<double> FemOperator::side_weights() const {
 void FemOperator::set_diagonal() {
   const bool lumped = !(consistent_share_.most() > 0);
   const RawVector<double> weight = lumped ? RawVector<double>() : side_weights();
-  parallel_for(threads_, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(threads_, size(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
       const double mass = mass_factor_ * mesh_->mass[i];
       if (lumped) {
@@ -172,7 +173,7 @@ const LowerMatrix& FemOperator::assembled() const {
   assembled_.row = mesh_->lower.row;
   const RawVector<double> weight = side_weights();
   assembled_.value.resize(assembled_.row.size());
-  parallel_for(threads_, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(threads_, size(), kMinRowsPerThread, [&](std::int64_t begin, std::int64_t end) {
     for (auto j = static_cast<Index>(begin); j < static_cast<Index>(end); ++j) {
       assemble_column(j, weight);
     }

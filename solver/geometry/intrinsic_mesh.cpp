@@ -21,7 +21,7 @@ constexpr double kStrict = 1e-5;
 /// end.
 constexpr double kAim = 1.1 * kStrict;
 /// Faces below this size, in mean edges, are points: their areas would leave the doubles' range.
-constexpr double kPoint = 1e-70;
+constexpr double kPointLength = 1e-70;
 /// Rounds at most: ordinary files take three.
 constexpr int kMaxRounds = 100;
 
@@ -29,7 +29,7 @@ constexpr int kMaxRounds = 100;
 /// is strict enough.
 double missing(const Lengths& l, int k, double strict) {
   const double longest = std::max({l[0], l[1], l[2]});
-  const double size = longest > kPoint ? longest : 1.0;
+  const double size = longest > kPointLength ? longest : 1.0;
   return strict * size + l[k] - l[next_corner(k)] - l[previous_corner(k)];
 }
 
@@ -134,7 +134,7 @@ void add_to_components(std::vector<Lengths>& lengths, const FaceComponents& comp
 }
 
 /// Minimum edges per thread.
-constexpr std::int64_t kGrain = 1 << 14;
+constexpr std::int64_t kMinEdgesPerThread = 1 << 14;
 
 /// Four times the area by Kahan's formula, which stays accurate for needles: a >= b >= c.
 double four_areas(double a, double b, double c) {
@@ -196,18 +196,20 @@ IntrinsicMesh build_intrinsic_mesh(std::span<const Vec3> positions, const CleanF
   mesh.lengths.resize(mesh.faces.size());
   mesh.twin.resize(3 * mesh.faces.size());
   const EdgeTable& edges = clean.edges;
-  parallel_for(threads, edges.edge_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
-      // One value for all sides of an edge: they must agree to the last bit.
-      const double length = ((positions[edges.low(e)] - positions[edges.high(e)]) / unit).norm();
-      const auto sides = edges.sides(e);
-      const bool twins = sides.size() == 2 && sides_agree(mesh.faces, sides[0], sides[1]);
-      for (std::size_t i = 0; i < sides.size(); ++i) {
-        mesh.lengths[face_of(sides[i])][corner_of(sides[i])] = length;
-        mesh.twin[sides[i]] = twins ? sides[1 - i] : kNoSide;
-      }
-    }
-  });
+  parallel_for(
+      threads, edges.edge_count(), kMinEdgesPerThread, [&](std::int64_t begin, std::int64_t end) {
+        for (auto e = static_cast<Index>(begin); e < static_cast<Index>(end); ++e) {
+          // One value for all sides of an edge: they must agree to the last bit.
+          const double length =
+              ((positions[edges.low(e)] - positions[edges.high(e)]) / unit).norm();
+          const auto sides = edges.sides(e);
+          const bool twins = sides.size() == 2 && sides_agree(mesh.faces, sides[0], sides[1]);
+          for (std::size_t i = 0; i < sides.size(); ++i) {
+            mesh.lengths[face_of(sides[i])][corner_of(sides[i])] = length;
+            mesh.twin[sides[i]] = twins ? sides[1 - i] : kNoSide;
+          }
+        }
+      });
   mesh.mollified = mollify(mesh.lengths, clean, threads);
   return mesh;
 }

@@ -14,7 +14,7 @@ namespace geotherm {
 namespace {
 
 /// Minimum faces per thread.
-constexpr std::int64_t kGrain = 1 << 15;
+constexpr std::int64_t kMinFacesPerThread = 1 << 15;
 
 /// Vertices are inserted up to as many as there are, and so many more on small meshes.
 constexpr Index kFewInserted = 1000;
@@ -80,7 +80,7 @@ Result<void> check_mean_edge(const TriangleMesh& mesh, const CleanFaces& clean, 
 }
 
 /// A mean edge below this, in those of the whole mesh, is that of a point.
-constexpr double kPoint = 1e-60;
+constexpr double kPointEdge = 1e-60;
 
 /// The faces of a part that is a point were given areas (mollify.h), and these say how long its
 /// edges are.
@@ -95,7 +95,7 @@ void measure_points(IntrinsicSurface& surface) {
   }
   for (std::size_t c = 0; c < area.size(); ++c) {
     double& edge = surface.part_edge[c];
-    if (!(edge > kPoint)) edge = std::sqrt(area[c] / faces[c]);
+    if (!(edge > kPointEdge)) edge = std::sqrt(area[c] / faces[c]);
   }
 }
 
@@ -120,7 +120,7 @@ void name_parts(const CleanFaces& clean, IntrinsicSurface& surface) {
     ++count[part];
   }
   for (std::size_t c = 0; c < sum.size(); ++c) surface.part_edge[c] = sum[c] / count[c];
-  if (std::ranges::min(surface.part_edge) <= kPoint) measure_points(surface);
+  if (std::ranges::min(surface.part_edge) <= kPointEdge) measure_points(surface);
 }
 
 }  // namespace
@@ -142,7 +142,7 @@ std::vector<Warning> cleaning_notes(const CleanFaces& clean) {
 void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface, int threads) {
   surface.clean_of_face.assign(static_cast<std::size_t>(surface.mesh->face_count()), kNoIndex);
   surface.on_surface.resize(static_cast<std::size_t>(surface.mesh->vertex_count()));
-  parallel_for(threads, static_cast<std::int64_t>(clean.original.size()), kGrain,
+  parallel_for(threads, static_cast<std::int64_t>(clean.original.size()), kMinFacesPerThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (std::int64_t c = begin; c < end; ++c) {
                    const Index original = clean.original[static_cast<std::size_t>(c)];

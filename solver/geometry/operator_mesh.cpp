@@ -37,7 +37,7 @@ SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& c
 namespace {
 
 /// Minimum faces or vertices per thread.
-constexpr std::int64_t kGrain = 1 << 13;
+constexpr std::int64_t kMinItemsPerThread = 1 << 13;
 
 /// Rows of a range: some 0.1 ms of work for a pass over its faces, several times what it takes to
 /// start a thread. Eliminated one after the other, they are a patch or a few: 2 to 5 % of the faces
@@ -155,7 +155,7 @@ class Builder {
  private:
   template <class Work>
   void for_each(std::size_t count, const Work& work) const {
-    parallel_for(threads_, static_cast<std::int64_t>(count), kGrain,
+    parallel_for(threads_, static_cast<std::int64_t>(count), kMinItemsPerThread,
                  [&](std::int64_t begin, std::int64_t end) {
                    for (std::int64_t i = begin; i < end; ++i) work(static_cast<std::size_t>(i));
                  });

@@ -10,7 +10,7 @@
 namespace geotherm {
 namespace {
 
-constexpr const char* kName = "cg";
+constexpr const char* kCgName = "cg";
 
 /// Relative residual, in the norm of the diagonal preconditioner, at which a column is solved.
 constexpr double kTolerance = 1e-13;
@@ -98,7 +98,7 @@ class ConjugateGradient final : public Factorization {
                          " iterations ended at a relative residual of " +
                          rounded_text(std::sqrt(rho / start)),
                      {"try ", SettingHint{"backend", {"cholmod", "eigen-ldlt"}}},
-                     kName};
+                     kCgName};
       }
       ++report.iterations;
       matrix_->apply(p, q);
@@ -108,7 +108,7 @@ class ConjugateGradient final : public Factorization {
                      "the matrix is not positive definite (curvature " + rounded_text(curvature) +
                          " in iteration " + std::to_string(report.iterations) + ")",
                      {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
-                     kName};
+                     kCgName};
       }
       const double step = rho / curvature;
       for (std::size_t i = 0; i < n; ++i) {
@@ -154,7 +154,7 @@ class CgAnalysis final : public Analysis {
                        " in column " + std::to_string(bad - diagonal.begin()) + " of " +
                        std::to_string(diagonal.size()) + ")",
                    {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}},
-                   kName};
+                   kCgName};
     }
     return std::unique_ptr<Factorization>(std::make_unique<ConjugateGradient>(std::move(matrix)));
   }
@@ -166,7 +166,7 @@ class CgAnalysis final : public Analysis {
 
 class CgBackend final : public Backend {
  public:
-  std::string_view name() const override { return kName; }
+  std::string_view name() const override { return kCgName; }
   std::string_view description() const override {
     return "conjugate gradients, matrix-free: least memory, slow queries, for comparison";
   }

@@ -69,7 +69,7 @@ class CholmodFactor {
   cholmod_factor* factor = nullptr;
 };
 
-constexpr const char* kName = "cholmod";
+constexpr const char* kCholmodName = "cholmod";
 
 /// CHOLMOD goes supernodal from this many floating-point operations per entry of the factor.
 /// Measured (docs/performance.md): below, the panels are too small to pay for the dense kernels.
@@ -162,7 +162,7 @@ Error out_of_memory(const char* stage, Index size) {
           std::string("ran out of memory in the ") + stage + " of a matrix of size " +
               std::to_string(size),
           {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
-          kName};
+          kCholmodName};
 }
 
 Error not_definite(std::size_t column, std::size_t size, int status) {
@@ -170,7 +170,7 @@ Error not_definite(std::size_t column, std::size_t size, int status) {
           "the matrix is not positive definite (pivot of column " + std::to_string(column) +
               " of " + std::to_string(size) + ", status " + std::to_string(status) + ")",
           {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
-          kName};
+          kCholmodName};
 }
 
 template <class Int>
@@ -303,7 +303,7 @@ Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,
 
 class CholmodBackend final : public Backend {
  public:
-  std::string_view name() const override { return kName; }
+  std::string_view name() const override { return kCholmodName; }
   std::string_view description() const override {
     return "sparse Cholesky of SuiteSparse, supernodal on large meshes";
   }

@@ -15,7 +15,7 @@
 namespace geotherm {
 namespace {
 
-constexpr const char* kName = "eigen-ldlt";
+constexpr const char* kEigenName = "eigen-ldlt";
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 using Ldlt = Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
@@ -52,7 +52,7 @@ class EigenAnalysis final : public Analysis {
                    "needs a factor of " + std::to_string(entries_) + " entries, at most " +
                        std::to_string(kMax) + " can be counted",
                    {"try ", SettingHint{"backend", {"cg"}}},
-                   kName};
+                   kEigenName};
     }
     const LowerMatrix& lower = matrix->assembled();
     const std::vector<int> start(lower.start.begin(), lower.start.end());
@@ -66,7 +66,7 @@ class EigenAnalysis final : public Analysis {
       return Error{ErrorCode::kOutOfMemory,
                    "ran out of memory on a matrix of size " + std::to_string(matrix->size()),
                    {"try ", SettingHint{"backend", {"cg"}}},
-                   kName};
+                   kEigenName};
     }
     const auto pivots = ldlt.vectorD();
     for (Index j = 0; j < lower.size(); ++j) {
@@ -76,7 +76,7 @@ class EigenAnalysis final : public Analysis {
           "the matrix is not positive definite (pivot " + rounded_text(pivots[j]) + " in column " +
               std::to_string(j) + " of " + std::to_string(lower.size()) + ")",
           {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
-          kName};
+          kEigenName};
     }
     const Matrix& factor = ldlt.matrixL().nestedExpression();
     ColumnFactorData data;
@@ -98,7 +98,7 @@ class EigenAnalysis final : public Analysis {
 
 class EigenBackend final : public Backend {
  public:
-  std::string_view name() const override { return kName; }
+  std::string_view name() const override { return kEigenName; }
   std::string_view description() const override { return "sparse LDL^T of Eigen, simplicial"; }
 
   Result<std::shared_ptr<const Analysis>> analyze(const SymmetricPattern& pattern,

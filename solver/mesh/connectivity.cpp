@@ -26,7 +26,7 @@ CornerTable::CornerTable(Index vertex_count, std::span<const Face> faces, int th
 namespace {
 
 /// Vertices a thread must have to be worth starting.
-constexpr std::int64_t kGrain = 1 << 13;
+constexpr std::int64_t kMinVerticesPerThread = 1 << 13;
 
 /// The edges whose lower ends lie in one range of vertices.
 struct Part {
@@ -128,7 +128,7 @@ void list_edges(const CornerTable& corners, std::span<const Face> faces, Index b
 
 EdgeTable::EdgeTable(const CornerTable& corners, std::span<const Face> faces, int threads) {
   const Index vertices = corners.vertex_count();
-  const int pieces = piece_count(threads, vertices, kGrain);
+  const int pieces = piece_count(threads, vertices, kMinVerticesPerThread);
   std::vector<Part> parts(static_cast<std::size_t>(pieces));
   for_pieces(pieces, vertices, [&](int piece, std::int64_t begin, std::int64_t end) {
     list_edges(corners, faces, static_cast<Index>(begin), static_cast<Index>(end),

@@ -19,7 +19,7 @@ struct Crossing {
 };
 
 /// What links the crossings of one level: for each edge, those with an end there.
-constexpr int kNone = -1;
+constexpr int kNoPiece = -1;
 
 class LevelSets {
  public:
@@ -30,7 +30,7 @@ class LevelSets {
     for (Index e = 0; e < clean_.edges.edge_count(); ++e) {
       for (const Side side : clean_.edges.sides(e)) edge_at_[side] = e;
     }
-    at_edge_.assign(static_cast<std::size_t>(clean_.edges.edge_count()), {kNone, kNone});
+    at_edge_.assign(static_cast<std::size_t>(clean_.edges.edge_count()), {kNoPiece, kNoPiece});
     collect();
   }
 
@@ -44,15 +44,15 @@ class LevelSets {
     used_.assign(all.size(), 0);
     for (const bool open : {true, false}) {  // what is left after the open ones is closed
       for (std::size_t i = 0; i < all.size(); ++i) {
-        if (used_[i] || (open && next(i, all[i].from) != kNone)) continue;
+        if (used_[i] || (open && next(i, all[i].from) != kNoPiece)) continue;
         add_line(level, i, all[i].from, out);
       }
       for (std::size_t i = 0; i < all.size() && open; ++i) {  // the wrong way round, on a Moebius
-        if (!used_[i] && next(i, all[i].to) == kNone) add_line(level, i, all[i].to, out);
+        if (!used_[i] && next(i, all[i].to) == kNoPiece) add_line(level, i, all[i].to, out);
       }
     }
     for (const Crossing& each : all) {
-      at_edge_[each.from] = at_edge_[each.to] = {kNone, kNone};
+      at_edge_[each.from] = at_edge_[each.to] = {kNoPiece, kNoPiece};
     }
   }
 
@@ -106,7 +106,7 @@ class LevelSets {
   void attach(Index edge, int crossing) {
     if (clean_.edges.sides(edge).size() != 2) return;
     auto& [first, second] = at_edge_[edge];
-    (first == kNone ? first : second) = crossing;
+    (first == kNoPiece ? first : second) = crossing;
   }
 
   int next(std::size_t crossing, Index edge) const {
@@ -126,7 +126,7 @@ class LevelSets {
       edge = edge == c.from ? c.to : c.from;
       append(line.path, point(edge, c.face, levels_[level]), c.face);
       const int following = next(at_crossing, edge);
-      if (following == kNone || used_[static_cast<std::size_t>(following)]) break;
+      if (following == kNoPiece || used_[static_cast<std::size_t>(following)]) break;
       at_crossing = static_cast<std::size_t>(following);
     }
     line.path.closed = edge == start;

@@ -15,7 +15,7 @@ namespace geotherm {
 namespace {
 
 /// What a query takes at least for each face.
-constexpr double kFaceNanoseconds = 1000;
+constexpr double kWindowNanosecondsPerFace = 1000;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ struct ExactMethod::State {
   State(std::shared_ptr<const WaveSurface> waves, int thread_limit)
       : surface(std::move(waves)),
         mesh(*surface),
-        threads{thread_limit, kFaceNanoseconds * surface->face_count()} {}
+        threads{thread_limit, kWindowNanosecondsPerFace * surface->face_count()} {}
 
   std::shared_ptr<const WaveSurface> surface;
   WindowMesh mesh;

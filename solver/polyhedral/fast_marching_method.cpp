@@ -152,7 +152,7 @@ MarchSupports build_march_supports(const WaveSurface& surface) {
 }
 
 /// What a query takes at least for each face.
-constexpr double kFaceNanoseconds = 100;
+constexpr double kMarchNanosecondsPerFace = 100;
 
 /// A ray may miss the support by this share of its base.
 constexpr double kRayTolerance = 1e-12;
@@ -282,7 +282,7 @@ Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
     auto state = std::make_unique<State>();
     state->surface = std::move(surface);
     state->threads.most = threads;
-    state->threads.nanoseconds = kFaceNanoseconds * faces;
+    state->threads.nanoseconds = kMarchNanosecondsPerFace * faces;
     state->supports = build_march_supports(*state->surface);
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();

@@ -15,7 +15,7 @@ namespace geotherm {
 namespace {
 
 /// What the set-up takes at least for each face.
-constexpr double kFaceNanoseconds = 400;
+constexpr double kSurfaceNanosecondsPerFace = 400;
 
 /// Sides without a twin, those of one edge together: the border, edges with three faces and more,
 /// and edges whose two faces disagree in orientation. Flips leave their vertices alone.
@@ -220,7 +220,7 @@ Error wave_out_of_memory(const char* stage, Index faces) {
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
   const Index faces = mesh->face_count();
-  threads = threads_worth_starting(threads, kFaceNanoseconds * faces);
+  threads = threads_worth_starting(threads, kSurfaceNanosecondsPerFace * faces);
   try {
     const ThreadCrew crew(threads);
     auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},

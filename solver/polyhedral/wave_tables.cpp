@@ -18,7 +18,7 @@ namespace {
 constexpr int kMortonBits = 21;
 
 /// Minimum vertices or faces per thread.
-constexpr std::int64_t kGrain = 1 << 13;
+constexpr std::int64_t kMinTableRowsPerThread = 1 << 13;
 
 /// Spreads the low bits so that two zeros follow each (Morton 1966).
 std::uint64_t spread(std::uint64_t x) {
@@ -44,7 +44,8 @@ std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   const double steps = extent > 0 ? ((1 << kMortonBits) - 1) / extent : 0.0;
   RawVector<std::pair<std::uint64_t, Index>> codes(used.size());
   constexpr int kMaxPieces = 8;  // merging takes a pass over the vertices for each
-  const int pieces = piece_count(std::min(threads, kMaxPieces), std::ssize(used), kGrain);
+  const int pieces =
+      piece_count(std::min(threads, kMaxPieces), std::ssize(used), kMinTableRowsPerThread);
   for_pieces(pieces, std::ssize(used), [&](int, std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       const Vec3 at = (base.position(used[i]) / 2 - origin) * steps;
@@ -84,12 +85,13 @@ Face ranks(const WaveTables& tables, const Face& face) {
 /// Faces by their lowest vertex, then by the others.
 RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& faces, int threads) {
   RawVector<Face> sorted(faces.size());
-  parallel_for(threads, std::ssize(faces), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t f = begin; f < end; ++f) {
-      sorted[f] = ranks(tables, faces[f]);
-      std::ranges::sort(sorted[f]);
-    }
-  });
+  parallel_for(threads, std::ssize(faces), kMinTableRowsPerThread,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t f = begin; f < end; ++f) {
+                   sorted[f] = ranks(tables, faces[f]);
+                   std::ranges::sort(sorted[f]);
+                 }
+               });
   std::vector<std::uint32_t> start;
   const auto emit = [&](std::size_t f, const auto& put) {
     put(sorted[f][0], static_cast<Index>(f));
@@ -99,11 +101,12 @@ RawVector<Index> face_order(const WaveTables& tables, const std::vector<Face>& f
   const auto before = [&sorted](Index f, Index g) {
     return sorted[f] != sorted[g] ? sorted[f] < sorted[g] : f < g;
   };
-  parallel_for(threads, tables.vertex_count(), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (std::int64_t v = begin; v < end; ++v) {
-      std::sort(order.begin() + start[v], order.begin() + start[v + 1], before);
-    }
-  });
+  parallel_for(threads, tables.vertex_count(), kMinTableRowsPerThread,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t v = begin; v < end; ++v) {
+                   std::sort(order.begin() + start[v], order.begin() + start[v + 1], before);
+                 }
+               });
   return order;
 }
 
@@ -126,11 +129,12 @@ class FaceWriter {
     const std::int64_t count = mesh_.face_count();
     tables_.rank_of_face.resize(static_cast<std::size_t>(count));
     tables_.faces.resize(static_cast<std::size_t>(count));
-    parallel_for(threads_, count, kGrain, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) {
-        tables_.rank_of_face[tables_.intrinsic_face[i]] = static_cast<Index>(i);
-      }
-    });
+    parallel_for(threads_, count, kMinTableRowsPerThread,
+                 [&](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t i = begin; i < end; ++i) {
+                     tables_.rank_of_face[tables_.intrinsic_face[i]] = static_cast<Index>(i);
+                   }
+                 });
     const auto blocks = sums_of_blocks<Block>(
         threads_, count,
         [this](std::int64_t begin, std::int64_t end) { return write_faces(begin, end); });
@@ -150,9 +154,10 @@ class FaceWriter {
       }
     });
     add_further_sides();
-    parallel_for(threads_, count, kGrain, [this](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) join_edges(static_cast<Index>(i));
-    });
+    parallel_for(threads_, count, kMinTableRowsPerThread,
+                 [this](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t i = begin; i < end; ++i) join_edges(static_cast<Index>(i));
+                 });
   }
 
  private:
@@ -292,7 +297,7 @@ class FanMarker {
       }
     }
     for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = root(static_cast<SideCode>(c));
-    parallel_for(threads, tables_.vertex_count(), kGrain,
+    parallel_for(threads, tables_.vertex_count(), kMinTableRowsPerThread,
                  [this](std::int64_t begin, std::int64_t end) {
                    for (std::int64_t v = begin; v < end; ++v)
                      mark(tables_.corners_at(static_cast<Index>(v)));

@@ -16,7 +16,7 @@ namespace geotherm {
 namespace {
 
 /// What a query takes at least for each face.
-constexpr double kFaceNanoseconds = 100;
+constexpr double kWaveNanosecondsPerFace = 100;
 /// What the tables take for each face.
 constexpr double kSetUpNanoseconds = 250;
 
@@ -127,7 +127,7 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     state->surface = std::move(surface);
     state->samples = samples;
     state->threads.most = threads;
-    state->threads.nanoseconds = kFaceNanoseconds * faces;
+    state->threads.nanoseconds = kWaveNanosecondsPerFace * faces;
     const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
     const ThreadCrew crew(worth);
     state->tables = build_wave_tables(*state->surface, worth);

@@ -12,7 +12,7 @@
 namespace geotherm {
 namespace {
 
-constexpr const char* kName = "native";
+constexpr const char* kNativeName = "native";
 
 class NativeFactor final : public TriangularFactor {
  public:
@@ -65,7 +65,7 @@ Error out_of_memory(const std::string& what, Index size) {
   return {ErrorCode::kOutOfMemory,
           what + " for a matrix of size " + std::to_string(size),
           {"try ", SettingHint{"backend", {"cg"}}, ", which needs no factor"},
-          kName};
+          kNativeName};
 }
 
 class NativeAnalysis final : public Analysis {
@@ -107,7 +107,7 @@ class NativeAnalysis final : public Analysis {
       return Error{ErrorCode::kNumericalFailure,
                    "numbers of the factor are beyond what a double holds",
                    {"scale the model, or try another backend"},
-                   kName};
+                   kNativeName};
     }
     if (failure.failed()) {
       return Error{
@@ -115,7 +115,7 @@ class NativeAnalysis final : public Analysis {
           "the matrix is not positive definite (pivot of column " + std::to_string(failure.column) +
               " of " + std::to_string(matrix->size()) + ")",
           {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}, " or another backend"},
-          kName};
+          kNativeName};
     }
     return make_direct_factorization(std::make_unique<NativeFactor>(tree_, std::move(factor)));
   } catch (const std::bad_alloc&) {
@@ -142,7 +142,7 @@ class NativeAnalysis final : public Analysis {
 
 class NativeBackend final : public Backend {
  public:
-  std::string_view name() const override { return kName; }
+  std::string_view name() const override { return kNativeName; }
   std::string_view description() const override {
     return "multifrontal Cholesky made for meshes: nested dissection, narrow factors, all threads";
   }
