@@ -33,7 +33,7 @@ struct WantedFields {
 
 /// "all", or names with commas between them; empty: none. Each file of `paths` must hold every one.
 /// Errors: kBadInput (unknown, of another method, no file) and kNotAvailable (a file that cannot
-/// hold one), each with the cure.
+/// hold one), each with what helps.
 Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
                                    const std::vector<std::string>& paths);
 

@@ -117,7 +117,7 @@ std::string empty_value_problem(const CLI::App& command) {
   return {};
 }
 
-/// CLI11 describes what is wrong; the cure is the help of the command.
+/// CLI11 describes what is wrong; what helps is the help of the command.
 int fail_to_parse(const CLI::ParseError& error, const std::string& first) {
   std::string what = error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();

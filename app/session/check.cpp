@@ -75,8 +75,8 @@ MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces) {
 
 std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces) {
   std::vector<MethodKind> kinds = {MethodKind::kWavefront, MethodKind::kWavefrontFine};
-  const MethodKind judge = reference_of_better(MethodKind::kWavefrontFine, mode, faces);
-  if (judge == MethodKind::kExact) kinds.push_back(judge);
+  const MethodKind reference = reference_of_better(MethodKind::kWavefrontFine, mode, faces);
+  if (reference == MethodKind::kExact) kinds.push_back(reference);
   std::erase_if(kinds, [poor](MethodKind kind) { return !is_better(kind, poor); });
   return kinds;
 }

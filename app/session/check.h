@@ -15,8 +15,8 @@ namespace geotherm::app {
 
 enum class CheckMode {
   kNone,
-  kUsual,     ///< heat and fast marching against the method wavefront; a cure where they are poor
-  kThorough,  ///< any method against the best one that fits; a cure where it is not good
+  kUsual,     ///< heat and fast marching against the method wavefront; a remedy where they are poor
+  kThorough,  ///< any method against the best one that fits; a remedy where it is not good
 };
 
 /// What becomes of poor distances.
@@ -47,7 +47,7 @@ AccuracyReport unchecked(MethodKind method, CheckMode mode);
 /// The report on a check that failed.
 AccuracyReport failed_check(MethodKind method, const Error& error);
 
-/// Looks for a cure as far as the mode asks for one. Errors: kCancelled.
+/// Looks for a remedy as far as the mode asks for one. Errors: kCancelled.
 Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
                          const CheckedAnswers& answers, const ReferenceAnswers& better,
                          CheckMode mode, const Progress& progress);

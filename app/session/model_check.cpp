@@ -75,7 +75,7 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
   return {};
 }
 
-/// The report on answers, without a search for a cure. Errors: kCancelled.
+/// The report on answers, without a search for a remedy. Errors: kCancelled.
 Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKind kind,
                                          CheckMode mode, const DistanceMethod& beside,
                                          const Progress& progress) {
@@ -98,8 +98,8 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
   if (!settings.quick) {
     const CheckMode search = settings.against ? CheckMode::kUsual : settings.mode;
     if (report.measured) {
-      auto found = find_remedy(report, model_.mesh, checked_answers(answer), reference_->answers, search,
-                               with_prefix(progress, "finding the cause: "));
+      auto found = find_remedy(report, model_.mesh, checked_answers(answer), reference_->answers,
+                               search, with_prefix(progress, "finding the cause: "));
       if (!found) return found;
     }
     const std::string line = accuracy_line(report);
@@ -120,8 +120,8 @@ Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
   const MethodKind kind = settings.against.value_or(
       reference_in(settings.mode, answer.method->kind(), model_.mesh->face_count()));
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
-  auto report =
-      hold(checked_answers(answer), kind, settings.mode, *answer.method, part_of(progress, 0.0, 0.6));
+  auto report = hold(checked_answers(answer), kind, settings.mode, *answer.method,
+                     part_of(progress, 0.0, 0.6));
   if (!report) return report.error();
   return settle(answer, *std::move(report), settings, part_of(progress, 0.6, 1.0));
 }

@@ -171,7 +171,7 @@ Json full_model_json(const std::string& name, const MeshReport& mesh) {
                {"lengthened_by", mesh.mollified.most},
                {"tufted_components", mesh.tufted_components},
                {"large_faces", mesh.refinement.large_faces},
-               {"obtuse_border_edges", mesh.refinement.obtuse_border},
+               {"obtuse_border_edges", mesh.refinement.obtuse_boundary},
                {"inserted_vertices", mesh.refinement.points}});
   const LaplacianChoice choice = auto_laplacian(mesh);
   json["auto_laplacian"] = {{"kind", to_text(choice.kind)}, {"why", choice.why}};
@@ -206,8 +206,8 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
 Json refinement_json(const HeatMethod& heat) {
   const RefinementCounts& refinement = heat.refinement();
   return {
-      {"points", refinement.points},           {"border_splits", refinement.border_splits},
-      {"large_faces", refinement.large_faces}, {"obtuse_border_edges", refinement.obtuse_border},
+      {"points", refinement.points},           {"border_splits", refinement.boundary_splits},
+      {"large_faces", refinement.large_faces}, {"obtuse_border_edges", refinement.obtuse_boundary},
       {"complete", refinement.complete},       {"grading", heat.grading()}};
 }
 

@@ -87,16 +87,16 @@ LaplacianChoice auto_laplacian(const MeshReport& mesh) {
 
 std::string refinement_in_words(const RefinementCounts& refinement) {
   std::string text = counted(refinement.points, "vertex", "vertices") + " inserted";
-  if (refinement.border_splits > 0) {
-    text += " (" + grouped(refinement.border_splits) + " on the border)";
+  if (refinement.boundary_splits > 0) {
+    text += " (" + grouped(refinement.boundary_splits) + " on the border)";
   }
   std::vector<std::string> reasons;
   if (refinement.large_faces > 0) {
     reasons.push_back(counted(refinement.large_faces, "large face", "large faces"));
   }
-  if (refinement.obtuse_border > 0) {
+  if (refinement.obtuse_boundary > 0) {
     reasons.push_back(
-        counted(refinement.obtuse_border, "obtuse border edge", "obtuse border edges"));
+        counted(refinement.obtuse_boundary, "obtuse border edge", "obtuse border edges"));
   }
   return text + " for " + joined(reasons, " and ");
 }

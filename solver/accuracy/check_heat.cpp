@@ -165,7 +165,7 @@ constexpr double kSmallTime = 1e-3;
 /// A mean error of the slope that no good distance has: at usual times it is below 0.1, and the
 /// smoothest useful distances have some 0.3.
 constexpr double kWrongSlope = 0.4;
-/// Faces within a Dirichlet border, whose corners are all held, are no loss in a corner or two.
+/// Faces within a Dirichlet boundary, whose corners are all held, are no loss in a corner or two.
 /// Above this share of all faces they are.
 constexpr double kBorderShare = 0.1;
 

@@ -74,7 +74,7 @@ class Seeker {
     });
   }
 
-  /// How many edges of the border have two faces or more.
+  /// How many edges of the boundary have two faces or more.
   Index count_closed(const TriangleMesh& welded) const {
     const CleanFaces clean = clean_faces(welded);
     std::vector<std::array<Index, 2>> inner;

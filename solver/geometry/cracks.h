@@ -5,7 +5,7 @@
 
 namespace geotherm {
 
-/// Cracks of a surface: edges of its border that lie on each other, or a small share of the mean
+/// Cracks of a surface: edges of its boundary that lie on each other, or a small share of the mean
 /// edge apart, and what weld() would do about them.
 struct CrackReport {
   Index vertices = 0;      ///< that would be merged, WeldedMesh::merged; 0: there are no cracks

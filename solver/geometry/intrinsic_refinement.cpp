@@ -47,17 +47,17 @@ double area(const std::array<double, 3>& l) {
   return 0.5 * p.base * p.height;
 }
 
-bool is_obtuse_border(const IntrinsicMesh& mesh, Side side) {
+bool is_obtuse_boundary(const IntrinsicMesh& mesh, Side side) {
   if (mesh.twin[side] != kNoSide) return false;
   const auto& lengths = mesh.lengths[face_of(side)];
   return may_be_obtuse(lengths, corner_of(side)) &&
          opposite_cotangent(lengths, corner_of(side)) < kObtuse;
 }
 
-/// The faces and border edges that need a vertex at the start.
+/// The faces and boundary edges that need a vertex at the start.
 struct Needs {
   std::vector<Index> large;  ///< faces
-  std::vector<Side> obtuse;  ///< border sides
+  std::vector<Side> obtuse;  ///< boundary sides
 };
 
 Needs find_needs(const IntrinsicMesh& mesh, const Components& parts,
@@ -73,7 +73,7 @@ Needs find_needs(const IntrinsicMesh& mesh, const Components& parts,
       const auto& l = mesh.lengths[f];
       if (std::max({l[0], l[1], l[2]}) > kLongest * edge) here.large.push_back(f);
       for (Side side = 3 * f; side < 3 * f + 3; ++side) {
-        if (is_obtuse_border(mesh, side)) here.obtuse.push_back(side);
+        if (is_obtuse_boundary(mesh, side)) here.obtuse.push_back(side);
       }
     }
   });
@@ -154,14 +154,14 @@ std::vector<double> gradings(const IntrinsicMesh& mesh, const Components& parts,
   return time;
 }
 
-/// Where a walk over the triangulation ends: in a face, or at a side of the border.
+/// Where a walk over the triangulation ends: in a face, or at a side of the boundary.
 struct Place {
   Index face = kNoIndex;
   Weights weights{};
   Side border = kNoSide;
 };
 
-/// Walks straight from the middle of a face to its circumcentre. Neither a face nor a border side
+/// Walks straight from the middle of a face to its circumcentre. Neither a face nor a boundary side
 /// is returned where rounding has led the walk astray.
 Place find_circumcentre(const IntrinsicMesh& mesh, Index face) {
   constexpr int kMaxSteps = 1000;  // walks within the circumcircle are a few faces long
@@ -221,14 +221,14 @@ class Refiner {
       if (!obtuse_.empty()) {
         const Side side = obtuse_.back();
         obtuse_.pop_back();
-        if (is_obtuse_border(mesh_, side) && !is_short(side) && may_insert()) split_obtuse(side);
+        if (is_obtuse_boundary(mesh_, side) && !is_short(side) && may_insert()) split_obtuse(side);
       } else if (!large_.empty()) {
         const auto [size, face] = large_.top();
         large_.pop();
         if (rounded(relative_size(face)) != size || !may_insert()) continue;
         const Index before = out_.points;
         split_large(face);
-        // A split of the border need not reach the face.
+        // A split of the boundary need not reach the face.
         if (out_.points > before && rounded(relative_size(face)) == size)
           large_.emplace(size, face);
       } else {
@@ -261,11 +261,11 @@ class Refiner {
   void note(Index face) {
     note_size(face);
     for (Side side = 3 * face; side < 3 * face + 3; ++side) {
-      if (is_obtuse_border(mesh_, side)) obtuse_.push_back(side);
+      if (is_obtuse_boundary(mesh_, side)) obtuse_.push_back(side);
     }
   }
 
-  /// Splits a border edge at the foot of the opposite corner, where both halves lie opposite at
+  /// Splits a boundary edge at the foot of the opposite corner, where both halves lie opposite at
   /// most a right angle; but not close to an end, where that would leave a needle.
   void split_obtuse(Side side) {
     constexpr double kFromEnd = 0.1;
@@ -275,7 +275,7 @@ class Refiner {
     insert_on_side(side, std::clamp(p.x / p.base, kFromEnd, 1 - kFromEnd));
   }
 
-  /// Splits a face at its circumcentre, or the border edge on the way to that.
+  /// Splits a face at its circumcentre, or the boundary edge on the way to that.
   void split_large(Index face) {
     const Place place = find_circumcentre(mesh_, face);
     if (place.border != kNoSide) return insert_on_side(place.border, 0.5);
@@ -307,7 +307,7 @@ class Refiner {
     at[corner_of(side)] = 1 - share;
     at[next_corner(corner_of(side))] = share;
     const Index vertex = add_vertex(face_of(side), at, border);
-    out_.border_splits += border ? 1 : 0;
+    out_.boundary_splits += border ? 1 : 0;
     const std::size_t before = edits_.size();
     std::vector<Side> around = split_side(mesh_, side, share, vertex, edits_);
     settle(around, before);
@@ -356,7 +356,7 @@ class Refiner {
   const Index most_;
   Refinement& out_;
   std::vector<double> root_t_;                           ///< per part
-  std::vector<Side> obtuse_;                             ///< border sides, looked at again
+  std::vector<Side> obtuse_;                             ///< boundary sides, looked at again
   std::priority_queue<std::pair<double, Index>> large_;  ///< faces by size, looked at again
   std::vector<Index> touched_;
 };
@@ -370,7 +370,7 @@ Result<Refinement> refine_triangulation(IntrinsicMesh& mesh, std::vector<Edit>& 
   const Needs needs = find_needs(mesh, parts, part_edge, threads);
   Refinement out;
   out.large_faces = static_cast<Index>(needs.large.size());
-  out.obtuse_border = static_cast<Index>(needs.obtuse.size());
+  out.obtuse_boundary = static_cast<Index>(needs.obtuse.size());
   out.grading.assign(part_edge.size(), 1.0);
   if (needs.large.empty() && needs.obtuse.empty()) return out;
   if (!needs.large.empty()) out.grading = gradings(mesh, parts, part_edge);

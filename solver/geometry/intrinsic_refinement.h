@@ -18,15 +18,15 @@ struct Refinement : RefinementCounts {
   std::vector<double>
       grading;  ///< per part: that t over its squared mean edge; 1 without large faces
   std::vector<Vec3> positions;  ///< points x 3: near where they lie, for elimination orders
-  std::vector<char> on_border;  ///< points: the vertex lies on the border
+  std::vector<char> on_border;  ///< points: the vertex lies on the boundary
 };
 
 /// Inserts vertices into a Delaunay triangulation, never into the mesh, until it can carry the heat
 /// method with one diffusion time per part: no face has an edge above 2.6 sqrt(t), on which heat
-/// would underflow to no direction, and no border edge lies opposite an obtuse angle (above 96
+/// would underflow to no direction, and no boundary edge lies opposite an obtuse angle (above 96
 /// degrees), where its weight would be negative. Large faces get their circumcentre (Chew 1993; on
 /// intrinsic triangulations Sharp, Soliman, Crane 2019, section 4.2); where the way to it leaves
-/// over the border, and where a border edge is obtuse, the edge is split.
+/// over the boundary, and where a boundary edge is obtuse, the edge is split.
 ///
 /// t is h^2, h the mean length of the part's edges but for those above 2.6 times their mean (so
 /// that `grading` may be below 1), or as much more as keeps the number of vertices to be expected

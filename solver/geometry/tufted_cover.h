@@ -19,8 +19,8 @@ std::vector<char> faces_that_need_cover(const CleanFaces& clean, Index vertex_co
 
 /// Makes the tufted cover (Sharp, Crane 2020, section 3): every face with `doubled[face] != 0` gets
 /// a back, numbered after all faces in IntrinsicMesh::back; round each edge the copies that face
-/// each other are glued, a border's front to its own back. Each side of such a face then has a
-/// twin, and orientations agree: an oriented manifold without border whose vertices are those of
+/// each other are glued, a boundary's front to its own back. Each side of such a face then has a
+/// twin, and orientations agree: an oriented manifold without boundary whose vertices are those of
 /// the surface. Its operators are twice the surface's where no edge is flipped, and flips make all
 /// weights positive whatever the mesh.
 /// Preconditions: `mesh` is that of build_intrinsic_mesh(), without flips; whole components are

@@ -114,14 +114,14 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Su
     if (const auto done = factor({}, out->neumann_); !done) return done.error();
   }
   if (boundary != BoundaryRule::kNeumann && !out->dirichlet_) {
-    if (const auto done = factor(out->border_without(nullptr), out->dirichlet_); !done) {
+    if (const auto done = factor(out->boundary_without(nullptr), out->dirichlet_); !done) {
       return done.error();
     }
   }
   return std::shared_ptr<const HeatStep>(std::move(out));
 }
 
-std::vector<Index> HeatStep::border_without(const SourceAnchors* anchors) const {
+std::vector<Index> HeatStep::boundary_without(const SourceAnchors* anchors) const {
   std::vector<Index> sources;
   if (anchors != nullptr) sources = anchors->rows();
   std::vector<Index> border;
@@ -152,7 +152,7 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
                                                                  HeatMode mode, int threads,
                                                                  Block& b) const {
   std::vector<Index> held;
-  if (dirichlet) held = border_without(&anchors);
+  if (dirichlet) held = boundary_without(&anchors);
   if (mode == HeatMode::kHold) {
     const std::vector<Index> rows = anchors.rows();
     held.insert(held.end(), rows.begin(), rows.end());

@@ -58,7 +58,7 @@ class HeatStep {
                                                        const Progress& progress = {});
 
   /// True when these sources change the matrix, so that they cannot share a block with others:
-  /// sources on a Dirichlet border, and u held on many vertices.
+  /// sources on a Dirichlet boundary, and u held on many vertices.
   bool needs_own_system(const SourceAnchors& anchors, HeatMode mode) const;
 
   /// u for every source set. Precondition: one set only, where it needs its own system.
@@ -71,7 +71,7 @@ class HeatStep {
 
  private:
   HeatStep() = default;
-  std::vector<Index> border_without(const SourceAnchors* anchors) const;
+  std::vector<Index> boundary_without(const SourceAnchors* anchors) const;
   bool on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
                             bool residuals, const Workspace& work, const Progress& progress) const;

@@ -65,9 +65,9 @@ struct UsedVertices {
   }
 };
 
-/// Which rows lie on the border: an edge of the mesh with one face, or such an edge where it was
+/// Which rows lie on the boundary: an edge of the mesh with one face, or such an edge where it was
 /// split.
-std::vector<char> find_border(const Surface& surface) {
+std::vector<char> find_boundary(const Surface& surface) {
   std::vector<char> on_border(surface.vertex_of_row.size(), 0);
   const EdgeTable& edges = surface.clean_edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
@@ -152,7 +152,7 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
     out->vertex_of_row[k] = vertex;
     out->row_of_vertex[vertex] = static_cast<Index>(k);
   }
-  out->on_boundary = find_border(*out);
+  out->on_boundary = find_boundary(*out);
   out->components = measure_components(*out);
   if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
     return Error{ErrorCode::kBadInput, "the mesh has no area; all its faces are degenerate"};

@@ -20,7 +20,7 @@ namespace geotherm {
 /// to kLong of the component's extent, measured by how far log u falls, X goes back to length 1.
 ///
 /// On a component that is narrower than some diffusion lengths, such as a strip one face wide, heat
-/// flows along one way only and touches the border everywhere: neither its slope nor the straight
+/// flows along one way only and touches the boundary everywhere: neither its slope nor the straight
 /// distance beside the sources says more than the published field. Both fade out there.
 class UnitField {
  public:

@@ -104,7 +104,7 @@ void list_edges(const CornerTable& corners, std::span<const Face> faces, Index b
                 Part& part) {
   std::size_t most = 0;
   for (Index v = begin; v < end; ++v) most += corners.at(v).size();
-  // On a closed surface half the corners are worth an edge; a border adds to that.
+  // On a closed surface half the corners are worth an edge; a boundary adds to that.
   const std::size_t likely = most / 2 + most / 16;
   part.low.reserve(likely);
   part.high.reserve(likely);

@@ -9,7 +9,7 @@
 namespace geotherm {
 
 /// Shortens a path until no piece of it can be made shorter: straight across faces, and through a
-/// vertex only where there are pi or more on every side (saddles, borders). Both ends stay; a
+/// vertex only where there are pi or more on every side (saddles, boundaries). Both ends stay; a
 /// closed path is shortened all round and may end as a single point, of length 0. The result is a
 /// locally shortest path, never longer than the given one, and the shortest of all where that was
 /// near enough to it. Strips of faces are unfolded and pulled tight, and a vertex at which the path

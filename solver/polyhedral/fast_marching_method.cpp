@@ -26,7 +26,7 @@ struct MarchSupport {
 
 /// What fast marching updates from. A corner has one support, its face; an obtuse one, which a wave
 /// may reach before both other corners, has two that are acute: the faces beyond the opposite side
-/// are unfolded until a vertex splits the angle (Kimmel, Sethian 1998, section 4). Where a border
+/// are unfolded until a vertex splits the angle (Kimmel, Sethian 1998, section 4). Where a boundary
 /// or an edge with three faces and more is in the way, the face stays its support.
 struct MarchSupports {
   std::vector<MarchSupport> all;

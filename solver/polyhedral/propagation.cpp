@@ -147,7 +147,7 @@ void Propagation::send_from(Index vertex, double distance, Index group) {
 /// reversed one, with its source below.
 void Propagation::cross(Side side, Window window, bool against) {
   const auto& frame = mesh_.side(side);
-  if (frame.across == WindowMesh::kBorder) return;
+  if (frame.across == WindowMesh::kBoundary) return;
   double at_origin = distance_at(frame.origin);
   double at_length = distance_at(mesh_.side(next_side(side)).origin);
   if (against) std::swap(at_origin, at_length);

@@ -17,7 +17,7 @@ namespace {
 /// What the set-up takes at least for each face.
 constexpr double kSurfaceNanosecondsPerFace = 400;
 
-/// Sides without a twin, those of one edge together: the border, edges with three faces and more,
+/// Sides without a twin, those of one edge together: the boundary, edges with three faces and more,
 /// and edges whose two faces disagree in orientation. Flips leave their vertices alone.
 std::vector<Side> twinless_sides(const IntrinsicMesh& mesh) {
   const auto ends = [&mesh](Side side) {

@@ -29,7 +29,7 @@ struct WaveSurface {
   const IntrinsicSurface& base;                    ///< the same
   std::vector<Index> edge_of_side;                 ///< 3F: number of the edge
   std::vector<std::size_t> side_start;             ///< E + 1
-  std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is border, 3 and
+  std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is boundary, 3 and
                             ///< more a non-manifold edge. Two sides may run opposite ways or not.
 
   Index edge_count() const { return static_cast<Index>(side_start.size()) - 1; }

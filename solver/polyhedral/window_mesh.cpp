@@ -10,7 +10,7 @@ namespace geotherm {
 namespace {
 
 /// Angles up to this much above that of a plane count as flat: a shadow so narrow is lit from its
-/// borders with an error of its square.
+/// boundaries with an error of its square.
 constexpr double kFlat = 1e-9;
 
 /// Two sides of an edge that are twins run opposite ways, also where both ends are one vertex; all
@@ -60,7 +60,7 @@ void WindowMesh::lay_out_sides() {
     const auto& l = mesh.lengths[face_of(s)];
     const int k = corner_of(s);
     const FaceLayout layout = lay_out({l[k], l[next_corner(k)], l[previous_corner(k)]});
-    std::int32_t across = kBorder;
+    std::int32_t across = kBoundary;
     const auto around = surface_->sides_of(surface_->edge_of_side[s]);
     if (around.size() == 2) {
       const Side other = around[0] == s ? around[1] : around[0];
@@ -104,7 +104,7 @@ void WindowMesh::find_bends() {
     if (fan_of[v] == kNoIndex) fan_of[v] = fan[s];
     if (fan_of[v] != fan[s]) sends_[v] = 1;
     if (frame.across <= kBranch) sends_[v] = sends_[w] = 1;
-    if (frame.across == kBorder) straight[v] = straight[w] = std::numbers::pi;
+    if (frame.across == kBoundary) straight[v] = straight[w] = std::numbers::pi;
   }
   for (std::size_t v = 0; v < vertices; ++v) {
     if (angle[v] > straight[v] * (1 + kFlat)) sends_[v] = 1;

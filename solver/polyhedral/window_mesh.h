@@ -17,9 +17,9 @@ class WindowMesh {
     double length, inverse_length;
     double apex_x, apex_y;  ///< the opposite corner, apex_y > 0
     Index origin;           ///< vertex of the first corner; that of the second is next's
-    std::int32_t across;    ///< 2 side + (it runs the other way), kBorder, or a branch
+    std::int32_t across;    ///< 2 side + (it runs the other way), kBoundary, or a branch
   };
-  static constexpr std::int32_t kBorder = -1;
+  static constexpr std::int32_t kBoundary = -1;
   static constexpr std::int32_t kBranch = -2;  ///< kBranch - i: the non-manifold edge i of those
 
   explicit WindowMesh(const WaveSurface& surface);
@@ -28,8 +28,8 @@ class WindowMesh {
   Index side_count() const { return static_cast<Index>(sides_.size()); }
   Index vertex_count() const { return static_cast<Index>(sends_.size()); }
 
-  /// Whether shortest paths may bend at the vertex: its angle is more than 2 pi, on the border more
-  /// than pi, or it is at an edge with three faces or more, or its faces form several fans.
+  /// Whether shortest paths may bend at the vertex: its angle is more than 2 pi, on the boundary
+  /// more than pi, or it is at an edge with three faces or more, or its faces form several fans.
   bool sends(Index vertex) const { return sends_[static_cast<std::size_t>(vertex)] != 0; }
 
   /// The sides opposite to the vertex's corners.

@@ -74,8 +74,8 @@ class Refinements : public testing::TestWithParam<Case> {
 TEST_P(Refinements, InsertWhereNeeded) {
   const Refinement& counts = refined.refinement;
   EXPECT_GT(counts.points, 0);
-  EXPECT_GT(counts.large_faces + counts.obtuse_border, 0);
-  EXPECT_EQ(GetParam().border, counts.border_splits > 0);
+  EXPECT_GT(counts.large_faces + counts.obtuse_boundary, 0);
+  EXPECT_EQ(GetParam().border, counts.boundary_splits > 0);
   EXPECT_TRUE(counts.complete);
   EXPECT_TRUE(refined.warnings == flipped.warnings);
 }
@@ -106,7 +106,7 @@ TEST_P(Refinements, KeepTheSurface) {
   // Each inserted vertex brings two faces, on the border one.
   const Refinement& counts = refined.refinement;
   EXPECT_EQ(after.face_count() - flipped.intrinsic.face_count(),
-            2 * counts.points - counts.border_splits);
+            2 * counts.points - counts.boundary_splits);
   for (Side side = 0; side < 3 * after.face_count(); ++side) {
     const Side twin = after.twin[side];
     if (twin == kNoSide) continue;

@@ -127,11 +127,11 @@ inline constexpr Index kMaxFacesExact = 20'000;
 /// What makes wrong answers right, by trying: solves again with one setting at a time changed, and
 /// takes the first whose answer is good. In this order, and the cheapest of each kind first:
 /// options of the heat method that are not what is recommended, set to that; other values of its
-/// options (time factors 2 and 4, the variant classic, other rules where there is a border, tufted
-/// covers, a finer mesh); the methods wavefront, wavefront-fine and, on up to kMaxFacesExact faces
-/// or where it is the reference, exact. Where no option of the heat method makes it good, the one
-/// that lowers the error most is the cause if it takes more than a fifth away, more faces only if
-/// they leave less than half of what another one leaves. What fails is passed over. `better`:
+/// options (time factors 2 and 4, the variant classic, other rules where there is a boundary,
+/// tufted covers, a finer mesh); the methods wavefront, wavefront-fine and, on up to kMaxFacesExact
+/// faces or where it is the reference, exact. Where no option of the heat method makes it good, the
+/// one that lowers the error most is the cause if it takes more than a fifth away, more faces only
+/// if they leave less than half of what another one leaves. What fails is passed over. `better`:
 /// distances of `reference` for the same sources. The method wavefront is held against exact
 /// distances on small meshes, else against wavefront-fine, where it is itself the reference.
 /// `most_faces`: kMaxFacesDiagnosed or kMaxFacesBesides. Errors: kCancelled. Cost: a set-up and

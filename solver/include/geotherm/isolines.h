@@ -9,8 +9,8 @@
 // Level sets of distances, or of any values at the vertices.
 namespace geotherm {
 
-/// A piece of a level set, as long as it can be followed: closed, or open from border to border (or
-/// to an edge with three faces and more).
+/// A piece of a level set, as long as it can be followed: closed, or open from boundary to boundary
+/// (or to an edge with three faces and more).
 struct Isoline {
   double value = 0;
   SurfacePath path;

@@ -34,11 +34,11 @@ struct Mollification {
 /// What is inserted into the triangulation, never into the mesh, so that it can carry the heat
 /// method (LaplacianKind::kRefined).
 struct RefinementCounts {
-  Index large_faces = 0;    ///< faces that were too large for the diffusion
-  Index obtuse_border = 0;  ///< border edges opposite an obtuse angle
-  Index points = 0;         ///< inserted vertices, numbered from the mesh's vertex count on
-  Index border_splits = 0;  ///< those of them that split a border edge
-  bool complete = true;     ///< false: the limit on inserted vertices was reached
+  Index large_faces = 0;      ///< faces that were too large for the diffusion
+  Index obtuse_boundary = 0;  ///< boundary edges opposite an obtuse angle
+  Index points = 0;           ///< inserted vertices, numbered from the mesh's vertex count on
+  Index boundary_splits = 0;  ///< those of them that split a boundary edge
+  bool complete = true;       ///< false: the limit on inserted vertices was reached
 };
 
 /// What a mesh is and what is wrong with it.

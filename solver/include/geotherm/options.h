@@ -51,10 +51,10 @@ enum class HeatMode {
   kHold,     ///< u = 1 held on the sources
 };
 
-/// The condition on u along the border; phi's is always Neumann.
+/// The condition on u along the boundary; phi's is always Neumann.
 enum class BoundaryRule {
   kNeumann,    ///< no heat leaves
-  kDirichlet,  ///< u = 0 on the border
+  kDirichlet,  ///< u = 0 on the boundary
   kAverage,    ///< the mean of both solutions
 };
 
@@ -74,7 +74,7 @@ enum class LaplacianKind {
   kIntrinsicDelaunay,  ///< after intrinsic edge flips (Bobenko, Springborn 2007)
   kTufted,             ///< Delaunay flips on the tufted double cover (Sharp, Crane 2020)
   kRefined,            ///< Delaunay flips, on the cover where needed, and inserted vertices where
-                       ///< faces are too large for t or the border is obtuse
+                       ///< faces are too large for t or the boundary is obtuse
 };
 
 /// How accurately systems are solved (docs/numerics.md, "Precision"). Iterative backends, which

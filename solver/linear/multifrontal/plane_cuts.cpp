@@ -150,7 +150,7 @@ Reaches find_reaches(const GraphPart& part, std::span<const Extent> extents, int
 struct Plane {
   std::size_t lane = 0;
   int bin = 0;        ///< vertices in bins up to this one are left of the plane
-  Half from = kLeft;  ///< the half that gives its border vertices to the separator
+  Half from = kLeft;  ///< the half that gives its boundary vertices to the separator
   double cost = std::numeric_limits<double>::max();
 };
 
