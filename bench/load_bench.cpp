@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/load_bench.h"
+#include "bench/benches.h"
 
 #include <unistd.h>
 

@@ -9,10 +9,9 @@
 #include <string>
 
 #include "bench/bench_mesh.h"
-#include "bench/load_bench.h"
+#include "bench/benches.h"
 #include "bench/machine_limits.h"
 #include "bench/report.h"
-#include "bench/solve_bench.h"
 #include "geotherm/backend.h"
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"

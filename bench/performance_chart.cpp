@@ -6,7 +6,7 @@
 #include <map>
 
 #include "app/picture/chart.h"
-#include "bench/number_text.h"
+#include "bench/estimates.h"
 #include "bench/report.h"
 
 namespace geotherm::bench {

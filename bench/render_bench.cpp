@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/viewer_bench.h"
+#include "bench/benches.h"
 
 #include <cmath>
 #include <memory>

@@ -4,10 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/load_bench.h"
+#include "bench/benches.h"
 #include "bench/machine_limits.h"
-#include "bench/solve_bench.h"
-#include "bench/viewer_bench.h"
 
 namespace geotherm::bench {
 

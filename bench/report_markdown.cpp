@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "bench/number_text.h"
+#include "bench/estimates.h"
 #include "bench/report.h"
 
 namespace geotherm::bench {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "bench/number_text.h"
+#include "bench/estimates.h"
 #include "bench/report.h"
 
 namespace geotherm::bench {

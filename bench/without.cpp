@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands in for the parts of the benchmark that this build lacks (CMakeLists.txt says which).
+#include "bench/benches.h"
 #include "bench/measure.h"
-#include "bench/viewer_bench.h"
 
 namespace geotherm::bench {
 

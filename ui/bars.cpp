@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/bars.h"
+#include "ui/panels.h"
 
 #include <imgui.h>
 #include <algorithm>
@@ -9,7 +9,6 @@
 #include "app/session/check.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
-#include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ui/canvas_input.h"
+#include "ui/canvas.h"
 
 #include <imgui.h>
 
 #include <cmath>
 
-#include "ui/canvas_menu.h"
 #include "ui/frame.h"
 #include "ui/source_edit.h"
 

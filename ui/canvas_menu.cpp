@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ui/canvas_menu.h"
+#include "ui/canvas.h"
 
 #include <imgui.h>
 
-#include "ui/bars.h"
 #include "ui/frame.h"
+#include "ui/panels.h"
 #include "ui/source_edit.h"
 
 namespace geotherm::ui {

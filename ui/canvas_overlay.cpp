@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/canvas_overlay.h"
+#include "ui/canvas.h"
 
 #include <imgui.h>
 
@@ -10,8 +10,7 @@
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "ui/action.h"
-#include "ui/bars.h"
-#include "ui/rows.h"
+#include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
 

@@ -14,12 +14,11 @@
 #include <utility>
 #include <vector>
 
-#include "ui/canvas_input.h"
+#include "ui/canvas.h"
 #include "ui/dialogs.h"
 #include "ui/file_dialog.h"
 #include "ui/interface.h"
 #include "ui/layout.h"
-#include "ui/style.h"
 
 namespace geotherm::ui {
 

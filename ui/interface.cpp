@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "ui/action.h"
-#include "ui/bars.h"
-#include "ui/canvas_menu.h"
-#include "ui/canvas_overlay.h"
+#include "ui/canvas.h"
 #include "ui/dialogs.h"
 #include "ui/frame.h"
 #include "ui/key_map.h"
+#include "ui/panels.h"
 
 namespace geotherm::ui {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/bars.h"
+#include "ui/panels.h"
 
 #include <imgui.h>
 #include <string>

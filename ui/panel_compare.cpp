@@ -9,8 +9,6 @@
 #include "app/session/wording.h"
 #include "ui/action.h"
 #include "ui/panels.h"
-#include "ui/plots.h"
-#include "ui/rows.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

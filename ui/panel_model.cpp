@@ -5,7 +5,6 @@
 
 #include "app/session/check.h"
 #include "ui/action.h"
-#include "ui/bars.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 

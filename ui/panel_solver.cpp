@@ -11,8 +11,6 @@
 #include "app/session/wording.h"
 #include "ui/frame.h"
 #include "ui/panels.h"
-#include "ui/plots.h"
-#include "ui/rows.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

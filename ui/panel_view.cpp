@@ -6,7 +6,6 @@
 #include "ui/action.h"
 #include "ui/frame.h"
 #include "ui/panels.h"
-#include "ui/rows.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/plots.h"
+#include "ui/panels.h"
 
 #include <imgui.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/rows.h"
+#include "ui/panels.h"
 
 #include <imgui.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ui/style.h"
+#include "ui/layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "app/session/compare.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/backend.h"

@@ -5,8 +5,8 @@
 
 #include "app/cli/commands.h"
 #include "app/session/model_solver.h"
-#include "app/session/place_sources.h"
 #include "app/session/report.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "geotherm/isolines.h"
 

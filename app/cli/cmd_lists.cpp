@@ -9,7 +9,7 @@
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/backend.h"
-#include "solver/geometry/cracks.h"
+#include "solver/geometry/clean_faces.h"
 
 namespace geotherm::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/session/answer.h"
 #include "app/session/check.h"
 #include "app/session/outputs.h"
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"

@@ -7,8 +7,8 @@
 #include <new>
 #include <set>
 
-#include "app/session/place_sources.h"
 #include "app/session/progress.h"
+#include "app/session/sources.h"
 #include "app/session/wording.h"
 
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 
 #include "app/session/explored.h"
 #include "app/session/model_solver.h"
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 #include "geotherm/progress.h"
 
 namespace geotherm::app {

@@ -12,7 +12,7 @@
 #include "app/picture/target_paths.h"
 #include "app/session/answer.h"
 #include "app/session/check.h"
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 #include "geotherm/progress.h"
 
 namespace geotherm::app {

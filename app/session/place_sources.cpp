@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,18 +73,18 @@ class Resolver {
     }
     if (found) return {};
     return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
-               " edges has two faces or more); choose vertices instead");
+                     " edges has two faces or more); choose vertices instead");
   }
 
   Result<void> operator()(const FacePoint& point) {
     if (point.face >= mesh_.face_count()) {
       return misplaced("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
-                 std::to_string(mesh_.face_count() - 1));
+                       std::to_string(mesh_.face_count() - 1));
     }
     const Face& face = mesh_.faces()[point.face];
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
       return misplaced("face " + std::to_string(point.face) +
-                 " repeats a corner and has no inside; choose another");
+                       " repeats a corner and has no inside; choose another");
     }
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
@@ -160,12 +160,12 @@ class Resolver {
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
       return misplaced("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
-                 std::to_string(mesh_.vertex_count() - 1));
+                       std::to_string(mesh_.vertex_count() - 1));
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
       return misplaced("vertex " + std::to_string(v) +
-                 " belongs to no face, so that no distance starts there; choose another");
+                       " belongs to no face, so that no distance starts there; choose another");
     }
     const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
     if (fresh) {
@@ -270,7 +270,7 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
     return misplaced(grouped(count) + " different vertices were asked for; " +
-               grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
+                     grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
   }
   Random random(seed);
   for (Index i = 0; i < count; ++i) {

@@ -5,9 +5,9 @@
 
 #include "app/session/answer.h"
 #include "app/session/machine.h"
-#include "app/session/place_sources.h"
 #include "app/session/report.h"
 #include "app/session/settings.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/heat_method.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "app/session/place_sources.h"
 #include "app/session/report.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/heat_method.h"

@@ -7,8 +7,8 @@
 #include "app/picture/picture_text.h"
 #include "app/session/compare.h"
 #include "app/session/explored.h"
-#include "app/session/place_sources.h"
 #include "app/session/session_state.h"
+#include "app/session/sources.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 

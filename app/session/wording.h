@@ -10,7 +10,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/mesh_report.h"
 #include "geotherm/options.h"
-#include "solver/geometry/cracks.h"
+#include "solver/geometry/clean_faces.h"
 
 // What people are told, in sentences: what the library says, with settings as options of the
 // command line; methods and meshes in words.

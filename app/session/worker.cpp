@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/worker.h"
+#include "app/session/session_state.h"
 
 #include <sys/resource.h>
 

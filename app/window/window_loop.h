@@ -10,7 +10,6 @@
 #include <string>
 
 #include "app/cli/drawing.h"
-#include "app/cli/view_picture.h"
 #include "app/window/scene_screen.h"
 #include "engine/window/window.h"
 #include "ui/interface.h"

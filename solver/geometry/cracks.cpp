@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/geometry/cracks.h"
+#include "solver/geometry/clean_faces.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "geotherm/mesh.h"
-#include "solver/geometry/clean_faces.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/mesh/connectivity.h"
 

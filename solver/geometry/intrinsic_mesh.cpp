@@ -7,7 +7,6 @@
 
 #include "solver/core/parallel.h"
 #include "solver/geometry/clean_faces.h"
-#include "solver/geometry/mollify.h"
 
 namespace geotherm {
 namespace {

@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/mesh_report.h"
-
 #include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "geotherm/mesh_report.h"
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/delaunay.h"
 #include "solver/geometry/intrinsic_mesh.h"
 #include "solver/geometry/intrinsic_surface.h"
-#include "solver/geometry/mesh_summary.h"
 #include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
+
+/// summarize_mesh() where the mesh's clean faces are known.
+MeshSummary summarize_clean_faces(const TriangleMesh& mesh, const CleanFaces& clean, int threads);
+
 namespace {
 
 /// Height over longest side below which a face has no usable area.

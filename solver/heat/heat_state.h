@@ -13,7 +13,7 @@
 #include "solver/heat/heat_step.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/poisson.h"
-#include "solver/linear/fallback.h"
+#include "solver/linear/backend_registry.h"
 
 namespace geotherm {
 

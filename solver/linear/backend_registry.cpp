@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "geotherm/backend.h"
-#include "solver/linear/backends.h"
-#include "solver/linear/fallback.h"
+#include "solver/linear/backend_registry.h"
 
 namespace geotherm {
 namespace {

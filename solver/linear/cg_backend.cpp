@@ -5,7 +5,7 @@
 #include <string>
 
 #include "solver/core/text.h"
-#include "solver/linear/backends.h"
+#include "solver/linear/backend_registry.h"
 
 namespace geotherm {
 namespace {

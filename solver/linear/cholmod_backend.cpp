@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/linear/backends.h"
+#include "solver/linear/backend_registry.h"
 #include "solver/linear/blas_threads.h"
 #include "solver/linear/multifrontal/fill_order.h"
 #include "solver/linear/triangular_factor.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "solver/core/text.h"
-#include "solver/linear/backends.h"
+#include "solver/linear/backend_registry.h"
 #include "solver/linear/multifrontal/fill_order.h"
 #include "solver/linear/triangular_factor.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/path_segment.h"
+#include "solver/path/shorten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "solver/path/straighten.h"
 #include "solver/path/unfolded_strip.h"
 #include "solver/path/within_memory.h"
 

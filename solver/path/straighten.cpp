@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/path/straighten.h"
+#include "solver/path/shorten.h"
 
 #include <algorithm>
 #include <cmath>

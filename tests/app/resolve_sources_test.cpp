@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/place_sources.h"
+#include "app/session/sources.h"
 
 #include <gtest/gtest.h>
 

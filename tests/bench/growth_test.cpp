@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bench/solve_bench.h"
+#include "bench/benches.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/session/worker.h"
+#include "app/session/session_state.h"
 #include "tests/explore/session_fixture.h"
 #include "tests/support/source_texts.h"
 

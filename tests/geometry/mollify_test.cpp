@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/geometry/mollify.h"
+#include "solver/geometry/intrinsic_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/linear/fallback.h"
+#include "solver/linear/backend_registry.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "geotherm/mesh_report.h"
 #include "solver/core/text.h"
-#include "solver/geometry/cracks.h"
+#include "solver/geometry/clean_faces.h"
 #include "solver/mesh/merge_close.h"
 #include "tests/support/shapes.h"
 

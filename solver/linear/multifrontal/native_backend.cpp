@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "solver/linear/backends.h"
+#include "solver/linear/backend_registry.h"
 #include "solver/linear/multifrontal/fill_order.h"
 #include "solver/linear/multifrontal/front_factor.h"
 #include "solver/linear/triangular_factor.h"

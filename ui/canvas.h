@@ -9,9 +9,24 @@
 #include "app/session/explored.h"
 #include "ui/key_map.h"
 
+// The picture's side of the window: the mouse on it, its menu, and what floats over it.
 namespace geotherm::ui {
 
 struct Frame;
+
+/// Sends what a click on a point of the surface does. Precondition: a model is shown.
+void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& point);
+
+/// The menu of a point, at the pointer; without one it has the entries that need none.
+void open_canvas_menu(Frame& frame, const std::optional<SurfacePoint>& point);
+void draw_canvas_menu(Frame& frame);
+
+/// What floats over the picture: the hint where there is no model, which of A and B is shown, the
+/// picked point, and failures for a while.
+void draw_canvas_overlay(Frame& frame);
+
+/// Makes notices of the failures that the log has gained.
+void take_notices(Frame& frame);
 
 /// The mouse on the picture: one stroke from press to release at a time.
 class CanvasInput {
