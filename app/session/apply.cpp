@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "app/picture/picture_text.h"
+#include "app/session/command.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/command.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
 #include "geotherm/backend.h"

@@ -42,7 +42,8 @@ Result<std::array<double, 3>> three_numbers(std::span<const std::string_view> pa
   for (std::size_t k = 0; k < 3; ++k) {
     const auto number = number_in<double>(parts[k]);
     if (!number || !std::isfinite(*number)) {
-      return unreadable(quoted(parts[k]) + " is no finite number", {"write one such as -1.5 or 2e-3"});
+      return unreadable(quoted(parts[k]) + " is no finite number",
+                        {"write one such as -1.5 or 2e-3"});
     }
     numbers[k] = *number;
   }
@@ -55,8 +56,8 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
       return unreadable(quoted(text) + " is no source",
-                 {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
-                  "random:K[:SEED], boundary, face:ID:b0:b1:b2 or xyz:x:y:z"});
+                        {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
+                         "random:K[:SEED], boundary, face:ID:b0:b1:b2 or xyz:x:y:z"});
     }
     list.vertices.push_back(*vertex);
   }
@@ -69,7 +70,7 @@ Result<SourceSpec> parse_curve(std::string_view ids) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
       return unreadable(quoted(part) + " is no vertex of a curve",
-                 {"write curve:V1,V2,... with ids from 0"});
+                        {"write curve:V1,V2,... with ids from 0"});
     }
     curve.vertices.push_back(*vertex);
   }
@@ -82,11 +83,12 @@ Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::st
   const auto seed = parts.size() == 3 ? number_in<std::uint64_t>(parts[2]) : random.seed;
   if (!count || !seed || parts.size() > 3) {
     return unreadable(quoted(text) + " does not say how many vertices",
-               {"write random:K or random:K:SEED, both whole "
-                "numbers"});
+                      {"write random:K or random:K:SEED, both whole "
+                       "numbers"});
   }
   if (*count < 1)
-    return unreadable("random:" + std::to_string(*count) + " asks for no vertex", {"give 1 or more"});
+    return unreadable("random:" + std::to_string(*count) + " asks for no vertex",
+                      {"give 1 or more"});
   return SourceSpec(RandomVertices{*count, *seed});
 }
 
@@ -94,7 +96,7 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   const auto face = parts.size() == 5 ? number_in<Index>(parts[1]) : std::nullopt;
   if (!face || *face < 0) {
     return unreadable(quoted(text) + " is no point in a face",
-               {"write face:ID:b0:b1:b2, with the weights of its corners"});
+                      {"write face:ID:b0:b1:b2, with the weights of its corners"});
   }
   auto weights = three_numbers(std::span(parts).subspan(2));
   if (!weights) return about(quoted(text), weights.error());
@@ -102,13 +104,13 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   for (const double w : *weights) {
     if (w < 0) {
       return unreadable(quoted(text) + ": the weight " + significant(w) + " is negative",
-                 {"barycentric weights are not, and sum to 1"});
+                        {"barycentric weights are not, and sum to 1"});
     }
     sum += w;
   }
   if (std::abs(sum - 1) > kWeightSum) {
     return unreadable(quoted(text) + ": the weights sum to " + significant(sum),
-               {"barycentric weights are not negative and sum to 1"});
+                      {"barycentric weights are not negative and sum to 1"});
   }
   if (std::abs(sum - 1) > kWeightRounding) {
     for (double& w : *weights) w /= sum;
@@ -124,7 +126,8 @@ Result<SourceSpec> parse_plain(std::string_view text) {
   if (parts[0] == "face") return parse_face(text, parts);
   if (parts[0] == "xyz") {
     if (parts.size() != 4) {
-      return unreadable(quoted(text) + " is no point in space", {"write xyz:x:y:z, in model units"});
+      return unreadable(quoted(text) + " is no point in space",
+                        {"write xyz:x:y:z, in model units"});
     }
     auto point = parse_space_point({parts[1], parts[2], parts[3]});
     if (!point) return about(quoted(text), point.error());
@@ -202,12 +205,12 @@ Result<SourceSpec> parse_source(std::string_view text) {
   double* offset = offset_of(*spec);
   if (offset == nullptr) {
     return unreadable(quoted(text) + ": a curve has no offset",
-               {"give the offsets of points, as in 17@0.5"});
+                      {"give the offsets of points, as in 17@0.5"});
   }
   const auto number = number_in<double>(text.substr(at + 1));
   if (!number || !std::isfinite(*number) || *number < 0) {
     return unreadable(quoted(text) + ": " + quoted(text.substr(at + 1)) + " is no offset",
-               {"write a distance in model units, 0 or more, as in 17@0.5"});
+                      {"write a distance in model units, 0 or more, as in 17@0.5"});
   }
   *offset = *number == 0 ? 0.0 : *number;  // no minus zero
   return spec;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From states back to commands, and which of them can be undone.
-#include "app/session/settings.h"
 #include "app/session/command.h"
+#include "app/session/settings.h"
 
 namespace geotherm::app {
 namespace {
