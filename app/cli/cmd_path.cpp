@@ -211,18 +211,17 @@ Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const
 }
 
 /// Holds the distances from the start, which lead the way, against better ones. Errors: kCancelled.
-Result<void> check_way(const PathTask& task, const SurfacePoint& start, ModelSolver& solver,
+Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, ModelSolver& solver,
                        CheckMode mode, const Progress& progress, PathFigures& figures) {
   if (mode == CheckMode::kNone) return {};
-  ResolvedSources from;
-  from.set.points.push_back(start);
-  const Progress checking = with_prefix(part_of(progress, 0.9, 1.0), "checking: ");
-  auto answer = solver.solve(task.method, from, {{.quality = false}}, checking);
-  if (!answer) return answer.error();
-  answer->warnings.clear();  // those of the method were said
-  if (auto done = solver.check(*answer, {mode}, checking); !done) return done;
-  figures.warnings.insert(figures.warnings.end(), answer->warnings.begin(), answer->warnings.end());
-  figures.error = *answer->error;
+  SourceSet from;
+  from.points.push_back(start);
+  auto checked = solver.check_method(ready, {&from, 1}, {mode}, part_of(progress, 0.9, 1.0));
+  if (!checked) return checked.error();
+  AccuracyReport& report = checked->error.report;
+  auto warning = accuracy_warning(report, accuracy_line(report));
+  if (!warning.empty()) figures.warnings.push_back(std::move(warning));
+  figures.error = std::move(report);
   return {};
 }
 
@@ -257,7 +256,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
     figures.paths.push_back({std::move(stops), std::move(found->path)});
   }
   figures.path_ms = finding.milliseconds();
-  return check_way(task, points->front(), solver, mode, progress, figures);
+  return check_way(points->front(), *ready, solver, mode, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {

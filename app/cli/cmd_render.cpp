@@ -73,14 +73,10 @@ Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
 }
 
 /// Adds the paths to all targets, and what is to be said about them to the warnings.
-Result<void> draw_paths(const std::vector<std::string>& texts, ModelSolver& solver, Answer& solved,
+Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver, Answer& solved,
                         PictureData& data, const Progress& progress, PictureFigures& figures) {
-  if (texts.empty()) return {};
-  const auto targets = targets_of(texts);
-  if (!targets) return targets.error();
   const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Source& target = (*targets)[i];
+  for (const Source& target : targets) {
     const auto placed = resolve_sources({&target, 1}, *mesh);
     if (!placed) return placed.error();
     const auto found = solver.paths_to(placed->set.points.front(), solved, progress);
@@ -89,7 +85,7 @@ Result<void> draw_paths(const std::vector<std::string>& texts, ModelSolver& solv
     }
     add_paths(data, *mesh, found->paths);
     for (const TargetPath& path : found->paths) {
-      figures.lines.push_back({texts[i], to_text(path.field), path.path.length});
+      figures.lines.push_back({to_text(target.spec), to_text(path.field), path.path.length});
     }
     for (const auto* more : {&placed->warnings, &found->warnings}) {
       solved.warnings.insert(solved.warnings.end(), more->begin(), more->end());
@@ -100,8 +96,8 @@ Result<void> draw_paths(const std::vector<std::string>& texts, ModelSolver& solv
 
 /// Solves where sources are given, and fills the data.
 Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState& asked,
-                            const std::vector<Source>& sources, CheckSettings check,
-                            const Progress& progress, PictureFigures& figures,
+                            const std::vector<Source>& sources, const std::vector<Source>& targets,
+                            CheckSettings check, const Progress& progress, PictureFigures& figures,
                             std::vector<std::string>& warnings) {
   const MethodOptions& options = asked.options;
   auto model = load_model(arguments.model, asked.reading, progress);
@@ -147,8 +143,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
     }
     add_error(data, report.values, error_title(report));
   }
-  if (auto drawn = draw_paths(arguments.targets, solver, *solved, data, progress, figures);
-      !drawn) {
+  if (auto drawn = draw_paths(targets, solver, *solved, data, progress, figures); !drawn) {
     return drawn.error();
   }
   warnings = solved->warnings;
@@ -261,7 +256,9 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   }
   const auto sources = sources_for(arguments, settings->view);
   if (!sources) return sources.error();
-  if (!arguments.targets.empty() && sources->empty()) {
+  const auto targets = targets_of(arguments.targets);
+  if (!targets) return targets.error();
+  if (!targets->empty() && sources->empty()) {
     return Error{ErrorCode::kBadInput,
                  "--path: no source was given, so that no path leads there; add -s"};
   }
@@ -276,7 +273,8 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   figures.device = *std::move(device);
   figures.paths = frame_paths(arguments.output, *settings);
   CommandOutput out;
-  auto data = prepare(arguments, *asked, *sources, *check, progress, figures, out.warnings);
+  auto data =
+      prepare(arguments, *asked, *sources, *targets, *check, progress, figures, out.warnings);
   if (!data) return data.error();
   if (figures.solve) {
     note_unused_settings(arguments.settings, options, figures.solve->warnings);

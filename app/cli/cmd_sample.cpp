@@ -237,7 +237,7 @@ Result<void> check_samples(const SampleTask& task, ModelSolver& solver, const Re
   return {};
 }
 
-/// Without the model, which has to be loaded first.
+/// Samples a loaded model.
 Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
                              const Progress& progress, const Announce& announce) {
   constexpr double kSampled = 0.9;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The fields that `solve --fields` writes beside the distances.
+// `geotherm solve` on one source set, and the fields that it writes beside the distances.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>

@@ -37,7 +37,7 @@ struct ManySources {
   std::size_t chunk = 1;  ///< sources solved at once
 };
 
-/// All answers, without the answers.
+/// Statistics over all source sets; the distances have been streamed out.
 struct ManyFigures {
   std::shared_ptr<const DistanceMethod> method;
   DistanceResult first;   ///< the first answer, without its distances

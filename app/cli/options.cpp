@@ -251,7 +251,7 @@ Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_m
                                          "'; there are " + joined(colour_maps)};
 }
 
-/// What fits where nobody said: a sphere where the model turns or its middle is given.
+/// Chooses the fit when the user did not: a sphere where the model turns or its centre is given.
 Result<void> choose_fit(bool typed, const PictureSettings& picture, CameraSettings& camera) {
   if (!typed) {
     const bool sphere = picture.turntable > 0 || camera.centre;

@@ -51,7 +51,7 @@ class LineView {
 /// A line or the outline of a region in a picture, pixels.
 using Outline = std::vector<Eigen::Vector2d>;
 
-/// What of lines on a surface is seen: the surface does not hide it.
+/// Computes which parts of lines on a surface are not hidden by it.
 class LineSight {
  public:
   LineSight(const RayTree& tree, const LineView& view) : tree_(tree), view_(view) {}

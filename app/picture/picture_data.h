@@ -38,7 +38,7 @@ struct PictureData {
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
   bool is_signed = false;     ///< `values` run from -1 to 1: a difference
-  std::vector<float> face_values;  ///< F: of a view with a colour a face (add_face_values())
+  std::vector<float> face_values;  ///< F: of a view with a colour a face (set_face_values())
   float largest_face_value = 0;    ///< where the colours of that view end
   View face_view{};                ///< that view, where there are values of it
   std::string face_title;          ///< over its colour bar

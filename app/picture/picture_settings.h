@@ -10,7 +10,7 @@
 // of one frame.
 namespace geotherm::app {
 
-/// The report's seven views, in the order of their keys 1 to 7, and those beyond them.
+/// Views 1 to 7, in the order of their keys, then further ones.
 enum class View {
   kWireframe,
   kFlat,
@@ -21,7 +21,7 @@ enum class View {
   kContours,
   kExactError,  ///< d - d_exact with a diverging map
   kRegions,     ///< a colour for each source, where it is the nearest (geodesic Voronoi cells)
-  // One colour a face (app/picture/face_view.h).
+  // One colour a face (app/picture/picture_scale.h).
   kEikonalError,     ///< | |grad d| - 1 |
   kLostGradients,    ///< where the heat has no direction
   kTriangleQuality,  ///< 1: equilateral

@@ -30,7 +30,7 @@ struct Answer {
   SourceSet sources;
   DistanceResult result;
   DistanceSummary distance;
-  SetupTiming setup;       ///< of the work that these settings needed, with what they took over
+  SetupTiming setup;       ///< time of the set-up, with the parts reused from an earlier method
   double setup_ms = 0;     ///< from the question to the method being ready
   double peak_rss_mb = 0;  ///< of set-up and query
   double report_ms = 0;    ///< of `mesh`, where it was timed
@@ -45,8 +45,8 @@ CheckedAnswers checked_answers(const Answer& answer);
 /// One sentence for each reason why `unreached` vertices have no distance.
 std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached);
 
-/// What the library finds wrong with a mesh is a failure of the work, not of the command line. A
-/// model without a name is not named.
+/// Turns kBadInput of the library, which found something wrong with the mesh, into kBadFile, with
+/// the model's name in front where it has one.
 Error about_model(const std::string& name, const Error& error);
 
 /// One source with the vertices that it is nearest to: a geodesic Voronoi cell.

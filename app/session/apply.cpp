@@ -44,7 +44,7 @@ class Applier {
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
     s_.target.reset();
-    // Lengths of the old model say nothing on the new one.
+    // Lengths in units of the old model are reset.
     s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
     return (*this)(command::Frame{});
   }

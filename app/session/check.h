@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,8 +10,8 @@
 #include "geotherm/accuracy.h"
 #include "geotherm/progress.h"
 
-// How commands hold their distances against those of a more accurate method, and what they say and
-// do when these are wrong.
+// How commands and the viewer hold distances against those of a more accurate method, and what they
+// say and do when these are wrong.
 namespace geotherm::app {
 
 enum class CheckMode {
@@ -37,8 +38,8 @@ struct CheckSettings {
 /// the option that needs it, with its value. Errors: kBadInput.
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
 
-/// What answers of a method are held against in this mode; no better than the method itself, where
-/// they are not.
+/// The reference method for this mode; the method itself, or none better, where answers are not
+/// checked.
 MethodKind reference_in(CheckMode mode, MethodKind checked, Index faces);
 
 /// The report on a method that is not held against another one in this mode.

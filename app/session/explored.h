@@ -51,8 +51,8 @@ struct Explored {
   std::vector<TargetPath> paths;  ///< to ViewerState::target
   std::string path_failure;       ///< why there are none although there is a target; empty: none
   std::string b_failure;          ///< why there is no B although settings are kept; empty: none
-  bool checked = false;           ///< these answers were shown before, without their errors
-  std::uint64_t version = 0;      ///< another one with every change
+  bool checked = false;           ///< true if these answers were shown before, without their errors
+  std::uint64_t version = 0;      ///< incremented with every change
 };
 
 /// The t that a time step means on a mesh, model units squared. Precondition: it has one component;

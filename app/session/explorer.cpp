@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <new>
 #include <set>
 
@@ -108,34 +109,35 @@ CheckSettings check_settings(const ExploreRequest& request, const Answer& answer
 
 }  // namespace
 
-/// All entries as one set, and the places of each. A curve, which is a walk over the mesh, is not
-/// placed anew where the last request had it as well.
+/// All entries as one set, and the places of each. What the last request had as well is not placed
+/// anew: a curve is a walk over the mesh, a point in space a search over all faces.
 Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
                                                          Explored& explored) {
   const TriangleMesh& mesh = *model_->model.mesh;
-  std::vector<PlacedCurve> curves;
+  std::vector<Placed> placed;
   SetUnion all;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < request.sources.size(); ++i) {
     const SourceSpec& source = request.sources[i];
-    const auto last = std::ranges::find(curves_, source, &PlacedCurve::curve);
-    ResolvedSources placed;
-    if (last != curves_.end()) {
-      placed = last->placed;
+    const bool same_place = i < placed_.size() && placed_[i].source == source;
+    const auto known = same_place ? placed_.begin() + static_cast<std::ptrdiff_t>(i)
+                                  : std::ranges::find(placed_, source, &Placed::source);
+    if (known != placed_.end()) {
+      placed.push_back(*known);
     } else {
       const Source named{source, source_name(source), ErrorCode::kBadInput};
-      auto resolved = resolve_sources({&named, 1}, mesh);
-      if (!resolved) return resolved.error();
-      placed = *std::move(resolved);
+      auto places = resolve_sources({&named, 1}, mesh);
+      if (!places) return places.error();
+      placed.push_back({source, *std::move(places)});
     }
-    for (const std::string& warning : placed.warnings) {
+    const ResolvedSources& places = placed.back().places;
+    for (const std::string& warning : places.warnings) {
       if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
-    add_places(placed, static_cast<int>(i), mesh, explored.places);
-    all.add(placed.set);
-    if (std::holds_alternative<VertexCurve>(source)) curves.push_back({source, std::move(placed)});
+    add_places(places, static_cast<int>(i), mesh, explored.places);
+    all.add(places.set);
   }
-  curves_ = std::move(curves);
+  placed_ = std::move(placed);
   explored.set = all.take();
   return warnings;
 }
@@ -150,7 +152,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!loaded) return loaded.error();
   // What belonged to the old model goes before the new one needs the room.
   solver_.reset();
-  curves_.clear();
+  placed_.clear();
   model_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
@@ -196,7 +198,7 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& req
   return std::make_shared<const Answer>(*std::move(answer));
 }
 
-/// Paths that cannot be found are a matter of their own: the distances are good all the same.
+/// If no path is found, the distances are still shown.
 Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explored,
                                   const Progress& progress) {
   const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
@@ -239,7 +241,9 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();
   const ResolvedSources sources{explored.set, *std::move(warnings)};
-  solver_->keep_methods(request.kept ? 2 : 1);
+  std::vector<MethodOptions> wanted = {request.options};
+  if (request.kept) wanted.push_back(*request.kept);
+  solver_->want_methods(std::move(wanted));
   auto a = answer(request, request.options, sources, false, progress);
   if (!a) return a.error();
   explored.a = *std::move(a);
@@ -256,6 +260,7 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
       explored.difference = difference_of(*explored.a, *explored.b);
     }
   }
+  solver_->drop_unwanted();
   if (auto done = check_afterwards(request, explored, progress, early); !done) return done.error();
   return explored;
 } catch (const std::bad_alloc&) {

@@ -17,7 +17,7 @@ namespace geotherm::app {
 struct ExploreRequest {
   std::string model;
   ModelReading reading;
-  std::uint64_t opening = 0;  ///< another number: the model is read anew
+  std::uint64_t opening = 0;  ///< another number forces the model to be read again
   std::vector<SourceSpec> sources;
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
@@ -43,7 +43,7 @@ struct ExploreRequest {
 /// a time.
 class Explorer {
  public:
-  /// What is there before the whole is: the model alone, or answers before they are checked.
+  /// Receives partial results: the model before it is solved on, answers before they are checked.
   using Early = std::function<void(Explored)>;
 
   /// Errors: those of load_model, resolve_sources and ModelSolver; kCancelled.
@@ -67,11 +67,11 @@ class Explorer {
   ModelReading reading_;
   std::uint64_t opening_ = 0;
   std::optional<ModelSolver> solver_;  ///< of the model
-  struct PlacedCurve {
-    SourceSpec curve;
-    ResolvedSources placed;
+  struct Placed {
+    SourceSpec source;
+    ResolvedSources places;
   };
-  std::vector<PlacedCurve> curves_;  ///< of the last request
+  std::vector<Placed> placed_;  ///< entries of the last request, in their order
 };
 
 }  // namespace geotherm::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The settings of models, methods and checks.
+// The table of settings, and its entries for models, methods and checks.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -150,8 +150,8 @@ std::vector<Setting> method_settings() {
       {.name = "method",
        .value_name = "NAME",
        .help = "how distance is computed",
-       .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: the "
-                 "classic; exact: slow, and the truth.",
+       .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
+                 "first order; exact: exact polyhedral distance, the slowest.",
        .get = [](const State& s) { return to_text(s.options.method); },
        .set = [](State& s, const Text& t) { return store(parse_method(t), s.options.method); },
        .values = method_names},

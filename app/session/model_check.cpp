@@ -13,7 +13,7 @@ namespace {
 /// Sources of many that are checked.
 constexpr std::size_t kMaxSampled = 8;
 
-/// Every source set of a few, a few of many, spread over them evenly.
+/// Indices of at most kMaxSampled source sets, evenly spaced.
 std::vector<std::size_t> spread(std::size_t count) {
   const std::size_t taken = std::min(count, kMaxSampled);
   std::vector<std::size_t> numbers;
@@ -26,8 +26,8 @@ std::vector<std::size_t> spread(std::size_t count) {
 bool is_poor(const Answer& answer) { return answer.error->is_poor(); }
 bool is_poor(const CheckedMethod& checked) { return checked.error.report.is_poor(); }
 
-/// What the first method that is not poor gives, else the last one that can answer; none where
-/// there is no better method. `ask`: takes MethodOptions, what its answer is held against and a
+/// Tries better methods in order; returns the first answer that is not poor, else the last; none
+/// where there is no better method. `ask`: takes MethodOptions, the method of the reference and a
 /// progress. Errors: those of the first one, kCancelled.
 template <class Asked, class Ask>
 Result<std::optional<Asked>> ask_better(const MethodOptions& poor, CheckMode mode, Index faces,
@@ -50,7 +50,7 @@ Result<std::optional<Asked>> ask_better(const MethodOptions& poor, CheckMode mod
 
 }  // namespace
 
-/// Better distances than those of `answers`, kept in `reference_`.
+/// Computes reference distances into `reference_`.
 Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers& answers,
                                           const DistanceMethod& beside, const Progress& progress) {
   const std::vector<SourceSet> sets(answers.sources.begin(), answers.sources.end());
@@ -91,8 +91,8 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
   }
 }
 
-/// What is known of an answer is put into it and said. Errors: kNumericalFailure (OnPoor::kFail),
-/// kCancelled.
+/// Searches a remedy, applies OnPoor, and stores the report in the answer. Errors:
+/// kNumericalFailure (OnPoor::kFail), kCancelled.
 Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
                                  const CheckSettings& settings, const Progress& progress) {
   if (!settings.quick) {
@@ -144,7 +144,11 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
   };
   auto better = ask_better<Answer>(answer.options, mode, model_.mesh->face_count(), progress, ask);
   if (!better) return better.error();
-  if (!*better) return {};
+  if (!*better) {
+    describe_mesh(answer);
+    answer.warnings.push_back(accuracy_warning(*answer.error, accuracy_line(*answer.error)));
+    return {};
+  }
   Answer& next = **better;
   describe_mesh(next);
   next.report_ms = answer.report_ms;
@@ -215,10 +219,12 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
   auto better = ask_better<CheckedMethod>(ready.options, settings.mode, faces,
                                           part_of(checking, 0.5, 1.0), ask);
   if (!better) return better.error();
-  if (*better) {
-    (*better)->replaced = std::move(out.error);
-    out = **std::move(better);
+  if (!*better) {
+    out.warnings.push_back(accuracy_warning(out.error.report, line));
+    return out;
   }
+  (*better)->replaced = std::move(out.error);
+  out = **std::move(better);
   out.warnings.push_back(replaced_note(ready.options, out.by.options, line));
   auto still = still_poor_warning(out.error.report, out.by.options, accuracy_line(out.error));
   if (!still.empty()) out.warnings.push_back(std::move(still));

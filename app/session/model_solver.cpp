@@ -22,13 +22,24 @@ void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
 
 ModelSolver::ModelSolver(Model model, Use use) : model_(std::move(model)), use_(use) {}
 
-void ModelSolver::keep_methods(std::size_t count) {
-  kept_methods_ = count;
-  if (ready_.size() > count) ready_.erase(ready_.begin(), ready_.end() - static_cast<int>(count));
+bool ModelSolver::is_wanted(const ReadyMethod& ready) const {
+  return std::ranges::any_of(wanted_, [&ready](const MethodOptions& wanted) {
+    return same_method(wanted, ready.options);
+  });
 }
 
-/// A heat method begins with what `near` has; any other with the model's waves, where more are to
-/// come.
+void ModelSolver::drop_unwanted() {
+  std::erase_if(ready_, [this](const ReadyMethod& ready) { return !is_wanted(ready); });
+}
+
+const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
+  const auto known = std::ranges::find_if(
+      ready_, [&options](const ReadyMethod& ready) { return same_method(ready.options, options); });
+  return known == ready_.end() ? nullptr : &*known;
+}
+
+/// Builds a heat method from the parts of `near`, other methods on the cached wave surface in a
+/// session.
 Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOptions& options,
                                                                 const DistanceMethod* near,
                                                                 const Progress& progress) {
@@ -54,15 +65,12 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
 }
 
 Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Progress& progress) {
-  const auto known = std::ranges::find_if(
-      ready_, [&options](const ReadyMethod& ready) { return same_method(ready.options, options); });
-  if (known != ready_.end()) {
-    std::rotate(known, known + 1, ready_.end());
-    ready_.back().options = options;
-    return ready_.back();
-  }
+  if (const ReadyMethod* const known = find_ready(options)) return *known;
   if (auto pin = check_pin(options.constraint, *model_.mesh); !pin) return pin.error();
-  const ReadyMethod* const near = ready_.empty() ? nullptr : &ready_.front();
+  const ReadyMethod* near = nullptr;
+  for (const ReadyMethod& ready : ready_) {
+    if (near == nullptr || (is_wanted(*near) && !is_wanted(ready))) near = &ready;
+  }
   const Stopwatch watch;
   auto made = make(options, near ? near->method.get() : nullptr, progress);
   if (!made) return about_model(model_.name, made.error());
@@ -71,10 +79,9 @@ Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Pro
     setup.operators = near->setup.operators;
     setup.analyze = near->setup.analyze;
   }
-  ReadyMethod ready{*std::move(made), options, setup, watch.milliseconds()};
-  if (ready_.size() >= kept_methods_) ready_.erase(ready_.begin());
-  ready_.push_back(ready);
-  return ready;
+  drop_unwanted();
+  ready_.push_back({*std::move(made), options, setup, watch.milliseconds()});
+  return ready_.back();
 }
 
 Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources,
@@ -98,14 +105,14 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
   return std::move(result->nearest_source);
 }
 
-/// The answer, and nothing about the mesh and the error yet.
+/// Solves and fills the answer, except for mesh summary and error.
 Result<Answer> ModelSolver::distances(const MethodOptions& options, const ResolvedSources& sources,
                                       const QueryOptions& query, const Progress& progress) {
-  constexpr double kQueryFrom = 0.9;
-  auto ready = prepare(options, part_of(progress, 0.0, kQueryFrom));
+  const double set_up = find_ready(options) ? 0.0 : 0.9;  // share of the progress
+  auto ready = prepare(options, part_of(progress, 0.0, set_up));
   if (!ready) return ready.error();
-  if (!report(progress, "solve", kQueryFrom)) return cancelled_error();
-  auto result = ready->method->solve(sources.set, query, part_of(progress, kQueryFrom, 1.0));
+  if (!report(progress, "solve", set_up)) return cancelled_error();
+  auto result = ready->method->solve(sources.set, query, part_of(progress, set_up, 1.0));
   if (!result) return about_model(model_.name, result.error());
   Answer answer;
   answer.model = model_;
@@ -150,7 +157,8 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
         if (!checks) return;
         const MethodKind kind = answer->method->kind();
         report = hold(checked_answers(*answer),
-                      reference_in(wanted.check.mode, kind, model_.mesh->face_count()),
+                      wanted.check.against.value_or(
+                          reference_in(wanted.check.mode, kind, model_.mesh->face_count())),
                       wanted.check.mode, *answer->method, with_prefix(checking, "checking: "));
       },
       [&] {

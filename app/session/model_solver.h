@@ -35,27 +35,31 @@ struct ReadyMethod {
 struct CheckedMethod {
   ReadyMethod by;                       ///< what answers: the one asked for, or a better one
   SampleCheck error;                    ///< of `by`
-  std::optional<SampleCheck> replaced;  ///< of the poor method that `by` stands for
+  std::optional<SampleCheck> replaced;  ///< the check of the poor method that `by` replaced
   std::vector<std::string> warnings;
 };
 
-/// Answers questions about one model. Every command and the viewer ask here. It keeps what the next
-/// question can use: factors, what waves walk over, the last distances that others were held
-/// against. For one thread at a time.
+/// Answers questions about one model. Every command and the viewer ask here. It keeps what later
+/// questions can use: factors, the wave surface, the last reference. What is done beside it (rows
+/// in a stream, samples, paths, timed queries) asks the methods that prepare() returns. For one
+/// thread at a time.
 class ModelSolver {
  public:
   enum class Use {
-    kOneAnswer,  ///< references walk over the triangulation of the method that is checked
-    kSession,    ///< many answers: they have one of their own, which outlives a change of settings
+    kOneAnswer,  ///< a reference reuses the triangulation of the checked method
+    kSession,    ///< references have a triangulation of their own, kept when settings change
   };
   explicit ModelSolver(Model model, Use use = Use::kOneAnswer);
 
   const Model& model() const { return model_; }
-  /// Spares solve() the work.
+  /// Sets the mesh summary, so that solve() does not compute it.
   void set_summary(const MeshSummary& mesh) { summary_ = mesh; }
-  /// How many heat methods stay beside each other, 1 or 2. A new one begins with what the one that
-  /// it replaces has.
-  void keep_methods(std::size_t count);
+  /// Options of the methods that will be asked for again: they stay when another one is made. A new
+  /// method reuses parts of one that is not among them, if there is one. Without this call the last
+  /// one stays.
+  void want_methods(std::vector<MethodOptions> wanted) { wanted_ = std::move(wanted); }
+  /// Frees the methods that are not wanted any more.
+  void drop_unwanted();
 
   /// Errors: kBadInput (the pinned vertex is not on the mesh), kBadFile (what the library finds
   /// wrong with it), those of build_method().
@@ -90,6 +94,8 @@ class ModelSolver {
   Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,
                                                      const DistanceMethod* near,
                                                      const Progress& progress);
+  bool is_wanted(const ReadyMethod& ready) const;
+  const ReadyMethod* find_ready(const MethodOptions& options) const;
   Result<Answer> distances(const MethodOptions& options, const ResolvedSources& sources,
                            const QueryOptions& query, const Progress& progress);
   void describe_mesh(Answer& answer) const;
@@ -107,8 +113,8 @@ class ModelSolver {
   Model model_;
   Use use_;
   std::optional<MeshSummary> summary_;
-  std::size_t kept_methods_ = 1;
-  std::vector<ReadyMethod> ready_;            ///< the one asked for last at the end
+  std::vector<MethodOptions> wanted_;
+  std::vector<ReadyMethod> ready_;            ///< the last one made at the end
   std::shared_ptr<const WaveSurface> waves_;  ///< of the mesh; null: not needed so far
   struct OnWaves {
     std::shared_ptr<const DistanceMethod> method;

@@ -41,7 +41,7 @@ Result<void> set_pan(State& s, const Text& text) {
   return {};
 }
 
-/// Which maps there are is known to whoever draws; here it is a name.
+/// The renderer knows the names of the maps; any name is accepted here.
 Result<void> set_colour_map(State& s, const Text& text) {
   const bool is_name = !text.empty() && std::ranges::all_of(text, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';

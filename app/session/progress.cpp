@@ -77,7 +77,7 @@ namespace {
 
 /// Work that ends sooner needs no word.
 constexpr double kWorthAWord = 1;  // seconds
-/// What is shorter tells little about the rest.
+/// Shorter parts do not predict the remaining time.
 constexpr double kMeasured = 0.1;  // seconds
 
 /// Holds the speed of all parts but the first, which does what is done once, too.

@@ -11,7 +11,7 @@
 // What long work says before and while it runs: how much it will write, need and take.
 namespace geotherm::app {
 
-/// Shows one sentence at once, beside the progress bar; empty: nobody wants to know.
+/// Shows one sentence at once, beside the progress bar. An empty function: announcements are off.
 using Announce = std::function<void(const std::string&)>;
 
 /// A bar on standard error, drawn over itself at most ten times a second and removed when it goes.

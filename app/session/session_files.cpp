@@ -62,6 +62,9 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
   const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
   std::vector<Index> nearest;
   if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
+    nearest = answer->result.nearest_source;
+  }
+  if (holds_mesh(save.path) && source_groups(explored.set).count > 1 && nearest.empty()) {
     ModelSolver solver(explored.model->model);
     auto found =
         solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);

@@ -169,7 +169,7 @@ bool Session::State::close_opening() {
 void Session::State::take_answer(const ExploreRequest& request, Result<Explored> answer) {
   const bool is_last = requested && requested->covers(request) && request.covers(*requested);
   if (!answer) {
-    if (!is_last) return;  // replaced, or the failure of what nobody wants any more
+    if (!is_last) return;  // the request was superseded; its failure is not reported
     const bool said = answer.error().code == ErrorCode::kCancelled && !failure.empty();
     if (!said) say_failure(answer.error());
     if (close_opening() && explored.model) refresh();

@@ -47,9 +47,9 @@ class BitCounts {
 
 /// With direct solvers some 50 million edges at t = h^2: more than fit in memory.
 constexpr int kMaxLevels = std::numeric_limits<HeatField::Level>::max();
-/// Minimum rows per thread: some 0.1 ms of asking.
+/// Minimum rows per thread, about 0.1 ms of work.
 constexpr std::int64_t kRowsOfThread = 1000;
-/// Ranges of faces that are.
+/// Minimum ranges of faces per thread.
 constexpr std::int64_t kRangesOfThread = 4;
 /// Faces of which is asked together whether they are all far or all near.
 constexpr Index kFacesAtOnce = 8;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of HeatMethod that go on with another backend where one fails.
+// HeatMethod as its users call it: build(), with(), solve_each(), each with the next backend where
+// one fails.
 #include <chrono>
 #include <new>
 #include <thread>

@@ -17,7 +17,7 @@
 namespace geotherm {
 namespace {
 
-/// The share of set-up that has no numbers to factorise.
+/// Share of set-up before the factorisation.
 constexpr double kSurfaceShare = 0.5;
 
 }  // namespace

@@ -93,7 +93,7 @@ int setup_threads(const HeatOptions& options, const TriangleMesh& mesh);
 /// Checks what can be checked without a mesh. Error kBadInput.
 Result<void> check_options(const HeatOptions& options);
 
-/// For what std::bad_alloc ends: nothing lets it out.
+/// The error that is returned for std::bad_alloc, which no function of the library lets out.
 Error out_of_memory_error(const std::string& stage, Index faces, const std::string& backend);
 
 }  // namespace geotherm

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sources held at their distances through the one pinned factor: phi = z + G_S lambda + c 1 on each
+// The Poisson step under every constraint mode. Sources are held at their distances through the one
+// pinned factor: phi = z + G_S lambda + c 1 on each
 // component, z the pinned solution and G the pinned inverse. phi = g on the anchors and
 // 1' lambda = 0 (so that the right side stays consistent) make a small dense system for lambda and
 // c.

@@ -49,7 +49,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
   return groups;
 }
 
-/// Rows that every source set finds at 0, but for its own.
+/// Rows that are held at 0 for every source set, except its own sources.
 std::span<const char> held_at_zero(const QueryPipeline& p) {
   if (p.options.boundary != BoundaryRule::kDirichlet) return {};
   return p.surface.on_boundary;
@@ -118,7 +118,7 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
-/// None where the published method is asked for, or a mode that is there to be studied. Errors:
+/// Near fields of all sets; none in the variant classic and in the penalty mode. Errors:
 /// those of find_near_field().
 Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
                                                          const std::vector<SourceAnchors>& anchors,

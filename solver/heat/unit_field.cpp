@@ -27,7 +27,7 @@ constexpr double kLong = 0.35;
 /// and no longer. Measured against exact distances on stretched planes and strips.
 constexpr double kNarrow = 2.5, kWide = 5;
 
-/// Rows whose logarithms are taken before they are looked at.
+/// Rows of a batch of logarithms.
 constexpr std::int64_t kRowsOfPiece = 1024;
 /// Minimum ranges of faces per thread, with one column.
 constexpr std::int64_t kRanges = 2;

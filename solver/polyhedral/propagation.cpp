@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One window through one face.
+// Windows from their seeds over the surface: one window through one face, and the order of all.
 #include "solver/polyhedral/propagation.h"
 
 #include <algorithm>

@@ -47,12 +47,11 @@ const std::vector<Permission>& permissions() {
   const Names method =
       with(geometry, {"solver/method", "geotherm/distance_method.h", "geotherm/many.h"});
   const Names path = with(method, {"solver/path", "geotherm/path.h", "geotherm/isolines.h"});
-  const Names wave =
-      with(method, {"solver/wave", "solver/accuracy/distance_bounds.h",
+  const Names polyhedral =
+      with(method, {"solver/polyhedral", "solver/accuracy/distance_bounds.h",
                     "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
-  const Names exact = with(wave, {"solver/exact"});
-  const Names heat = with(
-      wave, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h", "geotherm/options.h"});
+  const Names heat = with(polyhedral, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h",
+                                       "geotherm/options.h"});
   static const std::vector<Permission> kPermissions = {
       {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
       {"solver/core", base, {"std", "eigen"}, {"posix"}},
@@ -61,8 +60,7 @@ const std::vector<Permission>& permissions() {
       {"solver/geometry", geometry, {"std", "eigen"}, {}},
       {"solver/method", method, {"std", "eigen"}, {}},
       {"solver/path", path, {"std", "eigen"}, {}},
-      {"solver/wave", wave, {"std", "eigen"}, {}},
-      {"solver/exact", exact, {"std", "eigen"}, {}},
+      {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
       {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
       {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
@@ -78,7 +76,18 @@ const std::vector<Permission>& permissions() {
        {"app", "solver", "geotherm", "bench/models"},
        {"std", "cli11"},
        {}},
-      {"app", {"app", "solver", "geotherm"}, {"std", "cli11", "json", "eigen"}, {"posix", "png"}},
+      {"app/session",
+       {"app/session", "app/picture", "solver", "geotherm"},
+       {"std", "json", "eigen"},
+       {"posix"}},
+      {"app/picture",
+       {"app/session", "app/picture", "solver", "geotherm"},
+       {"std", "json", "eigen"},
+       {"png"}},
+      {"app/cli",
+       {"app/session", "app/picture", "app/cli", "solver", "geotherm"},
+       {"std", "cli11", "json", "eigen"},
+       {"posix"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
       {"bench/models", with(mesh, {"bench/models"}), {"std", "eigen"}, {}},
       {"bench", {"solver", "geotherm", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
