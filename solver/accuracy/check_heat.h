@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include "geotherm/distance_method.h"
 #include "geotherm/error.h"
 #include "geotherm/options.h"

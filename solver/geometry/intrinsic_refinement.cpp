@@ -35,7 +35,7 @@ constexpr double kOnEdge = 1e-3;
 constexpr double kObtuse = -0.1;
 /// Border edges shorter than this share of sqrt(t) are left as they are: what is wrong there is
 /// wrong within that length.
-constexpr double kShortest = 0.02;
+constexpr double kShortestSplit = 0.02;
 
 double longest_squared(const std::array<double, 3>& l) {
   const double longest = std::max({l[0], l[1], l[2]});
@@ -246,7 +246,7 @@ class Refiner {
   /// Sizes that differ by rounding are one, so that a scaled mesh is refined in the same order.
   static double rounded(double size) { return std::round(size * (1 << 20)); }
   bool is_short(Side side) const {
-    return mesh_.lengths[face_of(side)][corner_of(side)] < kShortest * root_t(face_of(side));
+    return mesh_.lengths[face_of(side)][corner_of(side)] < kShortestSplit * root_t(face_of(side));
   }
   bool may_insert() {
     out_.complete = out_.complete && out_.points < most_;

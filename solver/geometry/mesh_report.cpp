@@ -24,7 +24,7 @@ MeshSummary summarize_clean_faces(const TriangleMesh& mesh, const CleanFaces& cl
 namespace {
 
 /// Height over longest side below which a face has no usable area.
-inline constexpr double kFlat = 1e-10;
+inline constexpr double kFlatFace = 1e-10;
 
 /// A triangle by its sides over the longest of them, which is 0 where all corners are one point.
 struct Shape {
@@ -44,7 +44,7 @@ struct Shape {
   }
 
   double area() const { return 0.5 * doubled * longest * longest; }  ///< model units squared
-  bool is_flat() const { return doubled < kFlat; }
+  bool is_flat() const { return doubled < kFlatFace; }
   double quality() const { return 2 * std::numbers::sqrt3 * doubled / squares; }
 };
 
@@ -81,7 +81,7 @@ void add_face(const std::array<Vec3, 3>& corners, AreaSum& sum) {
   if (square > kSafeLow && square < kSafeHigh) {
     const double doubled = side[0].cross(side[1]).norm();
     sum.area += 0.5 * doubled;
-    sum.flat += doubled < kFlat * square;
+    sum.flat += doubled < kFlatFace * square;
     return;
   }
   const Shape shape(corners);

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kCgName = "cg";
 
 /// Relative residual, in the norm of the diagonal preconditioner, at which a column is solved.
-constexpr double kTolerance = 1e-13;
+constexpr double kCgTolerance = 1e-13;
 /// Iterations allowed: conjugate gradients need about the square root of the condition number,
 /// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
 constexpr double kBudgetPerRoot = 20;
@@ -36,7 +36,7 @@ void project(const Kernel& kernel, std::span<double> x) {
 
 /// The decades that the residual has fallen by, out of those that it has to; squares of norms.
 double share_done(double fallen_to) {
-  const double share = std::log(fallen_to) / std::log(kTolerance * kTolerance);
+  const double share = std::log(fallen_to) / std::log(kCgTolerance * kCgTolerance);
   return share > 0 ? std::min(share, 1.0) : 0.0;  // 0 for what is no number
 }
 
@@ -87,7 +87,8 @@ class ConjugateGradient final : public Factorization {
         kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
     const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / n);
     SolveReport report;
-    while (!(rho <= kTolerance * kTolerance * start)) {  // goes on, to an error, where rho is NaN
+    while (
+        !(rho <= kCgTolerance * kCgTolerance * start)) {  // goes on, to an error, where rho is NaN
       if (report.iterations % between_calls == 0 &&
           !geotherm::report(progress, "solve", share_done(rho / start))) {
         return cancelled_error();

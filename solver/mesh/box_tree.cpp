@@ -7,8 +7,8 @@
 namespace geotherm {
 namespace {
 
-constexpr int kBins = 16;
-constexpr std::size_t kLeaf = 4;            // most items of a leaf
+constexpr int kSplitBins = 16;
+constexpr std::size_t kBoxLeaf = 4;         // most items of a leaf
 constexpr float kStepCost = 1.0F;           // of a node, in tests of an item
 constexpr float kMinLength = 1e-30F;        // of centres that bins can tell apart
 constexpr int kHalvesFrom = 40;             // depth; 2^31 items have at most 31 levels of halves
@@ -52,10 +52,10 @@ struct Bins {
       axis = k;
     }
     low = centres.low[axis];
-    scale = length > kMinLength ? kBins * (1 - 1e-5F) / length : 0.0F;
+    scale = length > kMinLength ? kSplitBins * (1 - 1e-5F) / length : 0.0F;
   }
   int of(const FloatBox& box) const {
-    return std::clamp(static_cast<int>((centre(box, axis) - low) * scale), 0, kBins - 1);
+    return std::clamp(static_cast<int>((centre(box, axis) - low) * scale), 0, kSplitBins - 1);
   }
 };
 
@@ -65,17 +65,17 @@ struct Cut {
 };
 
 Cut best_cut(std::span<const BoxItem> items, const Bins& bins) {
-  std::array<FloatBox, kBins> boxes;
-  std::array<std::size_t, kBins> counts{};
+  std::array<FloatBox, kSplitBins> boxes;
+  std::array<std::size_t, kSplitBins> counts{};
   for (const BoxItem& item : items) {
     const auto bin = static_cast<std::size_t>(bins.of(item.box));
     boxes[bin].add(item.box);
     ++counts[bin];
   }
-  std::array<float, kBins> left_cost{};
+  std::array<float, kSplitBins> left_cost{};
   FloatBox box;
   std::size_t count = 0;
-  for (std::size_t b = 1; b < kBins; ++b) {
+  for (std::size_t b = 1; b < kSplitBins; ++b) {
     box.add(boxes[b - 1]);
     count += counts[b - 1];
     left_cost[b] = area(box) * static_cast<float>(count);
@@ -83,7 +83,7 @@ Cut best_cut(std::span<const BoxItem> items, const Bins& bins) {
   Cut best;
   box = {};
   count = 0;
-  for (std::size_t b = kBins - 1; b > 0; --b) {
+  for (std::size_t b = kSplitBins - 1; b > 0; --b) {
     box.add(boxes[b]);
     count += counts[b];
     if (count == 0 || count == items.size()) continue;
@@ -98,7 +98,7 @@ std::size_t split(std::span<BoxItem> items, const Extent& extent, int depth) {
   if (items.size() <= 1) return 0;
   const Bins bins(extent.centres);
   const Cut cut = depth < kHalvesFrom && bins.scale > 0 ? best_cut(items, bins) : Cut{};
-  if (items.size() <= kLeaf) {
+  if (items.size() <= kBoxLeaf) {
     const float whole = area(extent.boxes);
     const float as_leaf = whole * static_cast<float>(items.size());
     if (!(cut.cost + kStepCost * whole < as_leaf)) return 0;

@@ -22,7 +22,7 @@ constexpr int kMaxPoints = 15000;
 constexpr int kMinOnEdge = 5, kMaxOnEdge = 12;
 
 /// Points of an edge at which the distances are estimated.
-constexpr int kSamples = 5;
+constexpr int kEdgeSamples = 5;
 
 /// Edges take part up to this share beyond the length at hand. Values between the vertices are
 /// worst where one of these lies in the shadow of a saddle, by a good part of the edge.
@@ -91,8 +91,8 @@ void CrossingGraph::choose_edges(const GeodesicEnds& ends) {
     const double c = ends.to_distances[low] / unit, d = ends.to_distances[high] / unit;
     double least = std::min(a + c, b + d);
     if (!all && least - 2 * edge > longest_) continue;
-    for (int i = 1; i <= kSamples && edge > 0; ++i) {
-      const double share = i / (kSamples + 1.0);
+    for (int i = 1; i <= kEdgeSamples && edge > 0; ++i) {
+      const double share = i / (kEdgeSamples + 1.0);
       least = std::min(least, between(a, b, edge, share) + between(c, d, edge, share));
     }
     if (all || least <= longest_) chosen.emplace_back(least, e);

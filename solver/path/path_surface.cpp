@@ -13,7 +13,7 @@ namespace geotherm {
 namespace {
 
 /// Weights may be below 0, and their sum off 1, by what nine typed digits give.
-constexpr double kWeightSum = 1e-6;
+constexpr double kWeightSumTolerance = 1e-6;
 
 struct Frame {
   Vec3 middle = Vec3::Zero();
@@ -152,7 +152,8 @@ Result<SurfacePoint> PathSurface::into(const SurfacePoint& point) const {
     return out_of_range("face", point.face, mesh_->face_count());
   }
   const auto& [a, b, c] = point.weights;
-  if (!(std::min({a, b, c}) >= -kWeightSum && std::abs(a + b + c - 1) <= kWeightSum)) {
+  if (!(std::min({a, b, c}) >= -kWeightSumTolerance &&
+        std::abs(a + b + c - 1) <= kWeightSumTolerance)) {
     return Error{ErrorCode::kBadInput,
                  "the weights " + number_text(a) + ", " + number_text(b) + ", " + number_text(c) +
                      " are no point of a face",

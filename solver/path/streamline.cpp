@@ -11,7 +11,7 @@ namespace geotherm {
 namespace {
 
 /// Least height of a face, as a share of its longest side, that has a gradient.
-constexpr double kFlat = 1e-14;
+constexpr double kFlatField = 1e-14;
 
 /// Finds the steepest descent around one point.
 class Choice {
@@ -83,7 +83,7 @@ class Choice {
                                       surface_.position(face[1]) - surface_.position(face[0])};
     const double area2 = side[0].cross(side[1]).norm();
     const double longest = std::max({side[0].norm(), side[1].norm(), side[2].norm()});
-    if (!(area2 > kFlat * longest * longest)) return {};
+    if (!(area2 > kFlatField * longest * longest)) return {};
     // The gradient, turned by a right angle, times twice the area. Sides add up to 0, so that any
     // height may be taken for 0.
     const Vec3 turned = (height(face[1]) - height(face[0])) * side[1] +

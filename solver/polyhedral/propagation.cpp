@@ -14,10 +14,10 @@ namespace geotherm {
 namespace {
 
 /// A bucket of the queue, in mean edges.
-constexpr double kBucketWidth = 0.25;
+constexpr double kWindowBucketWidth = 0.25;
 /// Faces with a height or a side below this, in mean edges, are crossed several times while the
 /// windows of one bucket are followed: there these must be in order.
-constexpr double kFine = 0.25 * kBucketWidth;
+constexpr double kFine = 0.25 * kWindowBucketWidth;
 
 /// The cost of a window, in comparisons of two windows at an edge with many faces.
 constexpr std::int64_t kWindowWork = 16;
@@ -44,7 +44,7 @@ double part_of_length(double length, double share, double whole) {
 Propagation::Propagation(const WindowMesh& mesh, std::size_t most_bytes)
     : mesh_(mesh),
       most_bytes_(most_bytes),
-      queue_(kBucketWidth),
+      queue_(kWindowBucketWidth),
       vertices_(static_cast<std::size_t>(mesh.vertex_count())),
       leaders_(static_cast<std::size_t>(mesh.side_count())),
       waiting_(leaders_.size(), nullptr),

@@ -9,7 +9,7 @@ namespace geotherm {
 namespace {
 
 /// Windows narrower than this, relative to the side, are round-off and covered by their neighbours.
-constexpr double kNarrow = 1e-14;
+constexpr double kNarrowWindow = 1e-14;
 
 /// Where on the side the window's distance is that from the origin. The difference of the two
 /// falls, so that there is one root.
@@ -86,7 +86,7 @@ bool trim_by_ends(Window& w, double length, double at_origin, double at_length) 
     const double root = length - tie_with_origin(mirrored, at_length) + margin;
     if (root < w.end) w.end = std::max(root, w.begin);
   }
-  return w.end - w.begin > kNarrow * length;
+  return w.end - w.begin > kNarrowWindow * length;
 }
 
 bool yield_to_leader(Window& w, double length, double apex_x, double apex_y, Leader& leader,

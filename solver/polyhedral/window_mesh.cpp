@@ -11,7 +11,7 @@ namespace {
 
 /// Angles up to this much above that of a plane count as flat: a shadow so narrow is lit from its
 /// boundaries with an error of its square.
-constexpr double kFlat = 1e-9;
+constexpr double kFlatVertex = 1e-9;
 
 /// Two sides of an edge that are twins run opposite ways, also where both ends are one vertex; all
 /// others are edges of the mesh itself, whose ends differ.
@@ -107,7 +107,7 @@ void WindowMesh::find_bends() {
     if (frame.across == kBoundary) straight[v] = straight[w] = std::numbers::pi;
   }
   for (std::size_t v = 0; v < vertices; ++v) {
-    if (angle[v] > straight[v] * (1 + kFlat)) sends_[v] = 1;
+    if (angle[v] > straight[v] * (1 + kFlatVertex)) sends_[v] = 1;
   }
 }
 

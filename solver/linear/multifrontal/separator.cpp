@@ -137,12 +137,12 @@ namespace {
 /// The number of planes whose separators are refined; the best of these is taken. By measurement a
 /// third gains less than its time costs, and so does a second in parts of few vertices.
 constexpr int kCandidates = 2;
-constexpr Index kFew = 300;
+constexpr Index kFewRows = 300;
 /// The maximum number of passes of moves; a pass without gain ends them earlier.
 constexpr int kPasses = 2;
 
 /// Parts of fewer vertices are cut by one thread.
-constexpr Index kMinVerticesForThreads = 20'000;
+constexpr Index kMinSeparatorVerticesForThreads = 20'000;
 
 bool touches(const GraphPart& part, const std::vector<std::int8_t>& half, Index i, int other) {
   for (Index k = part.start[i]; k < part.start[i + 1]; ++k) {
@@ -225,11 +225,11 @@ void drop_unneeded(const GraphPart& part, Separator& s) {
 }  // namespace
 
 Separator find_separator(const GraphPart& part, int threads) {
-  const int most = part.size() < kFew ? 1 : kCandidates;
+  const int most = part.size() < kFewRows ? 1 : kCandidates;
   std::vector<Separator> candidates = plane_cuts(part, most, threads);
   if (candidates.empty()) candidates.push_back(layer_cut(part));
-  parallel_for(part.size() > kMinVerticesForThreads ? threads : 1, std::ssize(candidates), 1,
-               [&](std::int64_t begin, std::int64_t end) {
+  parallel_for(part.size() > kMinSeparatorVerticesForThreads ? threads : 1, std::ssize(candidates),
+               1, [&](std::int64_t begin, std::int64_t end) {
                  for (; begin < end; ++begin) {
                    refine(part, candidates[static_cast<std::size_t>(begin)]);
                  }
