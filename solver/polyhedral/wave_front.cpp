@@ -10,7 +10,7 @@ namespace {
 
 /// Bucket numbers are capped at this, since offsets can be of any size.
 constexpr double kLast = 1e18;
-constexpr std::int64_t kMinWaveTime = 64;
+constexpr std::int64_t kMinBuckets = 64;
 
 /// A bucket's width in mean sides, and what the ring spans in longest sides: a wave never puts an
 /// edge further ahead.
@@ -27,7 +27,7 @@ using Point2 = Eigen::Vector2d;
 }  // namespace
 
 BucketRing::BucketRing(double width, double span) : per_length_(1 / width) {
-  std::int64_t count = kMinWaveTime;
+  std::int64_t count = kMinBuckets;
   while (count < kMax && static_cast<double>(count) * width < span) count *= 2;
   buckets_.resize(static_cast<std::size_t>(count));
   storage_.resize(buckets_.size());

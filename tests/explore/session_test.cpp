@@ -131,6 +131,20 @@ TEST_F(SessionTest, SettingsAloneFactorWhatTheyMustAndNoMore) {
   EXPECT_EQ(session.explored().a->setup.operators, operators);
 }
 
+TEST_F(SessionTest, MethodsThatAreStillAskedForAreNotMadeAnew) {
+  run({"open " + small_model(), "source set 5", "keep", "time-factor 2"});
+  const auto a = session.explored().a->method, b = session.explored().b->method;
+  EXPECT_NE(a, b);
+  run({"source set 6"});
+  EXPECT_EQ(session.explored().a->method, a);
+  EXPECT_EQ(session.explored().b->method, b);
+  run({"swap"});
+  EXPECT_EQ(session.explored().a->method, b);
+  EXPECT_EQ(session.explored().b->method, a);
+  run({"forget"});
+  EXPECT_EQ(session.explored().a->method, b);
+}
+
 TEST_F(SessionTest, UndoTakesBackADragAsAWhole) {
   run({"open " + small_model(), "source set 5 9", "source move 0 6", "source move 0 7",
        "source move 0 8", "undo"});
