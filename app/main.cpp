@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "app/cli/command_line.h"
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "solver/mesh/output_file.h"
 
 namespace {

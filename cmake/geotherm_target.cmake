@@ -58,6 +58,11 @@ function(geotherm_compile_together name)
   endif()
   if(GEOTHERM_PCH)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${count})
+    # A class of one source may hold what is in an anonymous namespace; the compiler takes the source
+    # for a header.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${name} PRIVATE -Wno-subobject-linkage)
+    endif()
   endif()
 endfunction()
 

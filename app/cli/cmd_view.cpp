@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/commands.h"
-#include "app/cli/drawing.h"
 #include "app/cli/picture_report.h"
+#include "app/picture/drawing.h"
 #include "app/picture/png_file.h"
 #include "app/session/command.h"
 #include "app/session/compare.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/png_file.h"
 #include "app/session/report.h"

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/drawing.h"
 #include "app/drawing/picture_scene.h"
+#include "app/picture/drawing.h"
 #include "app/picture/picture_settings.h"
 #include "engine/device.h"
 #include "engine/renderer.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "geotherm/error.h"
 
 namespace geotherm::app {

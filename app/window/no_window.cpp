@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In builds without the viewer, instead of the real one.
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "app/session/session.h"
 #include "engine/overlay/overlay.h"
 #include "engine/renderer.h"

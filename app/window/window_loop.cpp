@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/drawing.h"
 #include "app/cli/picture_report.h"
+#include "app/picture/drawing.h"
 #include "app/session/machine.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"

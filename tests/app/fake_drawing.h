@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/drawing.h"
+#include "app/picture/drawing.h"
 #include "app/picture/picture_settings.h"
 
 namespace geotherm::test {
