@@ -24,7 +24,7 @@ constexpr TimeRule kRules[] = {TimeRule::kMeanEdge, TimeRule::kMeanFaceArea};
 class Sweeper {
  public:
   Sweeper(const Model& model, const StudyTask& task, const std::vector<double>& better)
-      : solver_({.mesh = model.mesh}), sources_{task.sources, {}}, better_(better) {
+      : solver_(unnamed(model)), sources_{task.sources, {}}, better_(better) {
     for (const double e : better) {
       if (std::isfinite(e)) range_ = std::max(range_, e);
     }

@@ -84,7 +84,7 @@ class Runner {
   Answers run(const Model& model, MethodOptions options, CompareRow& row) {
     options.strict = true;  // a row is about its own backend
     reset_peak_rss();
-    ModelSolver solver({.mesh = model.mesh});  // the row names the model
+    ModelSolver solver(unnamed(model));
     const auto ready = solver.prepare(options, progress_);
     if (!ready) {
       fail(row, ready.error());

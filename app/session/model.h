@@ -39,6 +39,12 @@ struct Model {
   std::vector<std::string> notes;  ///< what reading had to do, one sentence each
 };
 
+/// The same model for work whose errors stand beside its name, or in its row.
+inline Model unnamed(Model model) {
+  model.name.clear();
+  return model;
+}
+
 /// `text`: a bundled model's name, kStandardInput, else a path. Errors: kBadInput (a format or a
 /// distance that does not go with the model), kBadFile, kOutOfMemory, kCancelled.
 Result<Model> load_model(const std::string& text, const ModelReading& reading = {},
