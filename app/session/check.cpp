@@ -48,9 +48,10 @@ AccuracyReport unchecked(MethodKind method, CheckMode mode) {
   return unmeasured(method, not_asked(method, mode));
 }
 
-MethodKind reference_in(CheckMode mode, MethodKind checked, Index faces) {
-  return mode == CheckMode::kThorough ? reference_for(checked, faces)
-                                      : usual_reference(checked, faces);
+MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces) {
+  if (settings.against) return *settings.against;
+  return settings.mode == CheckMode::kThorough ? reference_for(checked, faces)
+                                               : usual_reference(checked, faces);
 }
 
 AccuracyReport failed_check(MethodKind method, const Error& error) {
@@ -117,17 +118,18 @@ Result<void> refuse_poor(const AccuracyReport& report, const std::string& line) 
   return Error{ErrorCode::kNumericalFailure, told(report) + "; leave --on-poor fail out"};
 }
 
-std::string replaced_note(const MethodOptions& asked, const MethodOptions& answered,
-                          const std::string& line) {
-  return "the method " + to_text(answered.method) + " answered, for the method " +
-         to_text(asked.method) + " gave poor distances: " + line;
-}
-
-std::string still_poor_warning(const AccuracyReport& report, const MethodOptions& answered,
-                               const std::string& line) {
-  if (!report.is_poor()) return report.failed ? told(report) : std::string();
-  return "the method " + to_text(answered.method) +
-         ", which answered, gave poor distances: " + line;
+std::vector<std::string> replaced_warnings(MethodKind poor, const std::string& poor_line,
+                                           MethodKind by, const AccuracyReport& report,
+                                           const std::string& line) {
+  std::vector<std::string> warnings = {"the method " + to_text(by) + " answered, for the method " +
+                                       to_text(poor) + " gave poor distances: " + poor_line};
+  if (report.is_poor()) {
+    warnings.push_back("the method " + to_text(by) +
+                       ", which answered, gave poor distances: " + line);
+  } else if (report.failed) {
+    warnings.push_back(told(report));
+  }
+  return warnings;
 }
 
 std::string error_title(const AccuracyReport& report) {

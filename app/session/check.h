@@ -38,9 +38,9 @@ struct CheckSettings {
 /// the option that needs it, with its value. Errors: kBadInput.
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
 
-/// The reference method for this mode; the method itself, or none better, where answers are not
-/// checked.
-MethodKind reference_in(CheckMode mode, MethodKind checked, Index faces);
+/// The reference method: the one that was named, else that of the mode; the method itself, or none
+/// better, where answers are not checked.
+MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces);
 
 /// The report on a method that is not held against another one in this mode.
 AccuracyReport unchecked(MethodKind method, CheckMode mode);
@@ -79,13 +79,11 @@ std::string accuracy_warning(const AccuracyReport& report, const std::string& li
 /// For OnPoor::kFail. Errors: kNumericalFailure, where the distances are poor or nobody knows.
 Result<void> refuse_poor(const AccuracyReport& report, const std::string& line);
 
-/// Says that another method answered instead of one that was poor.
-std::string replaced_note(const MethodOptions& asked, const MethodOptions& answered,
-                          const std::string& line);
-
-/// What is to be warned of the answer that replaced another one; empty: nothing.
-std::string still_poor_warning(const AccuracyReport& report, const MethodOptions& answered,
-                               const std::string& line);
+/// Says that `by` answered in place of `poor`, and, where that is so, that `by` is poor as well or
+/// was not checked. Each line is the accuracy_line() of its report.
+std::vector<std::string> replaced_warnings(MethodKind poor, const std::string& poor_line,
+                                           MethodKind by, const AccuracyReport& report,
+                                           const std::string& line);
 
 /// What the values are, over a colour bar: "error against exact".
 std::string error_title(const AccuracyReport& report);

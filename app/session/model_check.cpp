@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a model's solver holds answers against better ones, and what becomes of poor ones.
 #include <algorithm>
+#include <iterator>
 #include <new>
 
 #include "app/session/model_solver.h"
@@ -117,8 +118,7 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
 
 Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
                                 const Progress& progress) {
-  const MethodKind kind = settings.against.value_or(
-      reference_in(settings.mode, answer.method->kind(), model_.mesh->face_count()));
+  const MethodKind kind = reference_in(settings, answer.method->kind(), model_.mesh->face_count());
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
   auto report = hold(checked_answers(answer), kind, settings.mode, *answer.method,
                      part_of(progress, 0.0, 0.6));
@@ -153,10 +153,9 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
   describe_mesh(next);
   next.report_ms = answer.report_ms;
   next.replaced = answer.error;
-  next.warnings.push_back(
-      replaced_note(answer.options, next.options, accuracy_line(*next.replaced)));
-  auto still = still_poor_warning(*next.error, next.options, accuracy_line(*next.error));
-  if (!still.empty()) next.warnings.push_back(std::move(still));
+  std::ranges::copy(replaced_warnings(answer.options.method, accuracy_line(*next.replaced),
+                                      next.options.method, *next.error, accuracy_line(*next.error)),
+                    std::back_inserter(next.warnings));
   answer = std::move(next);
   return {};
 }
@@ -192,7 +191,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     const std::size_t worst = numbers[report->worst_set];
     return SampleCheck{*std::move(report), all.size(), worst};
   };
-  auto check = checked(ready, reference_in(settings.mode, ready.options.method, faces), true,
+  auto check = checked(ready, reference_in(settings, ready.options.method, faces), true,
                        part_of(checking, 0.0, 0.5));
   if (!check) return check.error();
   CheckedMethod out{ready, *std::move(check), {}, {}};
@@ -225,9 +224,8 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
   }
   (*better)->replaced = std::move(out.error);
   out = **std::move(better);
-  out.warnings.push_back(replaced_note(ready.options, out.by.options, line));
-  auto still = still_poor_warning(out.error.report, out.by.options, accuracy_line(out.error));
-  if (!still.empty()) out.warnings.push_back(std::move(still));
+  out.warnings = replaced_warnings(ready.options.method, line, out.by.options.method,
+                                   out.error.report, accuracy_line(out.error));
   return out;
 }
 

@@ -157,8 +157,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
         if (!checks) return;
         const MethodKind kind = answer->method->kind();
         report = hold(checked_answers(*answer),
-                      wanted.check.against.value_or(
-                          reference_in(wanted.check.mode, kind, model_.mesh->face_count())),
+                      reference_in(wanted.check, kind, model_.mesh->face_count()),
                       wanted.check.mode, *answer->method, with_prefix(checking, "checking: "));
       },
       [&] {
@@ -185,10 +184,8 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
 Result<TargetPaths> ModelSolver::paths_to(const SurfacePoint& target, const Answer& answer,
                                           const Progress& progress) {
   if (!paths_ || paths_->method != answer.method) {
-    MethodOptions options;
-    options.method = MethodKind::kWavefront;
-    options.threads = answer.options.threads;
-    auto near_exact = make(options, nullptr, part_of(progress, 0.0, 0.2));
+    auto near_exact = make(better_options(answer.options, MethodKind::kWavefront), nullptr,
+                           part_of(progress, 0.0, 0.2));
     if (!near_exact) return about_model(model_.name, near_exact.error());
     paths_ = Paths{answer.method, std::make_shared<const TargetPathFinder>(
                                       model_.mesh, *std::move(near_exact), answer.method)};

@@ -65,9 +65,9 @@ class ModelSolver {
   /// wrong with it), those of build_method().
   Result<ReadyMethod> prepare(const MethodOptions& options, const Progress& progress = {});
 
-  /// Distances, nearest sources, the check of both: the answer with its warnings, those of the file
-  /// apart. Errors: those of prepare() and of the query, kNumericalFailure (OnPoor::kFail),
-  /// kCancelled.
+  /// Distances, nearest sources, the check: the answer with its warnings, in a session without
+  /// those of the file. Errors: those of prepare() and of the query, kNumericalFailure
+  /// (OnPoor::kFail), kCancelled.
   Result<Answer> solve(const MethodOptions& options, const ResolvedSources& sources,
                        const Wanted& wanted, const Progress& progress = {});
 
@@ -75,8 +75,8 @@ class ModelSolver {
   /// kCancelled; what else fails is in the report.
   Result<void> check(Answer& answer, const CheckSettings& settings, const Progress& progress = {});
 
-  /// prepare(), a check on some of the sets, and what is to be done where the method is poor.
-  /// Precondition: settings.mode is not kNone. Errors: those of solve().
+  /// Checks a method of prepare() on some of the sets, and does what is to be done where it is
+  /// poor. Precondition: settings.mode is not kNone. Errors: those of solve().
   Result<CheckedMethod> check_method(const ReadyMethod& ready, std::span<const SourceSet> sets,
                                      const CheckSettings& settings, const Progress& progress = {});
 

@@ -63,13 +63,13 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
   std::vector<Index> nearest;
   if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
     nearest = answer->result.nearest_source;
-  }
-  if (holds_mesh(save.path) && source_groups(explored.set).count > 1 && nearest.empty()) {
-    ModelSolver solver(explored.model->model);
-    auto found =
-        solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);
-    if (!found) return found.error();
-    nearest = *std::move(found);
+    if (nearest.empty()) {
+      ModelSolver solver(explored.model->model);
+      auto found =
+          solver.nearest_sources(explored.set, answer->result.distances, answer->options.threads);
+      if (!found) return found.error();
+      nearest = *std::move(found);
+    }
   }
   return outputs->write(save.path,
                         [&] { return write_distances(save.path, *mesh, values, nearest); });
