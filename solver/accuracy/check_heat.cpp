@@ -11,7 +11,7 @@
 
 namespace geotherm {
 
-double heat_residual(const FemOperator& matrix, const HeatField& heat, const Block& b,
+double heat_residual(const DomainOperator& matrix, const HeatField& heat, const Block& b,
                      Eigen::Index column) {
   const auto n = static_cast<std::size_t>(matrix.size());
   std::vector<double> u(n), product(n);
@@ -33,34 +33,20 @@ double heat_residual(const FemOperator& matrix, const HeatField& heat, const Blo
   return norm > 0 ? std::sqrt(error / norm) : std::sqrt(error);
 }
 
-double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
+double poisson_residual(const Domain& domain, std::span<const double> phi, const Block& b,
                         Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors,
                         int threads) {
-  std::vector<double> product(phi.size(), 0.0);
-  const auto add_faces = [&](Index first, Index end) {
-    for (Index f = first; f < end; ++f) {
-      const Face& face = mesh.faces[f];
-      const auto g = gradient(mesh.layout[f], phi[face[0]], phi[face[1]], phi[face[2]]);
-      const auto d = divergence(mesh.layout[f], g[0], g[1]);
-      for (int k = 0; k < 3; ++k) product[face[k]] += d[k];
-    }
-  };
-  // Faces of a range meet no rows of another's.
-  parallel_for(threads, std::ssize(mesh.ranges), 1, [&](std::int64_t begin, std::int64_t end) {
-    for (; begin < end; ++begin) {
-      const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
-      add_faces(range.first_face, range.end_face);
-    }
-  });
-  add_faces(mesh.crossing, mesh.face_count());
-  std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
+  std::vector<double> product(phi.size());
+  domain.apply_stiffness(phi, product, threads);
+  const Components& components = domain.parts_of_rows();
+  std::vector<char> holds(static_cast<std::size_t>(components.count), 0);
   for (const Index c : anchors.components) holds[c] = 1;
   double error = 0, norm = 0;
   auto anchor = anchors.anchors.begin();
   for (std::size_t i = 0; i < phi.size(); ++i) {
     const bool here = anchor != anchors.anchors.end() && anchor->row == static_cast<Index>(i);
     if (here) ++anchor;
-    if (!holds[mesh.components.of[i]]) continue;
+    if (!holds[components.of[i]]) continue;
     if (here && skip_anchors) continue;
     const double right = b(static_cast<Eigen::Index>(i), column);
     error += (product[i] - right) * (product[i] - right);
@@ -95,8 +81,8 @@ double length(const std::array<double, 2>& g) {
 
 }  // namespace
 
-FaceCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
-                         const SteepSides& steep, const UnitField& field,
+CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
+                         const SteepSides& steep, const FaceField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
                          int threads, Quality& quality) {
@@ -182,7 +168,7 @@ std::string share(Index count, std::size_t of) {
          " %)";
 }
 
-void add_lost_faces(const HeatOptions& options, const FaceCounts& faces, DistanceResult& result) {
+void add_lost_faces(const HeatOptions& options, const CellCounts& faces, DistanceResult& result) {
   const bool dirichlet = options.boundary == BoundaryRule::kDirichlet;
   const bool mostly_border = dirichlet && faces.without_direction > kBorderShare * faces.in_reach;
   const Index lost = mostly_border ? faces.without_direction : result.quality.zero_gradient_faces;
@@ -233,10 +219,10 @@ Error with_time_hint(Error error, double unit_t, TimeRule rule) {
   return error;
 }
 
-Result<void> assess_heat(const HeatOptions& options, double unit_t, const FaceCounts& faces,
+Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
                          DistanceResult& result) {
   const Quality& q = result.quality;
-  add_lost_faces(options, faces, result);
+  add_lost_faces(options, cells, result);
   add_clamped_vertices(options, result);
   add_bound_warnings(MethodKind::kHeat, result);
   for (const bool heat : {true, false}) {

@@ -8,34 +8,29 @@
 #include "geotherm/options.h"
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/heat/diffuse.h"
+#include "solver/heat/domain.h"
 #include "solver/heat/source_anchors.h"
 #include "solver/heat/unit_field.h"
 
 namespace geotherm {
 
 /// |M u - b| / |b| over free rows: how well the heat step was solved. Column c; unit 1.
-double heat_residual(const FemOperator& matrix, const HeatField& heat, const Block& b,
+double heat_residual(const DomainOperator& matrix, const HeatField& heat, const Block& b,
                      Eigen::Index column);
 
 /// |L phi - b| / |b| over the rows that are not anchors; `phi` in elimination order, any shift.
 /// The same bits with any number of threads.
-double poisson_residual(const OperatorMesh& mesh, std::span<const double> phi, const Block& b,
+double poisson_residual(const Domain& domain, std::span<const double> phi, const Block& b,
                         Eigen::Index column, const SourceAnchors& anchors, bool skip_anchors,
                         int threads);
-
-/// Faces in the components that hold a source, and those of them where the heat has no direction,
-/// whether or not it could have one.
-struct FaceCounts {
-  Index in_reach = 0, without_direction = 0;
-};
 
 /// What the faces say: mean of | |grad phi| - 1 | by area, and lost gradients of u, over the
 /// components that hold a source. `phi` in units of the intrinsic mesh. Faces whose corners are all
 /// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose. Edges too steep
 /// for `steep` are counted, those that have a twin in `twin` (3F of the intrinsic mesh) by halves.
 /// The same bits with any number of threads.
-FaceCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
-                         const SteepSides& steep, const UnitField& field,
+CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
+                         const SteepSides& steep, const FaceField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
                          int threads, Quality& quality);
@@ -49,7 +44,7 @@ Error with_time_hint(Error error, double unit_t, TimeRule rule);
 
 /// Appends to an answer what a person should know about its quality figures, which must be filled
 /// in. Errors: kNumericalFailure where residuals say that this is no answer at all.
-Result<void> assess_heat(const HeatOptions& options, double unit_t, const FaceCounts& faces,
+Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
                          DistanceResult& result);
 
 }  // namespace geotherm

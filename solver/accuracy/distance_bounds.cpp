@@ -44,18 +44,27 @@ Vec3 position_of(const TriangleMesh& mesh, const SurfacePoint& point) {
          point.weights[2] * (mesh.positions()[face[2]] - first);
 }
 
+std::vector<LineSource> lines_of(const TriangleMesh& mesh, const SourceSet& sources) {
+  std::vector<LineSource> out;
+  for (std::size_t i = 0; i < sources.points.size(); ++i) {
+    const Vec3 at = position_of(mesh, sources.points[i]);
+    out.push_back({at, at, sources.offsets.empty() ? 0.0 : sources.offsets[i]});
+  }
+  const auto positions = mesh.positions();
+  for (const auto& [a, b] : sources.edges) out.push_back({positions[a], positions[b], 0.0});
+  return out;
+}
+
 }  // namespace
 
 StraightLine::StraightLine(const TriangleMesh& mesh, const SourceSet& sources, double unit)
-    : scale_(1 / unit) {
-  const auto positions = mesh.positions();
-  origin_ = sources.points.empty() ? positions[sources.edges.front()[0]]
-                                   : position_of(mesh, sources.points.front());
-  for (std::size_t i = 0; i < sources.points.size(); ++i) {
-    const Vec3 at = place(position_of(mesh, sources.points[i]));
-    add(at, at, sources.offsets.empty() ? 0.0 : sources.offsets[i] * scale_);
+    : StraightLine(lines_of(mesh, sources), unit) {}
+
+StraightLine::StraightLine(std::span<const LineSource> sources, double unit)
+    : origin_(sources.front().from), scale_(1 / unit) {
+  for (const LineSource& source : sources) {
+    add(place(source.from), place(source.to), source.offset * scale_);
   }
-  for (const auto& [a, b] : sources.edges) add(place(positions[a]), place(positions[b]), 0.0);
   if (pieces_.size() <= kFew) return;
   std::vector<BoxItem> items(pieces_.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -186,9 +195,15 @@ BoundTolerance bound_tolerance(MethodKind method) {
 
 void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
                           const BoundTolerance& tolerance, int threads, DistanceResult& result) {
-  const StraightLine straight(*surface.mesh, sources, surface.mean_edge);
-  const auto positions = surface.mesh->positions();
-  const double to_edges = unit / surface.mean_edge;
+  check_straight_lines(surface.mesh->positions(),
+                       StraightLine(*surface.mesh, sources, surface.mean_edge), surface.mean_edge,
+                       unit, tolerance, threads, result);
+}
+
+void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
+                          double mean_edge, double unit, const BoundTolerance& tolerance,
+                          int threads, DistanceResult& result) {
+  const double to_edges = unit / mean_edge;
   const double per_share = 1 / (1 - tolerance.line_share);
   const bool clamped = result.quality.clamped_vertices > 0;
   LineFigures all;

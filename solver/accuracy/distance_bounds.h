@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "geotherm/distance_method.h"
@@ -13,6 +14,12 @@
 
 namespace geotherm {
 
+/// A source as straight lines see it: a point (both ends the same) or a straight piece of a curve.
+struct LineSource {
+  Vec3 from, to;
+  double offset;
+};
+
 /// The straight line from anywhere to the nearest of some sources: vertices, points in faces and
 /// curves, each with its offset added. In units of `unit` (model units), with the first source as
 /// the origin. Immutable; may be asked from several threads.
@@ -21,6 +28,8 @@ class StraightLine {
   /// Preconditions: check_sources() accepts the sources, unit > 0. Cost: O(K log K) for K sources.
   /// Throws std::bad_alloc.
   StraightLine(const TriangleMesh& mesh, const SourceSet& sources, double unit);
+  /// Precondition: there are some.
+  StraightLine(std::span<const LineSource> sources, double unit);
 
   Vec3 place(const Vec3& position) const { return (position - origin_) * scale_; }
   /// Whether some source is no farther from the place than `reach`. `hint`: the source to look at
@@ -104,10 +113,13 @@ class SteepSides {
   double count_ = 0, steepest_ = 0;
 };
 
-/// Counts the vertices whose distances are below the straight line. `result.distances`: V of
-/// surface.mesh, in units of `unit` (model units). Cost: one pass over the vertices, for K sources
-/// O(log K) where the nearest changes; the same figures with any number of threads. Preconditions:
-/// those of StraightLine. Throws std::bad_alloc.
+/// Counts the vertices whose distances are below the straight line. `result.distances`: V, as
+/// `positions`, in units of `unit` (model units). `mean_edge`: what `straight` was made with. Cost:
+/// one pass over the vertices, for K sources O(log K) where the nearest changes; the same figures
+/// with any number of threads. Preconditions: those of StraightLine. Throws std::bad_alloc.
+void check_straight_lines(std::span<const Vec3> positions, const StraightLine& straight,
+                          double mean_edge, double unit, const BoundTolerance& tolerance,
+                          int threads, DistanceResult& result);
 void check_straight_lines(const IntrinsicSurface& surface, const SourceSet& sources, double unit,
                           const BoundTolerance& tolerance, int threads, DistanceResult& result);
 

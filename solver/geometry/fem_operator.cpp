@@ -2,6 +2,7 @@
 #include "solver/geometry/fem_operator.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "solver/core/parallel.h"
 #include "solver/core/processor.h"
@@ -12,6 +13,11 @@ namespace {
 /// Minimum vertices per thread.
 constexpr std::int64_t kMinRowsPerThread = 1 << 12;
 
+/// Minimum ranges of faces per thread, of passes that look at few faces.
+constexpr std::int64_t kRangesPerThread = 4;
+/// Faces of which is asked together whether their rows are all alike.
+constexpr Index kFacesAtOnce = 8;
+
 /// The consistent mass may cancel at most this share of a face's stiffness coupling.
 constexpr double kMaxOfStiffness = 0.5;
 
@@ -20,20 +26,15 @@ constexpr double kMaxOfStiffness = 0.5;
 FemOperator::FemOperator(std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
                          PerComponent stiffness_factor, std::vector<Index> held,
                          PerComponent consistent_share, int threads)
-    : mesh_(std::move(mesh)),
+    : DomainOperator(mesh->size(), std::move(held)),
+      mesh_(std::move(mesh)),
       mass_factor_(mass_factor),
       stiffness_factor_(std::move(stiffness_factor)),
       consistent_share_(std::move(consistent_share)),
-      threads_(threads),
-      held_(std::move(held)) {
+      threads_(threads) {
   diagonal_.resize(static_cast<std::size_t>(size()));
   set_diagonal();
-  if (held_.empty()) return;
-  is_held_.assign(static_cast<std::size_t>(size()), 0);
-  for (const Index i : held_) {
-    is_held_[i] = 1;
-    diagonal_[i] = 1;
-  }
+  for (const Index i : this->held()) diagonal_[i] = 1;
 }
 
 RawVector<double> FemOperator::side_weights() const {
@@ -88,7 +89,7 @@ std::array<double, 3> FemOperator::weights(std::size_t face) const {
 }
 
 Kernel FemOperator::kernel() const {
-  if (mass_factor_ != 0 || !held_.empty()) return {};
+  if (mass_factor_ != 0 || !held().empty()) return {};
   return {mesh_->components.of, mesh_->components.count};
 }
 
@@ -105,17 +106,6 @@ void FemOperator::apply_free(std::span<const double> x, std::span<double> y) con
       y[b] -= flow;
     }
   }
-}
-
-void FemOperator::apply(std::span<const double> x, std::span<double> y) const {
-  if (held_.empty()) {
-    apply_free(x, y);
-    return;
-  }
-  std::vector<double> masked(x.begin(), x.end());
-  for (const Index i : held_) masked[i] = 0;
-  apply_free(masked, y);
-  for (const Index i : held_) y[i] = x[i];
 }
 
 double FemOperator::product_at(Index i, const std::function<double(Index)>& x) const {
@@ -164,7 +154,62 @@ void FemOperator::residual(const Block& b, const Block& x, Block& r, int threads
   });
   const FlushDenormals flush;
   subtract_faces(mesh_->crossing, mesh_->face_count(), x, r);
-  for (const Index i : held_) r.row(i) = b.row(i) - x.row(i);
+  for (const Index i : held()) r.row(i) = b.row(i) - x.row(i);
+}
+
+void FemOperator::list_neighbors(Index i, std::vector<Index>& rows) const {
+  for (const Index f : mesh_->faces_at(i)) {
+    for (const Index j : mesh_->faces[f]) rows.push_back(j);
+  }
+}
+
+/// Faces are only looked at one by one where rows differ.
+std::vector<ColumnSet> FemOperator::columns_beside(std::span<const ColumnSet> sets, int threads,
+                                                   std::vector<Index>& listed) const {
+  std::vector<ColumnSet> out(sets.size());
+  const auto take = [&](const Face& face, std::vector<Index>& here) {
+    const auto some = static_cast<ColumnSet>(sets[face[0]] | sets[face[1]] | sets[face[2]]);
+    for (const Index i : face) {
+      const auto near = static_cast<ColumnSet>(some & ~sets[i]);
+      if (near == 0) continue;
+      if (out[i] == 0) here.push_back(i);
+      out[i] |= near;
+    }
+  };
+  const auto look = [&](Index first, Index end, std::vector<Index>& here) {
+    for (Index f = first; f < end; f += kFacesAtOnce) {
+      const Index next = std::min(f + kFacesAtOnce, end);
+      unsigned some = 0, all = ~0U;
+      prefetch_ahead(mesh_->faces.data() + f, kFacesAtOnce);
+      for (Index g = f; g < next; ++g) {
+        const auto [i, j, k] = mesh_->faces[g];
+        const unsigned a = sets[i], b = sets[j], c = sets[k];
+        some |= a | b | c;
+        all &= a & b & c;
+      }
+      if (some == all) continue;  // as a rule
+      for (Index g = f; g < next; ++g) take(mesh_->faces[g], here);
+    }
+  };
+  std::mutex mutex;
+  // Faces of a range meet no rows of another's.
+  parallel_for(threads, std::ssize(mesh_->ranges), kRangesPerThread,
+               [&](std::int64_t begin, std::int64_t end) {
+                 std::vector<Index> here;
+                 for (; begin < end; ++begin) {
+                   const FaceRange& range = mesh_->ranges[static_cast<std::size_t>(begin)];
+                   unsigned some = 0, all = ~0U;
+                   for (Index i = range.first_row; i < range.end_row; ++i) {
+                     some |= sets[i];
+                     all &= sets[i];
+                   }
+                   if (some != all) look(range.first_face, range.end_face, here);
+                 }
+                 const std::lock_guard lock(mutex);
+                 listed.insert(listed.end(), here.begin(), here.end());
+               });
+  look(mesh_->crossing, mesh_->face_count(), listed);
+  return out;
 }
 
 const LowerMatrix& FemOperator::assembled() const {
@@ -201,9 +246,9 @@ void FemOperator::assemble_column(Index j, const RawVector<double>& weight) cons
     subtract(face[before], corner - k + before);
   }
   values[0] = diagonal_[j];
-  if (is_held_.empty()) return;
+  if (held().empty()) return;
   for (std::size_t e = 1; e < count; ++e) {
-    if (is_held_[j] || is_held_[rows[e]]) values[e] = 0;
+    if (is_held(j) || is_held(rows[e])) values[e] = 0;
   }
 }
 

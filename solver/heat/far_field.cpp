@@ -49,10 +49,6 @@ class BitCounts {
 constexpr int kMaxLevels = std::numeric_limits<HeatField::Level>::max();
 /// Minimum rows per thread, about 0.1 ms of work.
 constexpr std::int64_t kRowsOfThread = 1000;
-/// Minimum ranges of faces per thread.
-constexpr std::int64_t kRangesOfThread = 4;
-/// Faces of which is asked together whether they are all far or all near.
-constexpr Index kFacesAtOnce = 8;
 /// Components from which on what a thread notes of each is too much to have it several times.
 constexpr Index kManyComponents = 10'000;
 
@@ -203,82 +199,35 @@ FarField::Far FarField::keep(Far next, Columns which, const std::vector<std::int
   return next;
 }
 
-/// Entries that share a face with a far one and are not far. Faces are only looked at one by one
-/// where rows are far beside others that are not.
-FarField::Layer FarField::layer_around(const Rows& far) const {
-  const OperatorMesh& mesh = system_.matrix().mesh();
-  Layer out{Rows(far.size()), {}};
-  const auto take = [&](const Face& face, std::vector<Index>& listed) {
-    const auto some = static_cast<Columns>(far[face[0]] | far[face[1]] | far[face[2]]);
-    for (const Index i : face) {
-      const auto near = static_cast<Columns>(some & ~far[i]);
-      if (near == 0) continue;
-      if (out.rows[i] == 0) listed.push_back(i);
-      out.rows[i] |= near;
-    }
-  };
-  const auto look = [&](Index first, Index end, std::vector<Index>& listed) {
-    for (Index f = first; f < end; f += kFacesAtOnce) {
-      const Index next = std::min(f + kFacesAtOnce, end);
-      unsigned some = 0, all = ~0U;
-      prefetch_ahead(mesh.faces.data() + f, kFacesAtOnce);
-      for (Index g = f; g < next; ++g) {
-        const auto [i, j, k] = mesh.faces[g];
-        const unsigned a = far[i], b = far[j], c = far[k];
-        some |= a | b | c;
-        all &= a & b & c;
-      }
-      if (some == all) continue;  // as a rule
-      for (Index g = f; g < next; ++g) take(mesh.faces[g], listed);
-    }
-  };
-  std::mutex mutex;
-  // Faces of a range meet no rows of another's.
-  parallel_for(work_.threads, std::ssize(mesh.ranges), kRangesOfThread,
-               [&](std::int64_t begin, std::int64_t end) {
-                 std::vector<Index> listed;
-                 for (; begin < end; ++begin) {
-                   const FaceRange& range = mesh.ranges[static_cast<std::size_t>(begin)];
-                   unsigned some = 0, all = ~0U;
-                   for (Index i = range.first_row; i < range.end_row; ++i) {
-                     some |= far[i];
-                     all &= far[i];
-                   }
-                   if (some != all) look(range.first_face, range.end_face, listed);
-                 }
-                 const std::lock_guard lock(mutex);
-                 out.listed.insert(out.listed.end(), listed.begin(), listed.end());
-               });
-  look(mesh.crossing, mesh.face_count(), out.listed);
-  return out;
-}
-
-/// What the heat on the far entries and on the layer of vertices that touch them asks of all
-/// others, over the floor: the right side whose answer goes on from there. Gives its rows, none
+/// What the heat on the far entries and on the layer of rows that share a cell with them asks of
+/// all others, over the floor: the right side whose answer goes on from there. Gives its rows, none
 /// where it is 0.
 std::vector<Index> FarField::ask(const Rows& far, int level, Block& right) const {
-  const OperatorMesh& mesh = system_.matrix().mesh();
-  const Layer layer = layer_around(far);
-  std::vector<char> beside(layer.rows.size());
-  for (const Index i : layer.listed) {
-    for (const Index f : mesh.faces_at(i)) {
-      for (const Index j : mesh.faces[f]) beside[j] = 1;
-    }
+  const DomainOperator& matrix = system_.matrix();
+  std::vector<Index> listed;
+  const Rows layer = matrix.columns_beside(far, work_.threads, listed);
+  std::vector<char> beside(layer.size());
+  std::vector<Index> near;
+  for (const Index i : listed) {
+    near.clear();
+    matrix.list_neighbors(i, near);
+    for (const Index j : near) beside[j] = 1;
   }
   std::vector<Index> asked;
   for_each_with_value(beside, char{1}, [&asked](Index i) { asked.push_back(i); });
   std::atomic<bool> flows = false;
   parallel_for(work_.threads, std::ssize(asked), kRowsOfThread,
                [&](std::int64_t begin, std::int64_t end) {
+                 std::vector<Index> around;
                  for (; begin < end; ++begin) {
                    const Index i = asked[static_cast<std::size_t>(begin)];
+                   around.clear();
+                   matrix.list_neighbors(i, around);
                    unsigned some = 0;
-                   for (const Index f : mesh.faces_at(i)) {
-                     for (const Index j : mesh.faces[f]) some |= layer.rows[j];
-                   }
+                   for (const Index j : around) some |= layer[j];
                    for (some &= ~unsigned{far[i]}; some != 0; some &= some - 1) {
                      const int k = std::countr_zero(some);
-                     const double out = outflow(i, k, level, far, layer.rows);
+                     const double out = outflow(i, k, level, far, layer);
                      if (out == 0 || !std::isfinite(out)) continue;
                      right(i, k) = out / floor_;
                      flows = true;

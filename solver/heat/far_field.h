@@ -48,7 +48,7 @@ class FarField {
                       const Progress& progress);
 
  private:
-  using Columns = std::uint16_t;  ///< a set of them: bit k is columns_[k]
+  using Columns = ColumnSet;  ///< bit k is columns_[k]
   using Rows = std::vector<Columns>;
 
   /// Entries below the floor, and how many in each column.
@@ -56,16 +56,10 @@ class FarField {
     Rows rows;
     std::vector<std::int64_t> count;
   };
-  /// Entries beside far ones.
-  struct Layer {
-    Rows rows;
-    std::vector<Index> listed;  ///< rows that have any, in any order
-  };
   Range range() const;
   double end_of_level(double first, double largest) const;
   Far below(const Range& range, const Rows& candidates) const;
   void mark_below(const Block& least, std::int64_t begin, std::int64_t end, Rows& rows) const;
-  Layer layer_around(const Rows& far) const;
   std::vector<Index> ask(const Rows& far, int level, Block& right) const;
   double outflow(Index i, int k, int level, const Rows& far, const Rows& layer) const;
   Columns heated(const Rows& far, const Block& right) const;

@@ -40,23 +40,30 @@ inline constexpr double kFront = 0.95;
 /// Faces longer than this many diffusion lengths say nothing reliable about the slope.
 inline constexpr double kResolved = 1.6;
 
-/// Length of X on a face whose gradient of log u has this direction (a unit vector) and size: the
+/// Length of X on a cell that reaches so far along the gradient of log u, which has this size: the
 /// slope sqrt(t) |grad log u|, relative to that of one front, at most 1. Over an extent e of the
 /// mesh one front falls by 2 asinh(x), x = e / (2 sqrt(t)), where exp(-d / sqrt(t)) falls by 2 x;
 /// 1 + x^2/6 - x^4/72 is x / asinh(x) to 2 % for x < 0.8.
 /// T: a number, or a register of them. inverse_root_t: 1 / sqrt(t); divisions take longest here.
 template <class T>
-inline T field_length(T base, T x, T height, T nx, T ny, T size, T root_t, T inverse_root_t) {
-  const T a = base * nx;
-  const T b = x * nx + height * ny;
+inline T front_length(T extent, T size, T root_t, T inverse_root_t) {
   const T zero{}, one = zero + 1.0;
-  const T high = a > b ? a : b;
-  const T low = a < b ? a : b;
-  const T extent = (high > zero ? high : zero) - (low < zero ? low : zero);
   const T half = 0.5 * inverse_root_t * extent;
   const T q = half * half * (1.0 / 6);
   const T length = root_t * (1 / kFront) * size * (1.0 + q - 0.5 * q * q);
   return (extent > kResolved * root_t) | (length > one) ? one : length;
+}
+
+/// The same on a face, by its layout and the direction of the gradient.
+template <class T>
+inline T field_length(T base, T x, T height, T nx, T ny, T size, T root_t, T inverse_root_t) {
+  const T a = base * nx;
+  const T b = x * nx + height * ny;
+  const T zero{};
+  const T high = a > b ? a : b;
+  const T low = a < b ? a : b;
+  const T extent = (high > zero ? high : zero) - (low < zero ? low : zero);
+  return front_length(extent, size, root_t, inverse_root_t);
 }
 
 /// out[i] = log(u[i]) to 1e-8; NaN where u <= 0.

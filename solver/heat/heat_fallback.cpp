@@ -7,7 +7,9 @@
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/heat/cell_domain.h"
 #include "solver/heat/heat_state.h"
+#include "solver/heat/surface.h"
 
 namespace geotherm {
 namespace {
@@ -20,7 +22,18 @@ HeatOptions with_backend(HeatOptions options, const std::string& backend) {
 }  // namespace
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
-                                     const HeatOptions& options, const Progress& progress) try {
+                                     const HeatOptions& options, const Progress& progress) {
+  return State::build(surface_input(std::move(mesh)), options, progress);
+}
+
+Result<HeatMethod> HeatMethod::build(std::shared_ptr<const CellComplex> cells,
+                                     const HeatOptions& options, const Progress& progress) {
+  return State::build(cell_input(std::move(cells)), options, progress);
+}
+
+Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::Input>& input,
+                                            const HeatOptions& options,
+                                            const Progress& progress) try {
   const std::string asked = backend_name(options);
   if (const auto known = find_backend(asked); !known) return known.error();
   if (const auto valid = check_options(options); !valid) return valid.error();
@@ -28,11 +41,11 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   const Progress watched = shared.function();
   const Stopwatch watch;
   std::vector<Fallback> failed;
-  const ThreadCrew crew(setup_threads(options, *mesh));
+  const ThreadCrew crew(setup_threads(options, *input));
   auto method = first_that_works<HeatMethod>(
       asked, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
-        return State::set_up(mesh, with_backend(options, backend), before, watched);
+        return set_up(input, with_backend(options, backend), before, watched);
       });
   shared.rethrow();
   if (!method) return method;
@@ -40,7 +53,7 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
   timed->timing.setup = watch.milliseconds();
   return HeatMethod(std::move(timed));
 } catch (const std::bad_alloc&) {
-  return out_of_memory_error("set-up", mesh->face_count(), backend_name(options));
+  return out_of_memory_error("set-up", *input, backend_name(options));
 }
 
 Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const
@@ -51,25 +64,24 @@ Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& 
   const bool taken_over = asked == state_->asked() && !options.strict &&
                           options.memory_limit_mb == state_->options.memory_limit_mb;
   if (options.laplacian != state_->options.laplacian || (asked != at_work && !taken_over)) {
-    return build(state_->surface->mesh, options, progress);
+    return State::build(state_->domain->input, options, progress);
   }
   SharedProgress shared(progress);
   const Progress watched = shared.function();
   std::vector<Fallback> failed;
   if (asked != at_work) failed = state_->failed;
-  const ThreadCrew crew(setup_threads(options, *state_->surface->mesh), state_->helpers.get());
+  const ThreadCrew crew(setup_threads(options, *state_->domain->input), state_->helpers.get());
   auto method = first_that_works<HeatMethod>(
       at_work, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
         const HeatOptions tried = with_backend(options, backend);
         return backend == at_work ? State::factorised(*state_, tried, before, watched)
-                                  : State::set_up(state_->surface->mesh, tried, before, watched);
+                                  : State::set_up(state_->domain->input, tried, before, watched);
       });
   shared.rethrow();
   return method;
 } catch (const std::bad_alloc&) {
-  return out_of_memory_error("factorisation", state_->surface->mesh->face_count(),
-                             backend_name(options));
+  return out_of_memory_error("factorisation", *state_->domain->input, backend_name(options));
 }
 
 Attempt<HeatMethod> HeatMethod::State::substitute(const std::string& name,
@@ -83,7 +95,7 @@ Attempt<HeatMethod> HeatMethod::State::substitute(const std::string& name,
   }
   auto& methods = substitutes->methods;
   if (const auto known = methods.find(name); known != methods.end()) return known->second;
-  Attempt<HeatMethod> made = set_up(surface->mesh, with_backend(options, name), before, progress);
+  Attempt<HeatMethod> made = set_up(domain->input, with_backend(options, name), before, progress);
   const bool cancelled = !made.outcome && made.outcome.error().code == ErrorCode::kCancelled;
   if (!cancelled) methods.emplace(name, made);
   return made;
@@ -118,7 +130,7 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
   }
   return results;
 } catch (const std::bad_alloc&) {
-  return out_of_memory_error("query", state_->surface->mesh->face_count(), state_->options.backend);
+  return out_of_memory_error("query", *state_->domain->input, state_->options.backend);
 }
 
 const std::vector<Fallback>& HeatMethod::fallbacks() const { return state_->failed; }

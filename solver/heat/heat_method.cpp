@@ -13,12 +13,13 @@
 #include "solver/core/text.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/heat_state.h"
+#include "solver/heat/surface.h"
 
 namespace geotherm {
 namespace {
 
 /// Share of set-up before the factorisation.
-constexpr double kSurfaceShare = 0.5;
+constexpr double kDomainShare = 0.5;
 
 }  // namespace
 
@@ -26,10 +27,10 @@ std::string backend_name(const HeatOptions& options) {
   return options.backend.empty() ? backend_names().front() : options.backend;
 }
 
-int setup_threads(const HeatOptions& options, const TriangleMesh& mesh) {
-  constexpr double kFaceNanoseconds = 1000;  // at least, whatever the backend
+int setup_threads(const HeatOptions& options, const Domain::Input& input) {
+  constexpr double kCellNanoseconds = 1000;  // at least, whatever the backend
   return threads_worth_starting(thread_count(options.threads),
-                                kFaceNanoseconds * mesh.face_count());
+                                kCellNanoseconds * input.cell_count());
 }
 
 Result<void> check_options(const HeatOptions& options) {
@@ -57,39 +58,41 @@ Result<void> check_options(const HeatOptions& options) {
   return {};
 }
 
-Error out_of_memory_error(const std::string& stage, Index faces, const std::string& backend) {
+Error out_of_memory_error(const std::string& stage, const Domain::Input& input,
+                          const std::string& backend) {
+  const auto [cell, cells] = input.cell_names();
+  const std::string fewer = std::string("a mesh with fewer ") + cells;
   return {ErrorCode::kOutOfMemory,
           "ran out of memory in the " + stage + " for " +
-              counted_text(static_cast<std::size_t>(faces), "face", "faces"),
-          backend == "cg" ? Hint{"take a mesh with fewer faces"}
-                          : Hint{"try ", SettingHint{"backend", {"cg"}},
-                                 ", which needs less, or a mesh with fewer faces"},
+              counted_text(static_cast<std::size_t>(input.cell_count()), cell, cells),
+          backend == "cg"
+              ? Hint{"take " + fewer}
+              : Hint{"try ", SettingHint{"backend", {"cg"}}, ", which needs less, or " + fewer},
           backend};
 }
 
-Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Domain::Input>& input,
                                               const HeatOptions& options,
                                               std::span<const Fallback> failed,
                                               const Progress& progress) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
-  auto surface = build_surface(mesh, **backend, options.laplacian, setup_threads(options, *mesh),
-                               part_of(progress, 0.0, kSurfaceShare));
-  if (!surface) return {surface.error(), policy_after(surface.error())};
+  auto domain = input->make(**backend, options.laplacian, setup_threads(options, *input),
+                            part_of(progress, 0.0, kDomainShare));
+  if (!domain) return {domain.error(), policy_after(domain.error())};
   auto state = std::make_shared<State>();
   state->backend = *backend;
-  state->surface = std::move(*surface);
-  auto made = factorised(*state, options, failed, part_of(progress, kSurfaceShare, 1.0));
+  state->domain = std::move(*domain);
+  auto made = factorised(*state, options, failed, part_of(progress, kDomainShare, 1.0));
   if (!made.outcome) return made;
   auto timed = std::make_shared<State>(*made.outcome->state_);
-  timed->timing.operators = timed->surface->timing.operators;
-  timed->timing.stages = timed->surface->timing.stages;
-  timed->timing.analyze = timed->surface->timing.analyze;
+  timed->timing.operators = timed->domain->timing.operators;
+  timed->timing.stages = timed->domain->timing.stages;
+  timed->timing.analyze = timed->domain->timing.analyze;
   timed->timing.setup += timed->timing.operators + timed->timing.analyze;
   return {HeatMethod(std::move(timed))};
 } catch (const std::bad_alloc&) {
-  return {out_of_memory_error("set-up", mesh->face_count(), options.backend),
-          FallbackPolicy::kFactorless};
+  return {out_of_memory_error("set-up", *input, options.backend), FallbackPolicy::kFactorless};
 }
 
 Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
@@ -101,11 +104,11 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   next->options = options;
   next->failed.assign(failed.begin(), failed.end());
   next->substitutes = std::make_shared<State::Substitutes>();
-  auto times = diffusion_times(*next->surface, options.time_step);
+  auto times = diffusion_times(*next->domain, options.time_step);
   if (!times) return {times.error()};
   next->times = std::move(*times);
   next->timing = {};
-  const int threads = setup_threads(options, *next->surface->mesh);
+  const int threads = setup_threads(options, *next->domain->input);
   const bool iterative = next->backend->iterative();
 
   if (from.poisson) next->poisson = from.poisson->with(options.constraint, options.precision);
@@ -115,7 +118,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   const FactorPlan plan = plan_factors(
       options.boundary, same_heat ? std::optional(from.options.boundary) : std::nullopt,
       next->poisson != nullptr, threads);
-  if (const auto fits = check_factor_memory(*next->surface->analysis, options.backend,
+  if (const auto fits = check_factor_memory(*next->domain->analysis, options.backend,
                                             options.precision, plan, options.memory_limit_mb);
       !fits) {
     return {fits.error(), FallbackPolicy::kAny};
@@ -126,7 +129,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   run_both(
       threads,
       [&] {
-        auto built = HeatStep::build(next->surface, next->times.t, options.boundary,
+        auto built = HeatStep::build(next->domain, next->times.t, options.boundary,
                                      consistent_share(options.variant, next->times.relative),
                                      iterative, options.precision, from.heat.get(), of_heat,
                                      part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
@@ -139,7 +142,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
       [&] {
         if (next->poisson) return;
         auto built =
-            PoissonSolver::build(next->surface, options.constraint, iterative, options.precision,
+            PoissonSolver::build(next->domain, options.constraint, iterative, options.precision,
                                  of_poisson, part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
         if (built) {
           next->poisson = std::move(*built);
@@ -155,7 +158,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
                        : policy_after(error)};
   }
   if (!poisson_done) return {poisson_done.error(), policy_after(poisson_done.error())};
-  next->warnings = next->surface->warnings;
+  next->warnings = next->domain->findings;
   const HeatMethod made(next);
   const double held = made.memory_mb(), foreseen = made.forecast_mb();
   constexpr double kMore = 1.01;
@@ -183,18 +186,18 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   if (!report(progress, "factorize", 1.0)) return {cancelled_error()};
   return {HeatMethod(std::move(next))};
 } catch (const std::bad_alloc&) {
-  return {out_of_memory_error("factorisation", from.surface->mesh->face_count(), options.backend),
+  return {out_of_memory_error("factorisation", *from.domain->input, options.backend),
           FallbackPolicy::kFactorless};
 }
 
 Attempt<std::vector<DistanceResult>> HeatMethod::State::ask(std::span<const SourceSet> sets,
                                                             const QueryOptions& query,
                                                             const Progress& progress) const try {
-  const QueryPipeline pipeline{*surface, *heat, *poisson, options, times, *pool, *helpers};
+  const QueryPipeline pipeline{*domain, *heat, *poisson, options, times, *pool, *helpers};
   return run_queries(pipeline, sets, query, progress);
 } catch (const std::bad_alloc&) {
   const std::string queries = sets.size() == 1 ? "query" : std::to_string(sets.size()) + " queries";
-  return {out_of_memory_error(queries, surface->mesh->face_count(), options.backend),
+  return {out_of_memory_error(queries, *domain->input, options.backend),
           FallbackPolicy::kFactorless};
 }
 
@@ -203,16 +206,28 @@ double HeatMethod::t() const { return state_->times.model_t; }
 double HeatMethod::relative_t() const { return state_->times.relative_t; }
 double HeatMethod::grading() const { return state_->times.grading; }
 std::array<double, 2> HeatMethod::t_range() const {
-  const double edge = state_->surface->mean_edge;
+  const double edge = state_->domain->unit;
   if (state_->times.t.same()) return {t(), t()};
   return {state_->times.t.least() * edge * edge, state_->times.t.most() * edge * edge};
 }
-LaplacianKind HeatMethod::laplacian() const { return state_->surface->laplacian; }
-Index HeatMethod::flips() const { return state_->surface->flips; }
-const RefinementCounts& HeatMethod::refinement() const { return state_->surface->refinement; }
+LaplacianKind HeatMethod::laplacian() const {
+  const Surface* const surface = state_->domain->surface();
+  return surface != nullptr ? surface->laplacian : LaplacianKind::kCotan;
+}
+Index HeatMethod::flips() const {
+  const Surface* const surface = state_->domain->surface();
+  return surface != nullptr ? surface->flips : 0;
+}
+const RefinementCounts& HeatMethod::refinement() const {
+  static const RefinementCounts kNone;
+  const Surface* const surface = state_->domain->surface();
+  return surface != nullptr ? surface->refinement : kNone;
+}
 std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
+  const Surface* const surface = state_->domain->surface();
   const bool flipped = state_->options.laplacian != LaplacianKind::kCotan;
-  return flipped && !state_->surface->tufted ? state_->surface : nullptr;
+  if (surface == nullptr || !flipped || surface->tufted) return nullptr;
+  return {state_->domain, surface};
 }
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }
 double HeatMethod::memory_mb() const {
@@ -221,7 +236,7 @@ double HeatMethod::memory_mb() const {
 }
 double HeatMethod::forecast_mb() const {
   const FactorPlan plan = plan_factors(state_->options.boundary, {}, false, 1);
-  const Analysis& analysis = *state_->surface->analysis;
+  const Analysis& analysis = *state_->domain->analysis;
   const Precision precision = state_->options.precision;
   const std::int64_t bytes = analysis.factor_bytes(heat_storage(precision)) * (plan.factors - 1) +
                              analysis.factor_bytes(poisson_storage(precision));

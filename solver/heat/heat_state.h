@@ -10,6 +10,7 @@
 
 #include "geotherm/heat_method.h"
 #include "solver/core/threads.h"
+#include "solver/heat/domain.h"
 #include "solver/heat/heat_step.h"
 #include "solver/heat/linear_system.h"
 #include "solver/heat/poisson.h"
@@ -19,7 +20,7 @@ namespace geotherm {
 
 /// What a query needs of a HeatMethod.
 struct QueryPipeline {
-  const Surface& surface;
+  const Domain& domain;
   const HeatStep& heat;
   const PoissonSolver& poisson;
   const HeatOptions& options;
@@ -50,7 +51,7 @@ struct HeatMethod::State {
 
   HeatOptions options;  ///< with the backend at work
   const Backend* backend = nullptr;
-  std::shared_ptr<const Surface> surface;
+  std::shared_ptr<const Domain> domain;
   std::shared_ptr<const HeatStep> heat;
   std::shared_ptr<const PoissonSolver> poisson;
   std::shared_ptr<BlockPool> pool = std::make_shared<BlockPool>();
@@ -61,12 +62,16 @@ struct HeatMethod::State {
   std::vector<Warning> warnings;
   std::vector<Fallback> failed;  ///< before the backend at work
 
+  /// Everything; by another backend where one fails.
+  static Result<HeatMethod> build(const std::shared_ptr<const Domain::Input>& input,
+                                  const HeatOptions& options, const Progress& progress);
+
   /// Everything with one backend, `options.backend`.
-  static Attempt<HeatMethod> set_up(const std::shared_ptr<const TriangleMesh>& mesh,
+  static Attempt<HeatMethod> set_up(const std::shared_ptr<const Domain::Input>& input,
                                     const HeatOptions& options, std::span<const Fallback> failed,
                                     const Progress& progress);
 
-  /// What is still missing for these options, on the surface and with the backend of `from`.
+  /// What is still missing for these options, on the domain and with the backend of `from`.
   static Attempt<HeatMethod> factorised(const State& from, const HeatOptions& options,
                                         std::span<const Fallback> failed, const Progress& progress);
 
@@ -87,13 +92,14 @@ struct HeatMethod::State {
 /// The name in the options, or that of the default backend.
 std::string backend_name(const HeatOptions& options);
 
-/// Threads that are worth having for the set-up of this mesh.
-int setup_threads(const HeatOptions& options, const TriangleMesh& mesh);
+/// Threads that are worth having for the set-up of so many cells.
+int setup_threads(const HeatOptions& options, const Domain::Input& input);
 
-/// Checks what can be checked without a mesh. Error kBadInput.
+/// Checks what can be checked without a domain. Error kBadInput.
 Result<void> check_options(const HeatOptions& options);
 
 /// The error that is returned for std::bad_alloc, which no function of the library lets out.
-Error out_of_memory_error(const std::string& stage, Index faces, const std::string& backend);
+Error out_of_memory_error(const std::string& stage, const Domain::Input& input,
+                          const std::string& backend);
 
 }  // namespace geotherm

@@ -14,40 +14,40 @@
 namespace geotherm {
 namespace {
 
-double unit_time(const Surface& surface, const ComponentSize& size, const TimeStep& step) {
+double unit_time(const Domain& domain, const ComponentSize& size, const TimeStep& step) {
   switch (step.rule) {
     case TimeRule::kMeanEdge:
       return step.factor * size.grading * size.mean_edge * size.mean_edge;
     case TimeRule::kMeanFaceArea:
-      return step.factor * size.grading * size.area / static_cast<double>(size.faces);
+      return step.factor * size.grading * size.area / static_cast<double>(size.cells);
     case TimeRule::kAbsolute:
       break;
   }
-  return step.absolute / surface.mean_edge / surface.mean_edge;
+  return step.absolute / domain.unit / domain.unit;
 }
 
 }  // namespace
 
-Result<DiffusionTimes> diffusion_times(const Surface& surface, const TimeStep& step) {
+Result<DiffusionTimes> diffusion_times(const Domain& domain, const TimeStep& step) {
   std::vector<double> t, relative;
   std::size_t largest = 0;
-  for (std::size_t c = 0; c < surface.components.size(); ++c) {
-    const ComponentSize& size = surface.components[c];
-    if (size.faces > surface.components[largest].faces) largest = c;
-    t.push_back(unit_time(surface, size, step));
+  for (std::size_t c = 0; c < domain.components.size(); ++c) {
+    const ComponentSize& size = domain.components[c];
+    if (size.cells > domain.components[largest].cells) largest = c;
+    t.push_back(unit_time(domain, size, step));
     relative.push_back(t.back() / size.mean_edge / size.mean_edge);
     const auto usable = [](double each) { return each > 0 && std::isfinite(each); };
     if (usable(t.back()) && usable(relative.back())) continue;
     return Error{ErrorCode::kBadInput,
                  "the diffusion time is " + rounded_text(relative.back()) +
                      " squared mean edges, where an edge is " +
-                     rounded_text(size.mean_edge * surface.mean_edge) + " long",
+                     rounded_text(size.mean_edge * domain.unit) + " long",
                  {"choose one near 1"}};
   }
-  const double edge = surface.mean_edge;
+  const double edge = domain.unit;
   DiffusionTimes out;
   out.relative_t = relative[largest];
-  out.grading = surface.components[largest].grading;
+  out.grading = domain.components[largest].grading;
   out.model_t = step.rule == TimeRule::kAbsolute ? step.absolute : t[largest] * edge * edge;
   out.extreme =
       *std::ranges::max_element(relative, {}, [](double each) { return std::abs(std::log(each)); });
@@ -81,14 +81,14 @@ void scale_rows(const Components& components, const std::vector<double>& factors
 
 }  // namespace
 
-Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Surface> surface,
+Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Domain> domain,
                                                         PerComponent t, BoundaryRule boundary,
                                                         PerComponent consistent_share,
                                                         bool iterative, Precision precision,
                                                         const HeatStep* previous, int threads,
                                                         const Progress& progress) {
   std::shared_ptr<HeatStep> out(new HeatStep);
-  out->surface_ = std::move(surface);
+  out->domain_ = std::move(domain);
   out->t_ = std::move(t);
   out->consistent_share_ = std::move(consistent_share);
   out->boundary_ = boundary;
@@ -103,9 +103,8 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Su
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     const double share = out->neumann_ ? 0.5 : 0.0;
     if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
-    auto built = LinearSystem::build(*out->surface_->analysis, out->surface_->operators, 1.0,
-                                     out->t_, std::move(held), {threads, heat_storage(precision)},
-                                     out->consistent_share_);
+    auto built = LinearSystem::build(*out->domain_, 1.0, out->t_, std::move(held),
+                                     {threads, heat_storage(precision)}, out->consistent_share_);
     if (!built) return Result<void>(built.error());
     target = (*built)->refined(out->refines());
     return Result<void>();
@@ -125,8 +124,8 @@ std::vector<Index> HeatStep::boundary_without(const SourceAnchors* anchors) cons
   std::vector<Index> sources;
   if (anchors != nullptr) sources = anchors->rows();
   std::vector<Index> border;
-  for (Index row = 0; row < surface_->operators->size(); ++row) {
-    if (!surface_->on_boundary[row]) continue;
+  for (Index row = 0; row < domain_->size(); ++row) {
+    if (!domain_->on_boundary[row]) continue;
     if (!std::binary_search(sources.begin(), sources.end(), row)) border.push_back(row);
   }
   return border;
@@ -134,7 +133,7 @@ std::vector<Index> HeatStep::boundary_without(const SourceAnchors* anchors) cons
 
 bool HeatStep::on_border(const SourceAnchors& anchors) const {
   return std::any_of(anchors.anchors.begin(), anchors.anchors.end(),
-                     [this](const auto& a) { return surface_->on_boundary[a.row] != 0; });
+                     [this](const auto& a) { return domain_->on_boundary[a.row] != 0; });
 }
 
 bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) const {
@@ -143,7 +142,7 @@ bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) con
 }
 
 double HeatStep::held_value(const SourceAnchors::Anchor& anchor) const {
-  const double t = t_.of(surface_->operators->components.of[anchor.row]);
+  const double t = t_.of(domain_->parts_of_rows().of[anchor.row]);
   return std::exp(-anchor.offset / std::sqrt(t));  // 1 on a source, Varadhan's decay beside it
 }
 
@@ -158,9 +157,8 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
     held.insert(held.end(), rows.begin(), rows.end());
     for (const auto& anchor : anchors.anchors) b(anchor.row, 0) = held_value(anchor);
   }
-  const auto built =
-      LinearSystem::build(*surface_->analysis, surface_->operators, 1.0, t_, std::move(held),
-                          {threads, heat_storage(precision_)}, consistent_share_);
+  const auto built = LinearSystem::build(*domain_, 1.0, t_, std::move(held),
+                                         {threads, heat_storage(precision_)}, consistent_share_);
   if (!built) return built;
   return (*built)->refined(refines());
 }
@@ -205,19 +203,20 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
                                               std::span<const SourceAnchors> anchors, HeatMode mode,
                                               bool residuals, const Workspace& work,
                                               const Progress& progress) const {
-  const OperatorMesh& mesh = *surface_->operators;
+  const Components& components = domain_->parts_of_rows();
+  const std::span<const double> mass = domain_->mass();
   const auto columns = static_cast<Eigen::Index>(anchors.size());
-  Block b = work.take_zero(mesh.size(), columns);
+  Block b = work.take_zero(domain_->size(), columns);
   std::vector<Index> support;
   std::vector<std::vector<char>> reached;
   for (std::size_t c = 0; c < anchors.size(); ++c) {
-    reached.emplace_back(static_cast<std::size_t>(mesh.components.count), 0);
+    reached.emplace_back(static_cast<std::size_t>(components.count), 0);
     for (const Index component : anchors[c].components) reached.back()[component] = 1;
     for (const auto& anchor : anchors[c].anchors) {
       support.push_back(anchor.row);
       if (mode == HeatMode::kHold) continue;
       b(anchor.row, static_cast<Eigen::Index>(c)) =
-          anchor.heat * (mode == HeatMode::kDiffuse ? mesh.mass[anchor.row] : 1.0);
+          anchor.heat * (mode == HeatMode::kDiffuse ? mass[anchor.row] : 1.0);
     }
   }
   std::shared_ptr<const LinearSystem> system = dirichlet ? dirichlet_ : neumann_;
@@ -232,13 +231,13 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     if (const auto held = hold_by_schur(*system, anchors, work, b); !held) return held.error();
   }
   std::vector<double> factors;
-  if (iterative_ && mesh.components.count > 1) {
-    factors = even_out(surface_->components, mode);
-    scale_rows(mesh.components, factors, b);
+  if (iterative_ && components.count > 1) {
+    factors = even_out(domain_->components, mode);
+    scale_rows(components, factors, b);
   }
   Block right;  // kept only where it is looked at again
   if (residuals) right = b;
-  auto field = geotherm::diffuse(*system, mesh.components, std::move(b), support, reached,
+  auto field = geotherm::diffuse(*system, components, std::move(b), support, reached,
                                  iterative_ ? kIterativeFloor : kDirectFloor, work, progress);
   if (!field) return field.error();
   Answer answer{std::move(*field), {}, 0.0, {}};
@@ -249,7 +248,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
   answer.residual_ms = watch.milliseconds();
   if (!factors.empty()) {
     for (double& factor : factors) factor = 1 / factor;
-    scale_rows(mesh.components, factors, answer.field.u);
+    scale_rows(components, factors, answer.field.u);
   }
   if (dirichlet && on_border(anchors.front())) {
     answer.warnings.emplace_back().message =

@@ -6,19 +6,17 @@
 #include <vector>
 
 #include "geotherm/error.h"
-#include "solver/geometry/fem_operator.h"
 #include "solver/heat/diffuse.h"
+#include "solver/heat/domain.h"
 #include "solver/heat/linear_system.h"
-#include "solver/heat/source_anchors.h"
-#include "solver/heat/surface.h"
 
 namespace geotherm {
 
-/// The diffusion times of a surface's components: h and A/F of a rule are those of each.
+/// The diffusion times of a domain's components: h and A/F of a rule are those of each.
 struct DiffusionTimes {
-  PerComponent t = 0;         ///< in units of the intrinsic mesh squared
+  PerComponent t = 0;         ///< in squares of the unit
   PerComponent relative = 0;  ///< in squares of the component's own mean edge
-  double model_t = 0;         ///< of the component with most faces, model units squared
+  double model_t = 0;         ///< of the component with most cells, model units squared
   double relative_t = 0;      ///< of the same, in squares of its mean edge
   double grading = 1;         ///< of the same, Refinement::grading
   double extreme = 1;         ///< that member of `relative` whose logarithm is farthest from 0
@@ -28,7 +26,7 @@ struct DiffusionTimes {
 
 /// Precondition: the step's factor, or its absolute time, is positive and finite. Errors:
 /// kBadInput (a time that is 0 or not finite in squares of the mean edge).
-Result<DiffusionTimes> diffusion_times(const Surface& surface, const TimeStep& step);
+Result<DiffusionTimes> diffusion_times(const Domain& domain, const TimeStep& step);
 
 /// The share c of the mass that is consistent, FemOperator: half where the mesh resolves the
 /// diffusion length, none for Variant::kClassic.
@@ -48,10 +46,10 @@ class HeatStep {
     std::vector<Warning> warnings;
   };
 
-  /// `t` in units of the intrinsic mesh squared. Systems are taken over from `previous` where it
+  /// `t` in squares of the unit. Systems are taken over from `previous` where it
   /// has them with this t, share and storage. `progress` is asked before each factorisation.
   /// Errors: the backend's, kCancelled.
-  static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Surface> surface,
+  static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Domain> domain,
                                                        PerComponent t, BoundaryRule boundary,
                                                        PerComponent consistent_share,
                                                        bool iterative, Precision precision,
@@ -86,7 +84,7 @@ class HeatStep {
   bool refines() const { return precision_ == Precision::kRefined && !iterative_; }
   double held_value(const SourceAnchors::Anchor& anchor) const;
 
-  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const Domain> domain_;
   std::shared_ptr<const LinearSystem> neumann_, dirichlet_;  ///< those the rule needs
   PerComponent t_ = 0, consistent_share_ = 0;
   BoundaryRule boundary_ = BoundaryRule::kNeumann;

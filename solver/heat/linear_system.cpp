@@ -7,17 +7,15 @@
 namespace geotherm {
 
 Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
-    const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-    const PerComponent& stiffness_factor, std::vector<Index> held, const FactorOptions& options,
-    const PerComponent& consistent_share) {
+    const Domain& domain, double mass_factor, const PerComponent& stiffness_factor,
+    std::vector<Index> held, const FactorOptions& options, const PerComponent& consistent_share) {
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
-  auto factored =
-      std::make_shared<const FemOperator>(std::move(mesh), mass_factor, stiffness_factor,
-                                          std::move(held), consistent_share, options.threads);
+  auto factored = domain.combine(mass_factor, stiffness_factor, std::move(held), consistent_share,
+                                 options.threads);
   std::shared_ptr<LinearSystem> out(new LinearSystem);
-  out->matrix_ = std::make_shared<const FemOperator>(*factored);
-  auto factor = analysis.factorize(std::move(factored), options);
+  out->matrix_ = factored->copy();
+  auto factor = domain.analysis->factorize(std::move(factored), options);
   if (!factor) return factor.error();
   out->factor_ = std::move(*factor);
   return std::shared_ptr<const LinearSystem>(std::move(out));

@@ -10,7 +10,8 @@
 #include "geotherm/backend.h"
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
-#include "solver/geometry/fem_operator.h"
+#include "solver/geometry/domain_operator.h"
+#include "solver/heat/domain.h"
 
 namespace geotherm {
 
@@ -76,13 +77,13 @@ struct Workspace {
   static constexpr std::int64_t kValuesOfThread = 1 << 17;
 };
 
-/// An operator on a surface and its factorisation by some backend. Immutable.
+/// An operator on a domain and its factorisation by some backend. Immutable.
 class LinearSystem {
  public:
   /// Factorises a A + s L with `held` rows replaced by the identity's.
   static Result<std::shared_ptr<const LinearSystem>> build(
-      const Analysis& analysis, std::shared_ptr<const OperatorMesh> mesh, double mass_factor,
-      const PerComponent& stiffness_factor, std::vector<Index> held, const FactorOptions& options,
+      const Domain& domain, double mass_factor, const PerComponent& stiffness_factor,
+      std::vector<Index> held, const FactorOptions& options,
       const PerComponent& consistent_share = 0.0);
 
   /// The same system and factor; with `refine` each solve is followed by a step of iterative
@@ -92,7 +93,7 @@ class LinearSystem {
   std::shared_ptr<const LinearSystem> refined(bool refine) const;
   bool refines() const { return refine_; }
 
-  const FemOperator& matrix() const { return *matrix_; }
+  const DomainOperator& matrix() const { return *matrix_; }
   const Factorization& factor() const { return *factor_; }
 
   /// Solves with the held rows at the values that x brings: their influence is moved to the right
@@ -111,7 +112,7 @@ class LinearSystem {
 
  private:
   LinearSystem() = default;
-  std::shared_ptr<const FemOperator> matrix_;
+  std::shared_ptr<const DomainOperator> matrix_;
   std::shared_ptr<const Factorization> factor_;
   bool refine_ = false;
 };

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "solver/heat/surface.h"
 #include "solver/polyhedral/wave_front.h"
 #include "solver/polyhedral/wave_surface.h"
 
@@ -29,7 +30,7 @@ constexpr double kMin = 24;
 std::size_t faces_worth_walking(const ComponentSize& component, std::size_t sources) {
   const double one = std::min(kFacesOfShare * component.inserted, kMax);
   if (one < kMin) return 0;
-  const double many = std::min(one * static_cast<double>(sources), kShareOfMany * component.faces);
+  const double many = std::min(one * static_cast<double>(sources), kShareOfMany * component.cells);
   return static_cast<std::size_t>(std::max(one, many));
 }
 

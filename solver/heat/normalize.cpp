@@ -17,11 +17,6 @@ constexpr double kRoundOff = 1e-6;
 /// Minimum vertices per thread, with one column.
 constexpr std::int64_t kVerticesOfThread = 1 << 15;
 
-/// Whether a row is a vertex of the mesh, not one that was inserted.
-bool is_of_mesh(const Surface& surface, Eigen::Index row) {
-  return surface.vertex_of_row[static_cast<std::size_t>(row)] < surface.mesh->vertex_count();
-}
-
 /// What makes the mean of phi on the anchors of each component theirs: 0 where no source is.
 void shift_to_mean(const Components& components, PoissonAnswer& answer,
                    std::span<const SourceAnchors> anchors) {
@@ -44,17 +39,17 @@ void shift_to_mean(const Components& components, PoissonAnswer& answer,
 /// The pass over the vertices, whose answers it takes from rows anywhere and writes in order.
 class Scatter {
  public:
-  Scatter(const Surface& surface, const PoissonAnswer& answer,
-          std::span<const SourceAnchors> anchors, std::span<DistanceResult> results)
-      : surface_(surface),
+  Scatter(const Domain& domain, const PoissonAnswer& answer, std::span<const SourceAnchors> anchors,
+          std::span<DistanceResult> results)
+      : domain_(domain),
         phi_(answer.phi),
         columns_(answer.phi.cols()),
-        unit_(surface.intrinsic.unit),
+        unit_(domain.unit),
         results_(results),
         most_(results.size(), 0.0),
         least_(results.size(), 0.0) {
     // +inf where no source is.
-    add_ = Block::Constant(surface.operators->components.count, columns_, kUnreached);
+    add_ = Block::Constant(domain.parts_of_rows().count, columns_, kUnreached);
     for (Eigen::Index c = 0; c < columns_; ++c) {
       for (const Index component : anchors[static_cast<std::size_t>(c)].components) {
         add_(component, c) = answer.shift.size() == 0 ? 0.0 : answer.shift(component, c);
@@ -65,7 +60,7 @@ class Scatter {
   /// Columns are cut among threads by cache lines of them, and grow at their ends: no memory is
   /// cleared before it is written. Where threads are more than that, they are cut by vertices.
   void run(int threads) {
-    const std::int64_t count = surface_.mesh->vertex_count();
+    const std::int64_t count = domain_.input_vertices;
     for (DistanceResult& result : results_) {
       result.distances.clear();
       result.distances.reserve(static_cast<std::size_t>(count));
@@ -106,8 +101,8 @@ class Scatter {
     const auto c = static_cast<Eigen::Index>(column);
     Index count = 0;
     const auto is_negative = [&](Eigen::Index row) {
-      if (!is_of_mesh(surface_, row)) return false;
-      const double add = add_(surface_.operators->components.of[row], c);
+      if (!domain_.is_of_input(static_cast<Index>(row))) return false;
+      const double add = add_(domain_.parts_of_rows().of[row], c);
       return phi_(row, c) + add < -kRoundOff * most_[column];
     };
     for (Eigen::Index row = 0; row < phi_.rows(); ++row) count += is_negative(row) ? 1 : 0;
@@ -129,10 +124,10 @@ class Scatter {
   template <int K>
   std::int64_t first_bad(Eigen::Index first, std::int64_t begin, std::int64_t end) const {
     for (; begin < end; ++begin) {
-      const Index row = surface_.row_of_vertex[static_cast<std::size_t>(begin)];
+      const Index row = domain_.row_of_vertex[static_cast<std::size_t>(begin)];
       if (row == kNoIndex) continue;
       for (Eigen::Index c = first; c < first + K; ++c) {
-        const double add = add_(surface_.operators->components.of[row], c);
+        const double add = add_(domain_.parts_of_rows().of[row], c);
         if (add != kUnreached && !std::isfinite((phi_(row, c) + add) * unit_)) return begin;
       }
     }
@@ -150,9 +145,9 @@ class Scatter {
   /// vertices.
   template <int K, class Sink>
   void write(Eigen::Index first, std::int64_t begin, std::int64_t end, const Sink& sink) {
-    const auto& component = surface_.operators->components.of;
-    const bool whole = surface_.operators->components.count == 1;
-    const Index* const row_of = surface_.row_of_vertex.data();
+    const auto& component = domain_.parts_of_rows().of;
+    const bool whole = domain_.parts_of_rows().count == 1;
+    const Index* const row_of = domain_.row_of_vertex.data();
     double most[K] = {}, least[K] = {}, tile[K][kTile];
     std::int64_t bad = end;
     for (std::int64_t next = begin; begin < end; begin = next) {
@@ -191,7 +186,7 @@ class Scatter {
     }
   }
 
-  const Surface& surface_;
+  const Domain& domain_;
   const Block& phi_;
   const Eigen::Index columns_;
   const double unit_;
@@ -202,39 +197,39 @@ class Scatter {
   Index bad_ = kNoIndex;
 };
 
-double shift_of(const Surface& surface, const PoissonAnswer& answer, Index row,
+double shift_of(const Components& components, const PoissonAnswer& answer, Index row,
                 Eigen::Index column) {
-  return answer.shift.size() == 0 ? 0.0
-                                  : answer.shift(surface.operators->components.of[row], column);
+  return answer.shift.size() == 0 ? 0.0 : answer.shift(components.of[row], column);
 }
 
 }  // namespace
 
-Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
+Result<void> normalize(const Domain& domain, PoissonAnswer& answer,
                        std::span<const SourceAnchors> anchors,
                        std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
                        int threads, std::span<DistanceResult> results) {
   const bool pinned = mode == ConstraintMode::kPinSources;
-  if (!pinned) shift_to_mean(surface.operators->components, answer, anchors);
-  Scatter scatter(surface, answer, anchors, results);
+  const Components& components = domain.parts_of_rows();
+  if (!pinned) shift_to_mean(components, answer, anchors);
+  Scatter scatter(domain, answer, anchors, results);
   scatter.run(threads);
   if (const Index v = scatter.first_not_finite(); v != kNoIndex) {
     return Error{ErrorCode::kNumericalFailure,
                  "the distance of vertex " + std::to_string(v) + " is not finite",
                  {"try another backend or ", SettingHint{"laplacian", {"intrinsic-delaunay"}}}};
   }
-  const double unit = surface.intrinsic.unit;
+  const double unit = domain.unit;
   for (std::size_t c = 0; c < results.size(); ++c) {
     const auto column = static_cast<Eigen::Index>(c);
     DistanceResult& result = results[c];
     for (const auto& anchor : anchors[c].anchors) {
       const double phi =
-          answer.phi(anchor.row, column) + shift_of(surface, answer, anchor.row, column);
+          answer.phi(anchor.row, column) + shift_of(components, answer, anchor.row, column);
       const double off = std::abs(phi - anchor.offset) * unit;
       if (!(off <= result.quality.max_source_distance)) result.quality.max_source_distance = off;
       // Held: what was off is the solve's round-off.
-      if (!pinned || !is_of_mesh(surface, anchor.row)) continue;
-      result.distances[surface.vertex_of_row[anchor.row]] = anchor.offset * unit;
+      if (!pinned || !domain.is_of_input(anchor.row)) continue;
+      result.distances[domain.vertex_of_row[anchor.row]] = anchor.offset * unit;
     }
     const std::span<const NearVertex> near_here =
         near.empty() ? std::span<const NearVertex>() : near[c];
@@ -242,49 +237,50 @@ Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
       result.quality.clamped_vertices = scatter.count_negative(c, near_here);
     }
     for (const NearVertex& vertex : near_here) {
-      if (!is_of_mesh(surface, vertex.row)) continue;
-      double& distance = result.distances[surface.vertex_of_row[vertex.row]];
+      if (!domain.is_of_input(vertex.row)) continue;
+      double& distance = result.distances[domain.vertex_of_row[vertex.row]];
       distance = vertex.share * distance + (1 - vertex.share) * vertex.distance * unit;
     }
   }
   return {};
 }
 
-std::vector<double> shifted_phi(const Surface& surface, const PoissonAnswer& answer,
+std::vector<double> shifted_phi(const Domain& domain, const PoissonAnswer& answer,
                                 const SourceAnchors& anchors, ConstraintMode mode,
                                 Eigen::Index column) {
+  const Components& components = domain.parts_of_rows();
   std::vector<double> out(static_cast<std::size_t>(answer.phi.rows()));
   for (Index i = 0; i < static_cast<Index>(out.size()); ++i) {
-    out[i] = answer.phi(i, column) + shift_of(surface, answer, i, column);
+    out[i] = answer.phi(i, column) + shift_of(components, answer, i, column);
   }
   if (mode != ConstraintMode::kPinSources) return out;
   for (const auto& anchor : anchors.anchors) out[anchor.row] = anchor.offset;
   return out;
 }
 
-std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
+std::vector<double> heat_in_file_order(const Domain& domain, const HeatField& heat,
                                        Eigen::Index column) {
-  std::vector<double> out(static_cast<std::size_t>(surface.mesh->vertex_count()), 0.0);
+  std::vector<double> out(static_cast<std::size_t>(domain.input_vertices), 0.0);
   const double largest = heat.u.col(column).cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
     const bool far =
         !heat.level.empty() && heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)] > 0;
-    if (!far && largest > 0 && is_of_mesh(surface, i))
-      out[surface.vertex_of_row[i]] = heat.u(i, column) / largest;
+    if (!far && largest > 0 && domain.is_of_input(static_cast<Index>(i)))
+      out[domain.vertex_of_row[i]] = heat.u(i, column) / largest;
   }
   return out;
 }
 
-std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatField& heat,
+std::vector<double> log_heat_in_file_order(const Domain& domain, const HeatField& heat,
                                            Eigen::Index column) {
-  std::vector<double> out(static_cast<std::size_t>(surface.mesh->vertex_count()), -kUnreached);
+  std::vector<double> out(static_cast<std::size_t>(domain.input_vertices), -kUnreached);
   const double largest = std::log(heat.u.col(column).cwiseAbs().maxCoeff());
   const double step = std::log(heat.step);
   for (Eigen::Index i = 0; i < heat.u.rows(); ++i) {
-    if (!(heat.u(i, column) > 0) || !is_of_mesh(surface, i)) continue;
+    if (!(heat.u(i, column) > 0) || !domain.is_of_input(static_cast<Index>(i))) continue;
     const int level =
         heat.level.empty() ? 0 : heat.level[static_cast<std::size_t>(i * heat.u.cols() + column)];
-    out[surface.vertex_of_row[i]] = std::log(heat.u(i, column)) + level * step - largest;
+    out[domain.vertex_of_row[i]] = std::log(heat.u(i, column)) + level * step - largest;
   }
   return out;
 }

@@ -10,29 +10,29 @@
 
 namespace geotherm {
 
-/// Makes distances of a Poisson answer (n x K, elimination order, units of the intrinsic mesh), one
+/// Makes distances of a Poisson answer (n x K, elimination order, units of the domain), one
 /// source set a column. Under kPinSources the anchors have their value exactly; otherwise each
 /// component is shifted so that phi agrees with the anchors in the mean: `answer.shift` says by how
 /// much then. Distances below 0 become 0 and are counted where that is more than round-off; then
 /// those of `near` (find_near_field() of each set; or empty) come in. Fills `distances` (file
 /// order, model units, kUnreached elsewhere), `max_source_distance` and `clamped_vertices` of the
 /// results. Errors: kNumericalFailure when a value is not finite. Cost: one pass over the vertices.
-Result<void> normalize(const Surface& surface, PoissonAnswer& answer,
+Result<void> normalize(const Domain& domain, PoissonAnswer& answer,
                        std::span<const SourceAnchors> anchors,
                        std::span<const std::vector<NearVertex>> near, ConstraintMode mode,
                        int threads, std::span<DistanceResult> results);
 
 /// phi of one column after normalize(), as the distances have it but for the clamping.
-std::vector<double> shifted_phi(const Surface& surface, const PoissonAnswer& answer,
+std::vector<double> shifted_phi(const Domain& domain, const PoissonAnswer& answer,
                                 const SourceAnchors& anchors, ConstraintMode mode,
                                 Eigen::Index column);
 
 /// u of one column, file order, scaled so that the largest value is 1; 0 where out of range.
-std::vector<double> heat_in_file_order(const Surface& surface, const HeatField& heat,
+std::vector<double> heat_in_file_order(const Domain& domain, const HeatField& heat,
                                        Eigen::Index column);
 
 /// The natural logarithm of the same, of any level; -inf where u is 0 or below.
-std::vector<double> log_heat_in_file_order(const Surface& surface, const HeatField& heat,
+std::vector<double> log_heat_in_file_order(const Domain& domain, const HeatField& heat,
                                            Eigen::Index column);
 
 }  // namespace geotherm

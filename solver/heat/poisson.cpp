@@ -17,25 +17,25 @@ namespace {
 
 /// One held vertex a component: the last eliminated (the pivot that suffers least), the last of
 /// the file for the penalty mode, or the one asked for.
-Result<std::vector<Index>> choose_pins(const Surface& surface, const Constraint& constraint) {
-  const Components& components = surface.operators->components;
+Result<std::vector<Index>> choose_pins(const Domain& domain, const Constraint& constraint) {
+  const Components& components = domain.parts_of_rows();
   std::vector<Index> pins(static_cast<std::size_t>(components.count), kNoIndex);
   const bool last_of_file = constraint.mode == ConstraintMode::kPenalty;
-  for (Index row = 0; row < surface.operators->size(); ++row) {
+  for (Index row = 0; row < domain.size(); ++row) {
     Index& pin = pins[components.of[row]];
-    const Index v = surface.vertex_of_row[row];
-    if (v >= surface.mesh->vertex_count()) continue;  // inserted
-    if (pin == kNoIndex || !last_of_file || v > surface.vertex_of_row[pin]) pin = row;
+    const Index v = domain.vertex_of_row[row];
+    if (v >= domain.input_vertices) continue;  // inserted
+    if (pin == kNoIndex || !last_of_file || v > domain.vertex_of_row[pin]) pin = row;
   }
   if (constraint.mode == ConstraintMode::kPinVertex && constraint.pin_vertex != kNoIndex) {
     const Index v = constraint.pin_vertex;
-    const Index count = surface.mesh->vertex_count();
-    if (v < 0 || v >= count || surface.row_of_vertex[v] == kNoIndex) {
+    const Index count = domain.input_vertices;
+    if (v < 0 || v >= count || domain.row_of_vertex[v] == kNoIndex) {
       return Error{ErrorCode::kBadInput, "vertex " + std::to_string(v) +
                                              " cannot be pinned: it is not on the surface (0 to " +
                                              std::to_string(count - 1) + ")"};
     }
-    const Index row = surface.row_of_vertex[v];
+    const Index row = domain.row_of_vertex[v];
     pins[components.of[row]] = row;
   }
   return pins;
@@ -65,20 +65,20 @@ void remove(const Components& components, std::span<const double> direction,
 }  // namespace
 
 Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
-    std::shared_ptr<const Surface> surface, const Constraint& constraint, bool iterative,
+    std::shared_ptr<const Domain> domain, const Constraint& constraint, bool iterative,
     Precision precision, int threads, const Progress& progress) {
   std::shared_ptr<PoissonSolver> out(new PoissonSolver);
   std::vector<Index> pins;
-  auto chosen = choose_pins(*surface, constraint);
+  auto chosen = choose_pins(*domain, constraint);
   if (!chosen) return chosen.error();
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
   if (!report(progress, "factorize", 0.0)) return cancelled_error();
-  auto system = LinearSystem::build(*surface->analysis, surface->operators, 0.0, 1.0,
-                                    std::move(pins), {threads, poisson_storage(precision)});
+  auto system = LinearSystem::build(*domain, 0.0, 1.0, std::move(pins),
+                                    {threads, poisson_storage(precision)});
   if (!system) return system.error();
   out->system_ = (*system)->refined(precision == Precision::kRefined && !iterative);
   out->precision_ = precision;
-  out->surface_ = std::move(surface);
+  out->domain_ = std::move(domain);
   out->constraint_ = constraint;
   out->iterative_ = iterative;
   return std::shared_ptr<const PoissonSolver>(std::move(out));
@@ -87,7 +87,7 @@ Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
 std::shared_ptr<const PoissonSolver> PoissonSolver::with(const Constraint& constraint,
                                                          Precision precision) const {
   if (!iterative_ && !same_factors(precision, precision_)) return nullptr;
-  const auto wanted = choose_pins(*surface_, constraint);
+  const auto wanted = choose_pins(*domain_, constraint);
   const auto held = system_->matrix().held();
   if (!wanted) return nullptr;
   const bool same = solves_singular(constraint, iterative_)
@@ -118,12 +118,12 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
     refined.system_ = system_->refined(true);
     return refined.solve(std::move(b), anchors, work, progress);
   }
-  const std::vector<ComponentSize>& sizes = surface_->components;
+  const std::vector<ComponentSize>& sizes = domain_->components;
   if (!iterative_ || sizes.size() == 1)
     return solve_as_given(std::move(b), anchors, work, progress);
   // Iterations end by one norm over all components: each comes in its own unit of length, else
   // those with short edges would hardly count.
-  const std::vector<Index>& component = surface_->operators->components.of;
+  const std::vector<Index>& component = domain_->parts_of_rows().of;
   for (Eigen::Index i = 0; i < b.rows(); ++i) b.row(i) /= sizes[component[i]].mean_edge;
   std::vector<SourceAnchors> scaled(anchors.begin(), anchors.end());
   for (SourceAnchors& set : scaled) {
@@ -139,8 +139,8 @@ Result<PoissonAnswer> PoissonSolver::solve(Block b, std::span<const SourceAnchor
 Result<PoissonAnswer> PoissonSolver::solve_as_given(Block b, std::span<const SourceAnchors> anchors,
                                                     const Workspace& work,
                                                     const Progress& progress) const {
-  const Components& components = surface_->operators->components;
-  const std::span<const double> mass = surface_->operators->mass;
+  const Components& components = domain_->parts_of_rows();
+  const std::span<const double> mass = domain_->mass();
   switch (constraint_.mode) {
     case ConstraintMode::kPinSources: {
       std::size_t most = 0;
@@ -184,7 +184,7 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
                                                 std::span<const SourceAnchors> anchors,
                                                 const Workspace& work,
                                                 const Progress& progress) const {
-  const Components& components = surface_->operators->components;
+  const Components& components = domain_->parts_of_rows();
   PoissonAnswer answer{b};
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     const SourceAnchors& a = anchors[static_cast<std::size_t>(c)];
@@ -198,9 +198,8 @@ Result<PoissonAnswer> PoissonSolver::solve_held(const Block& b,
     const Progress part =
         part_of(progress, static_cast<double>(c) / columns, static_cast<double>(c + 1) / columns);
     if (!report(part, "solve", 0.0)) return cancelled_error();
-    const auto system =
-        LinearSystem::build(*surface_->analysis, surface_->operators, 0.0, 1.0, std::move(held),
-                            {work.threads, poisson_storage(precision_)});
+    const auto system = LinearSystem::build(*domain_, 0.0, 1.0, std::move(held),
+                                            {work.threads, poisson_storage(precision_)});
     if (!system) return system.error();
     Block x = b.col(c);
     for (const Index row : (*system)->matrix().held()) x(row, 0) = 0;
@@ -255,7 +254,7 @@ Result<Eigen::PartialPivLU<Eigen::MatrixXd>> factor_bordered(const LinearSystem&
 Result<PoissonAnswer> PoissonSolver::solve_schur(Block b, std::span<const SourceAnchors> anchors,
                                                  const Workspace& work,
                                                  const Progress& progress) const {
-  const Components& components = surface_->operators->components;
+  const Components& components = domain_->parts_of_rows();
   auto answer = solve_pinned(std::move(b), work, progress);
   if (!answer) return answer.error();
   Block& phi = answer->phi;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solver/heat/linear_system.h"
-#include "solver/heat/source_anchors.h"
 
 namespace geotherm {
 
@@ -30,7 +29,7 @@ class PoissonSolver {
   /// mode allows it, since pinning hurts their convergence. `progress` is asked before the
   /// factorisation. Errors: the backend's; kBadInput when the pin vertex does not exist;
   /// kCancelled.
-  static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Surface> surface,
+  static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Domain> domain,
                                                             const Constraint& constraint,
                                                             bool iterative, Precision precision,
                                                             int threads,
@@ -65,7 +64,7 @@ class PoissonSolver {
   Result<PoissonAnswer> solve_schur(Block b, std::span<const SourceAnchors> anchors,
                                     const Workspace& work, const Progress& progress) const;
 
-  std::shared_ptr<const Surface> surface_;
+  std::shared_ptr<const Domain> domain_;
   std::shared_ptr<const LinearSystem> system_;
   Constraint constraint_;
   Precision precision_ = Precision::kCompact;

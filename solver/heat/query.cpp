@@ -13,8 +13,6 @@
 #include "solver/core/stopwatch.h"
 #include "solver/heat/factor_memory.h"
 #include "solver/heat/normalize.h"
-#include "solver/heat/source_anchors.h"
-#include "solver/heat/unit_field.h"
 
 namespace geotherm {
 namespace {
@@ -39,7 +37,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
   std::vector<Group> groups;
   bool open = false;
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    auto placed = place_sources(p.surface, sets[i]);
+    auto placed = p.domain.place(sets[i]);
     if (!placed) return placed.error();
     const bool alone = p.heat.needs_own_system(*placed, p.options.heat);
     if (!open || alone || i % kSetsAtOnce == 0) groups.push_back({i, {}});
@@ -52,7 +50,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
 /// Rows that are held at 0 for every source set, except its own sources.
 std::span<const char> held_at_zero(const QueryPipeline& p) {
   if (p.options.boundary != BoundaryRule::kDirichlet) return {};
-  return p.surface.on_boundary;
+  return p.domain.on_boundary;
 }
 
 /// Of the components that hold a source.
@@ -97,7 +95,7 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
     FactorPlan plan = plan_factors(p.options.boundary, {}, false, 1);
     plan.factors += own;
     plan.missing = plan.at_once = own;
-    const auto fits = check_factor_memory(*p.surface.analysis, p.options.backend,
+    const auto fits = check_factor_memory(*p.domain.analysis, p.options.backend,
                                           p.options.precision, plan, p.options.memory_limit_mb);
     if (fits) return threads;
     if (own == 1) return fits.error();
@@ -110,16 +108,18 @@ double query_nanoseconds(const QueryPipeline& p, bool quality) {
   constexpr double kEntry = 1;  // the factors are read three times
   constexpr double kIteration = 75, kIterations = 2;
   constexpr double kFace = 10, kFaceJudged = 70, kNearField = 1e5;
-  const double faces = p.surface.operators->face_count();
+  const double faces = p.domain.input->cell_count();
   const auto entries = static_cast<double>(p.poisson.stats().nonzeros);
   const double solves =
       entries > 0 ? kEntry * entries : kIteration * kIterations * faces * std::sqrt(faces);
-  const double near = p.surface.refinement.points > 0 ? kNearField : 0;
+  const bool inserted = std::ranges::any_of(
+      p.domain.components, [](const ComponentSize& size) { return size.inserted > 0; });
+  const double near = inserted ? kNearField : 0;
   return solves + near + (kFace + (quality ? kFaceJudged : 0)) * faces;
 }
 
 /// Near fields of all sets; none in the variant classic and in the penalty mode. Errors:
-/// those of find_near_field().
+/// those of Domain::near_field().
 Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
                                                          const std::vector<SourceAnchors>& anchors,
                                                          int threads) {
@@ -130,7 +130,7 @@ Result<std::vector<std::vector<NearVertex>>> near_fields(const QueryPipeline& p,
   std::vector<Result<void>> done(anchors.size());
   parallel_for(threads, std::ssize(anchors), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      auto found = find_near_field(p.surface, anchors[i]);
+      auto found = p.domain.near_field(anchors[i]);
       if (found) {
         near[i] = *std::move(found);
       } else {
@@ -159,9 +159,9 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
   if (!heat) return with_cure(heat.error());
   const double diffuse_ms = watch.lap() - heat->residual_ms;
   if (!report(progress, "solve", kHeatShare)) return cancelled_error();
-  const UnitField field(*p.surface.operators, heat->field,
-                        p.options.variant == Variant::kClassic ? 0.0 : p.times.t, work);
-  Block b = field.divergence(anchors);
+  const auto field = p.domain.unit_field(
+      heat->field, p.options.variant == Variant::kClassic ? 0.0 : p.times.t, work);
+  Block b = field->divergence(anchors);
   const auto near = near_fields(p, anchors, work.threads);
   if (!near) return near.error();
   const double gradient_ms = watch.lap();
@@ -172,14 +172,12 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
       p.poisson.solve(std::move(b), anchors, work, part_of(progress, kHeatShare, kSolvedShare));
   if (!answer) return answer.error();
   const ConstraintMode mode = p.options.constraint.mode;
-  const auto normalized =
-      normalize(p.surface, *answer, anchors, *near, mode, work.threads, results);
+  const auto normalized = normalize(p.domain, *answer, anchors, *near, mode, work.threads, results);
   if (!normalized) return with_cure(normalized.error());
   const double poisson_ms = watch.lap();
   if (query.quality && !report(progress, "solve", kSolvedShare)) return cancelled_error();
 
   const auto share = static_cast<double>(anchors.size());
-  const BoundTolerance tolerance = bound_tolerance(MethodKind::kHeat);
   for (std::size_t c = 0; c < anchors.size(); ++c) {
     DistanceResult& result = results[c];
     const auto column = static_cast<Eigen::Index>(c);
@@ -189,22 +187,21 @@ Result<void> solve_group(const QueryPipeline& p, std::span<const SourceSet> sets
     result.quality.iterations_heat = heat->field.iterations;
     result.quality.iterations_poisson = answer->iterations;
     if (query.quality) {
-      const std::vector<double> phi = shifted_phi(p.surface, *answer, anchors[c], mode, column);
+      const std::vector<double> phi = shifted_phi(p.domain, *answer, anchors[c], mode, column);
       result.quality.heat_residual = heat->residual[c];
       result.quality.poisson_residual =
-          poisson_residual(*p.surface.operators, phi, right, column, anchors[c],
+          poisson_residual(p.domain, phi, right, column, anchors[c],
                            mode == ConstraintMode::kPinSources, work.threads);
-      const FaceCounts faces = inspect_faces(*p.surface.operators, p.surface.intrinsic.twin,
-                                             SteepSides(tolerance), field, phi, column, anchors[c],
-                                             held_at_zero(p), work.threads, result.quality);
-      check_straight_lines(p.surface, sets[c], 1, tolerance, work.threads, result);
+      const CellCounts cells =
+          field->inspect(phi, column, anchors[c], held_at_zero(p), work.threads, result.quality);
+      p.domain.check_straight_lines(sets[c], work.threads, result);
       const auto assessed =
-          assess_heat(p.options, extreme_time(p.times, anchors[c]), faces, result);
+          assess_heat(p.options, extreme_time(p.times, anchors[c]), cells, result);
       if (!assessed) return assessed.error();
     }
     if (query.fields) {
-      result.heat = heat_in_file_order(p.surface, heat->field, column);
-      result.log_heat = log_heat_in_file_order(p.surface, heat->field, column);
+      result.heat = heat_in_file_order(p.domain, heat->field, column);
+      result.log_heat = log_heat_in_file_order(p.domain, heat->field, column);
     }
   }
   p.pool.give(std::move(heat->field.u));

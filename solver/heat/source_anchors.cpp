@@ -8,6 +8,7 @@
 
 #include "solver/core/text.h"
 #include "solver/geometry/edit.h"
+#include "solver/heat/surface.h"
 
 namespace geotherm {
 namespace {
@@ -64,8 +65,9 @@ class Placer {
     }
     for (const Index f : touched_) {
       const Face& face = surface_.operators->faces[f];
-      out.near_faces.push_back({f, gradient(surface_.operators->layout[f], near_.at(face[0]),
-                                            near_.at(face[1]), near_.at(face[2]))});
+      const auto g = gradient(surface_.operators->layout[f], near_.at(face[0]), near_.at(face[1]),
+                              near_.at(face[2]));
+      out.near_cells.push_back({f, {g[0], g[1], 0.0}});
     }
     out.components.assign(components.begin(), components.end());
     return out;

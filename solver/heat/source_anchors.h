@@ -2,26 +2,29 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
+#include "geotherm/error.h"
 #include "geotherm/sources.h"
-#include "solver/heat/surface.h"
 
 namespace geotherm {
 
-/// What a source set means for the vertices around it. Numbers of rows and faces are those of
-/// Surface::operators, lengths in units of the intrinsic mesh.
+struct Surface;
+
+/// What a source set means for the vertices around it. Lengths are in units of the domain. What
+/// says "face" is of triangle meshes alone, and has the numbers of Surface::operators.
 struct SourceAnchors {
   struct Anchor {
     Index row;
-    double offset;  ///< distance to the source through the face that holds it; 0 on a source
+    double offset;  ///< distance to the source through the cell that holds it; 0 on a source
     double heat;    ///< share of a unit of heat (barycentric; 1 for a source at the vertex)
   };
-  /// A face at a source, where the direction of u's gradient says little and the distance is known.
-  struct NearFace {
-    Index face;
-    std::array<double, 2> field;  ///< gradient of the interpolated straight distance
+  /// A cell at a source, where the direction of u's gradient says little and the distance is known.
+  struct NearCell {
+    Index cell;
+    std::array<double, 3> field;  ///< gradient of the interpolated straight distance
   };
 
   /// A point (both ends the same) or a straight piece of a curve inside one face or along its side,
@@ -33,7 +36,7 @@ struct SourceAnchors {
 
   std::vector<Anchor> anchors;       ///< ascending rows, each once
   std::vector<Piece> pieces;         ///< of the sources that are no vertices
-  std::vector<NearFace> near_faces;  ///< each face once
+  std::vector<NearCell> near_cells;  ///< each cell once
   std::vector<Index> components;     ///< that hold a source, ascending
 
   std::vector<Index> rows() const;
@@ -50,7 +53,7 @@ bool has_many(std::span<const SourceAnchors> sets);
 /// A vertex beside a source, where the near-exact distance stands in for some of heat's.
 struct NearVertex {
   Index row;
-  double distance;  ///< near-exact, in units of the intrinsic mesh
+  double distance;  ///< near-exact, in units of the domain
   double share;     ///< of heat's distance in the answer: 0 beside the source, below 1
 };
 

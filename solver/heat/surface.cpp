@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/accuracy/distance_bounds.h"
+#include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/geometry/fem_operator.h"
 #include "solver/geometry/operator_mesh.h"
+#include "solver/heat/unit_field.h"
 
 namespace geotherm {
 namespace {
@@ -96,7 +100,7 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
     if (!surface.refinement.grading.empty()) size.grading = surface.refinement.grading[part];
   }
   for (const Face& face : surface.clean_faces) {
-    ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].faces;
+    ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].cells;
   }
   for (std::size_t c = 0; c < sizes.size(); ++c) {
     sizes[c].area = mesh.area[c];
@@ -104,6 +108,23 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
   }
   return sizes;
 }
+
+class MeshInput final : public Domain::Input {
+ public:
+  explicit MeshInput(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
+
+  Index cell_count() const override { return mesh_->face_count(); }
+  std::array<const char*, 2> cell_names() const override { return {"face", "faces"}; }
+  Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
+                                             int threads, const Progress& progress) const override {
+    auto made = build_surface(mesh_, backend, laplacian, threads, progress);
+    if (!made) return made.error();
+    return std::shared_ptr<const Domain>(*std::move(made));
+  }
+
+ private:
+  std::shared_ptr<const TriangleMesh> mesh_;
+};
 
 LaplacianKind kind_of(const IntrinsicSurface& surface) {
   if (surface.refinement.points > 0) return LaplacianKind::kRefined;
@@ -125,6 +146,10 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
   out->laplacian = kind_of(*out);
+  out->unit = out->mean_edge;
+  out->input_vertices = out->mesh->vertex_count();
+  out->findings = std::move(out->warnings);
+  out->input = surface_input(out->mesh);
 
   stage.lap();
   const UsedVertices used(*out);
@@ -160,6 +185,59 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   timing.stages.renumber = watch.lap();
   timing.operators += timing.stages.renumber;
   return std::shared_ptr<const Surface>(std::move(out));
+}
+
+std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh) {
+  return std::make_shared<const MeshInput>(std::move(mesh));
+}
+
+std::shared_ptr<const DomainOperator> Surface::combine(double mass_factor,
+                                                       const PerComponent& stiffness_factor,
+                                                       std::vector<Index> held,
+                                                       const PerComponent& consistent_share,
+                                                       int threads) const {
+  return std::make_shared<const FemOperator>(operators, mass_factor, stiffness_factor,
+                                             std::move(held), consistent_share, threads);
+}
+
+void Surface::apply_stiffness(std::span<const double> x, std::span<double> y, int threads) const {
+  const OperatorMesh& m = *operators;
+  std::ranges::fill(y, 0.0);
+  const auto add_faces = [&](Index first, Index end) {
+    for (Index f = first; f < end; ++f) {
+      const Face& face = m.faces[f];
+      const auto g = gradient(m.layout[f], x[face[0]], x[face[1]], x[face[2]]);
+      const auto d = divergence(m.layout[f], g[0], g[1]);
+      for (int k = 0; k < 3; ++k) y[face[k]] += d[k];
+    }
+  };
+  // Faces of a range meet no rows of another's.
+  parallel_for(threads, std::ssize(m.ranges), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (; begin < end; ++begin) {
+      const FaceRange& range = m.ranges[static_cast<std::size_t>(begin)];
+      add_faces(range.first_face, range.end_face);
+    }
+  });
+  add_faces(m.crossing, m.face_count());
+}
+
+Result<SourceAnchors> Surface::place(const SourceSet& sources) const {
+  return place_sources(*this, sources);
+}
+
+std::unique_ptr<const UnitField> Surface::unit_field(const HeatField& heat, const PerComponent& t,
+                                                     const Workspace& work) const {
+  return std::make_unique<const FaceField>(*this, heat, t, work);
+}
+
+Result<std::vector<NearVertex>> Surface::near_field(const SourceAnchors& anchors) const {
+  return find_near_field(*this, anchors);
+}
+
+void Surface::check_straight_lines(const SourceSet& sources, int threads,
+                                   DistanceResult& result) const {
+  geotherm::check_straight_lines(*this, sources, 1, bound_tolerance(MethodKind::kHeat), threads,
+                                 result);
 }
 
 }  // namespace geotherm

@@ -4,40 +4,36 @@
 #include <memory>
 #include <vector>
 
-#include "geotherm/backend.h"
-#include "geotherm/distance_method.h"
 #include "geotherm/error.h"
+#include "geotherm/mesh.h"
 #include "geotherm/options.h"
 #include "solver/geometry/intrinsic_surface.h"
 #include "solver/geometry/operator_mesh.h"
+#include "solver/heat/domain.h"
 
 namespace geotherm {
 
-/// How large a component (of OperatorMesh::components) is, in units of the intrinsic mesh.
-struct ComponentSize {
-  double mean_edge = 1;
-  double area = 0;
-  Index faces = 0;      ///< of the mesh that were not left out
-  double inserted = 0;  ///< share of the vertices that the mesh has not
-  double grading = 1;   ///< the diffusion time that its triangulation resolves over mean_edge^2
-};
-
-/// A mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by a
-/// backend and renumbered into its elimination order. Immutable; shared by every HeatMethod of the
-/// same mesh, backend and Laplacian.
-struct Surface : IntrinsicSurface {
+/// A triangle mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by
+/// a backend and renumbered into its elimination order.
+struct Surface final : IntrinsicSurface, Domain {
   LaplacianKind laplacian = LaplacianKind::kCotan;
-
-  /// V, then inserted vertices (IntrinsicSurface::vertex_count()): elimination number, kNoIndex
-  /// when in no face.
-  std::vector<Index> row_of_vertex;
-  std::vector<Index> vertex_of_row;  ///< n
-  std::vector<char> on_boundary;     ///< n: the vertex lies on an edge with one face
-  std::shared_ptr<const Analysis> analysis;
   std::shared_ptr<const OperatorMesh> operators;
 
-  std::vector<ComponentSize> components;
-  SetupTiming timing;  ///< operators with their stages, and analyze
+  const Components& parts_of_rows() const override { return operators->components; }
+  std::span<const double> mass() const override { return operators->mass; }
+  std::shared_ptr<const DomainOperator> combine(double mass_factor,
+                                                const PerComponent& stiffness_factor,
+                                                std::vector<Index> held,
+                                                const PerComponent& consistent_share,
+                                                int threads) const override;
+  void apply_stiffness(std::span<const double> x, std::span<double> y, int threads) const override;
+  Result<SourceAnchors> place(const SourceSet& sources) const override;
+  std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
+                                              const Workspace& work) const override;
+  Result<std::vector<NearVertex>> near_field(const SourceAnchors& anchors) const override;
+  void check_straight_lines(const SourceSet& sources, int threads,
+                            DistanceResult& result) const override;
+  const Surface* surface() const override { return this; }
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".
@@ -46,5 +42,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress = {});
+
+/// What makes the domain of a mesh.
+std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh);
 
 }  // namespace geotherm

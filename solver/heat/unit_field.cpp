@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "solver/accuracy/check_heat.h"
 #include "solver/core/processor.h"
 #include "solver/heat/field_kernels.h"
 
@@ -121,21 +122,25 @@ class Spread {
 
 }  // namespace
 
-UnitField::UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
+FaceField::FaceField(const Surface& surface, const HeatField& heat, const PerComponent& t,
                      const Workspace& work)
-    : mesh_(mesh), heat_(heat), root_t_(std::sqrt(t.of(0))), work_(work) {
+    : surface_(surface),
+      mesh_(*surface.operators),
+      heat_(heat),
+      root_t_(std::sqrt(t.of(0))),
+      work_(work) {
   if (!(root_t_ > 0)) return;
   if (!t.same()) {
-    root_t_of_face_.reserve(mesh.faces.size());
-    for (const Face& face : mesh.faces) {
-      root_t_of_face_.push_back(std::sqrt(t.of(mesh.components.of[face[0]])));
+    root_t_of_face_.reserve(mesh_.faces.size());
+    for (const Face& face : mesh_.faces) {
+      root_t_of_face_.push_back(std::sqrt(t.of(mesh_.components.of[face[0]])));
     }
   }
   log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
   take_logarithms(t);
 }
 
-void UnitField::take_logarithms(const PerComponent& t) {
+void FaceField::take_logarithms(const PerComponent& t) {
   const Eigen::Index columns = log_u_.cols();
   const double step = std::log(heat_.step);
   Spread all(mesh_.components, columns);
@@ -163,7 +168,7 @@ void UnitField::take_logarithms(const PerComponent& t) {
 }
 
 /// False where every component that heat has reached is narrow, for every source set.
-bool UnitField::measure_width(const Block& high, const Block& low, const PerComponent& t) {
+bool FaceField::measure_width(const Block& high, const Block& low, const PerComponent& t) {
   std::vector<double> width(static_cast<std::size_t>(high.size()), 1.0);
   bool wide = true, some = false;
   for (Eigen::Index component = 0; component < high.rows(); ++component) {
@@ -183,7 +188,7 @@ bool UnitField::measure_width(const Block& high, const Block& low, const PerComp
 }
 
 /// u ~ exp(-d / sqrt(t)) (Varadhan): log u falls by the extent over sqrt(t) in all.
-void UnitField::measure_trust(const Block& high, const Block& low) {
+void FaceField::measure_trust(const Block& high, const Block& low) {
   std::vector<double> trust = width_;
   trust.resize(static_cast<std::size_t>(high.size()), 1.0);
   bool whole = width_.empty();
@@ -196,12 +201,12 @@ void UnitField::measure_trust(const Block& high, const Block& low) {
   if (!whole) trust_ = std::move(trust);
 }
 
-double UnitField::at(const std::vector<double>& values, Index row, Eigen::Index column) const {
+double FaceField::at(const std::vector<double>& values, Index row, Eigen::Index column) const {
   if (values.empty()) return 1;
   return values[static_cast<std::size_t>(mesh_.components.of[row] * log_u_.cols() + column)];
 }
 
-double UnitField::length(Index f, Eigen::Index column) const {
+double FaceField::length(Index f, Eigen::Index column) const {
   if (!(root_t_ > 0)) return 1;
   const FaceLayout& p = mesh_.layout[f];
   const Face& face = mesh_.faces[f];
@@ -215,7 +220,7 @@ double UnitField::length(Index f, Eigen::Index column) const {
   return 1 - at(trust_, face[0], column) * (1 - whole);
 }
 
-Field UnitField::of_face(Index f, Eigen::Index column) const {
+Field FaceField::of_face(Index f, Eigen::Index column) const {
   const Face& face = mesh_.faces[f];
   std::array<double, 3> u{};
   for (int k = 0; k < 3; ++k) u[k] = heat_.u(face[k], column);
@@ -235,7 +240,7 @@ Field UnitField::of_face(Index f, Eigen::Index column) const {
   return {x[0] * size, x[1] * size};
 }
 
-void UnitField::add_group(Index first_face, Index end_face, Eigen::Index first, int group,
+void FaceField::add_group(Index first_face, Index end_face, Eigen::Index first, int group,
                           Block& b) const {
   if (!trust_.empty()) {  // rare: face by face
     for (Index f = first_face; f < end_face; ++f) {
@@ -246,7 +251,7 @@ void UnitField::add_group(Index first_face, Index end_face, Eigen::Index first, 
     return;
   }
   struct Context {
-    const UnitField* field;
+    const FaceField* field;
     Eigen::Index first;
   };
   const Context context{this, first};
@@ -271,7 +276,7 @@ void UnitField::add_group(Index first_face, Index end_face, Eigen::Index first, 
   add_unit_divergence(pass, group);
 }
 
-void UnitField::add_faces(Index first_face, Index end_face, Block& b) const {
+void FaceField::add_faces(Index first_face, Index end_face, Block& b) const {
   for (Eigen::Index first = 0; first < b.cols();) {
     const int group = column_group(b.cols() - first);
     add_group(first_face, end_face, first, group, b);
@@ -279,7 +284,7 @@ void UnitField::add_faces(Index first_face, Index end_face, Block& b) const {
   }
 }
 
-Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
+Block FaceField::divergence(std::span<const SourceAnchors> anchors) const {
   const Eigen::Index columns = heat_.u.cols();
   Block b = work_.pool.take(heat_.u.rows(), columns);
   // Ranges write to rows of their own, then those faces follow that join them: each row has its sum
@@ -296,14 +301,22 @@ Block UnitField::divergence(std::span<const SourceAnchors> anchors) const {
   add_faces(mesh_.crossing, mesh_.face_count(), b);
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {
-    for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {
-      const Field x = of_face(near.face, c);
-      const double share = at(width_, mesh_.faces[near.face][0], c);
-      add_divergence(mesh_.faces[near.face], mesh_.layout[near.face],
+    for (const auto& near : anchors[static_cast<std::size_t>(c)].near_cells) {
+      const Field x = of_face(near.cell, c);
+      const double share = at(width_, mesh_.faces[near.cell][0], c);
+      add_divergence(mesh_.faces[near.cell], mesh_.layout[near.cell],
                      {share * (near.field[0] - x[0]), share * (near.field[1] - x[1])}, b, c);
     }
   }
   return b;
+}
+
+CellCounts FaceField::inspect(std::span<const double> phi, Eigen::Index column,
+                              const SourceAnchors& anchors, std::span<const char> held_at_zero,
+                              int threads, Quality& quality) const {
+  return inspect_faces(mesh_, surface_.intrinsic.twin,
+                       SteepSides(bound_tolerance(MethodKind::kHeat)), *this, phi, column, anchors,
+                       held_at_zero, threads, quality);
 }
 
 }  // namespace geotherm

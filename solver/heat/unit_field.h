@@ -4,12 +4,13 @@
 #include <vector>
 
 #include "solver/heat/diffuse.h"
+#include "solver/heat/domain.h"
 #include "solver/heat/linear_system.h"
-#include "solver/heat/source_anchors.h"
+#include "solver/heat/surface.h"
 
 namespace geotherm {
 
-/// X = -grad u / |grad u| on every face, for K source sets.
+/// X = -grad u / |grad u| on every face of a triangle mesh, for K source sets.
 ///
 /// Where two fronts meet, distance has a crease and u blends both sides: the mean of the two unit
 /// vectors is shorter than 1, and stretching it to 1 makes distances too long. There sqrt(t) |grad
@@ -22,23 +23,25 @@ namespace geotherm {
 /// On a component that is narrower than some diffusion lengths, such as a strip one face wide, heat
 /// flows along one way only and touches the boundary everywhere: neither its slope nor the straight
 /// distance beside the sources says more than the published field. Both fade out there.
-class UnitField {
+class FaceField final : public UnitField {
  public:
   /// `t` in units of the intrinsic mesh squared, or 0 everywhere. Keeps references. Cost: a
   /// logarithm a row.
-  UnitField(const OperatorMesh& mesh, const HeatField& heat, const PerComponent& t,
+  FaceField(const Surface& surface, const HeatField& heat, const PerComponent& t,
             const Workspace& work);
-  ~UnitField() { work_.pool.give(std::move(log_u_)); }
-  UnitField(const UnitField&) = delete;
-  UnitField& operator=(const UnitField&) = delete;
+  ~FaceField() override { work_.pool.give(std::move(log_u_)); }
+  FaceField(const FaceField&) = delete;
+  FaceField& operator=(const FaceField&) = delete;
 
   /// X of one face in its own plane: (0, 0) where the gradient is zero or not finite.
   std::array<double, 2> of_face(Index face, Eigen::Index column) const;
 
-  /// b, n x K: the integral of X against the gradient of every vertex's hat function, so that
-  /// L phi = b makes grad phi closest to X. With t > 0, faces at a source take the gradient of the
-  /// straight distance instead. Cost: one pass over the faces, nothing stored.
-  Block divergence(std::span<const SourceAnchors> anchors) const;
+  /// With t > 0, faces at a source take the gradient of the straight distance instead.
+  Block divergence(std::span<const SourceAnchors> anchors) const override;
+
+  CellCounts inspect(std::span<const double> phi, Eigen::Index column, const SourceAnchors& anchors,
+                     std::span<const char> held_at_zero, int threads,
+                     Quality& quality) const override;
 
  private:
   void take_logarithms(const PerComponent& t);
@@ -54,6 +57,7 @@ class UnitField {
     return root_t_of_face_.empty() ? root_t_ : root_t_of_face_[face];
   }
 
+  const Surface& surface_;
   const OperatorMesh& mesh_;
   const HeatField& heat_;
   double root_t_;                       ///< of the first component, so of all where they share one

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geotherm/distance_method.h"
+#include "geotherm/domains.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
 #include "geotherm/options.h"
@@ -43,6 +44,12 @@ class HeatMethod final : public DistanceMethod {
   /// Errors: kNotAvailable (backend), kBadInput (options, a mesh without area), kNumericalFailure
   /// (with the column or residual), kOutOfMemory, kCancelled.
   static Result<HeatMethod> build(std::shared_ptr<const TriangleMesh> mesh,
+                                  const HeatOptions& options = {}, const Progress& progress = {});
+
+  /// The same on any space that is cut into cells (domains.h). Of the options `laplacian` is kAuto
+  /// or kCotan, which are one. Sources are vertices and cell points. Errors: the same, and
+  /// kBadInput where the arrays do not fit together.
+  static Result<HeatMethod> build(std::shared_ptr<const CellComplex> cells,
                                   const HeatOptions& options = {}, const Progress& progress = {});
 
   /// The same mesh with other options. Cost: what the change needs, nothing for sources' sake. The

@@ -9,19 +9,29 @@
 // Where distance is 0.
 namespace geotherm {
 
+/// A point of a cell of a CellComplex: a weight for each of its corners, in their order; they are
+/// >= 0 and sum to 1.
+struct CellPoint {
+  Index cell = kNoIndex;
+  std::vector<double> weights;
+
+  bool operator==(const CellPoint&) const = default;
+};
+
 /// Where distance is 0: points, and mesh edges whose every point is a source (a curve).
 /// The ends of each edge are sources as well, whether or not they stand among the points.
 struct SourceSet {
   std::vector<SurfacePoint> points;
   std::vector<std::array<Index, 2>> edges;
   std::vector<double> offsets{};  ///< of the points: distance there, >= 0, model units; none: all 0
+  std::vector<CellPoint> cell_points{};  ///< in spaces that are no triangle mesh
 
   static SourceSet of_vertices(const std::vector<Index>& vertices) {
     SourceSet set;
     for (const Index v : vertices) set.points.push_back(SurfacePoint::at_vertex(v));
     return set;
   }
-  bool empty() const { return points.empty() && edges.empty(); }
+  bool empty() const { return points.empty() && edges.empty() && cell_points.empty(); }
   bool operator==(const SourceSet&) const = default;
 };
 

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+#include "solver/geometry/cell_mesh.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "solver/core/parallel.h"
+#include "solver/core/sorting.h"
+
+namespace geotherm {
+namespace {
+
+/// Minimum rows or cells per thread.
+constexpr std::int64_t kCellGrain = 1 << 12;
+/// Rows of a range, and the maximum number of ranges: as for triangle meshes.
+constexpr Index kRowsOfCellRange = 8192, kMaxCellRanges = 32;
+
+/// Brings the cells that cross from one range of rows to another to the end.
+std::vector<CellRange> part_cells(const CellComplex& cells, std::span<const Index> row_of,
+                                  Index size, RawVector<Index>& sorted) {
+  const Index count = std::clamp<Index>(size / kRowsOfCellRange, 1, kMaxCellRanges);
+  std::vector<CellRange> ranges;
+  RawVector<Index> parted, crossing;
+  parted.reserve(sorted.size());
+  std::size_t next = 0;
+  for (Index r = 0; r < count; ++r) {
+    CellRange range{static_cast<Index>(std::int64_t{size} * r / count),
+                    static_cast<Index>(std::int64_t{size} * (r + 1) / count),
+                    static_cast<Index>(parted.size()), 0};
+    for (; next < sorted.size(); ++next) {
+      Index low = size, high = 0;
+      for (const Index v : cells.corners_of(sorted[next])) {
+        low = std::min(low, row_of[v]);
+        high = std::max(high, row_of[v]);
+      }
+      if (low >= range.end_row) break;
+      (high < range.end_row ? parted : crossing).push_back(sorted[next]);
+    }
+    range.end_cell = static_cast<Index>(parted.size());
+    ranges.push_back(range);
+  }
+  parted.insert(parted.end(), crossing.begin(), crossing.end());
+  sorted = std::move(parted);
+  return ranges;
+}
+
+/// Builds the parts of a CellMesh one after the other.
+class CellMeshBuilder {
+ public:
+  CellMeshBuilder(const CellComplex& cells, const CellPattern& pattern,
+                  std::span<const Index> order, double unit, int threads, CellMesh& out)
+      : cells_(cells), pattern_(pattern), unit_(unit), threads_(threads), out_(out) {
+    const std::vector<Index> position = inverse_permutation(order, threads);
+    row_of_.assign(pattern.local.size(), kNoIndex);
+    for (std::size_t v = 0; v < row_of_.size(); ++v) {
+      if (pattern.local[v] != kNoIndex) row_of_[v] = position[pattern.local[v]];
+    }
+    size_ = static_cast<Index>(order.size());
+  }
+
+  void sort_cells() {
+    const auto count = static_cast<std::size_t>(cells_.cell_count());
+    out_.dimension = cells_.dimension;
+    out_.given_cell =
+        sorted_by_key(count, static_cast<std::size_t>(size_), threads_, [&](std::size_t c) {
+          Index low = size_;
+          for (const Index v : cells_.corners_of(static_cast<Index>(c))) {
+            low = std::min(low, row_of_[v]);
+          }
+          return low;
+        });
+    out_.ranges = part_cells(cells_, row_of_, size_, out_.given_cell);
+    out_.crossing = out_.ranges.back().end_cell;
+    const double mean = std::accumulate(cells_.measures.begin(), cells_.measures.end(), 0.0) /
+                        static_cast<double>(count);
+    out_.start.resize(count + 1);
+    out_.start[0] = 0;
+    for (std::size_t c = 0; c < count; ++c) {
+      out_.start[c + 1] = out_.start[c] + std::ssize(cells_.corners_of(out_.given_cell[c]));
+    }
+    out_.corners.resize(static_cast<std::size_t>(out_.start.back()));
+    out_.gradients.resize(out_.corners.size() * static_cast<std::size_t>(cells_.dimension));
+    out_.measures.resize(count);
+    out_.widths.resize(count);
+    parallel_for(threads_, std::ssize(out_.measures), kCellGrain,
+                 [&](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t c = begin; c < end; ++c) copy_cell(c, mean);
+                 });
+  }
+
+  void add_up_masses() {
+    out_.mass.assign(static_cast<std::size_t>(size_), 0.0);
+    for (Index c = 0; c < out_.cell_count(); ++c) {
+      const auto corners = out_.corners_of(c);
+      for (const Index i : corners) {
+        out_.mass[i] += out_.measures[c] / static_cast<double>(corners.size());
+      }
+    }
+  }
+
+  /// `parts` of the pattern, which the elimination order numbers anew.
+  void name_components(std::span<const Index> order) {
+    const Components& parts = pattern_.parts;
+    out_.components.count = parts.count;
+    out_.components.of.assign(static_cast<std::size_t>(size_), 0);
+    std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+    Index named = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      Index& here = name[parts.of[order[k]]];
+      if (here == kNoIndex) here = named++;
+      out_.components.of[k] = here;
+    }
+  }
+
+  void add_up_stiffness(std::span<const Index> order) {
+    out_.lower = permuted_lower(pattern_.pattern, order, threads_);
+    out_.pattern = pattern_hash(out_.lower, threads_);
+    const SymmetricPattern rows = permuted(pattern_.pattern, order, threads_);
+    out_.row_start = rows.start;
+    out_.column.assign(rows.neighbor.begin(), rows.neighbor.end());
+    out_.entry.resize(rows.neighbor.size());
+    out_.cells_at = CellTable(size_, out_.cell_count(), threads_,
+                              [this](Index c) { return out_.corners_of(c); });
+    std::vector<std::int64_t> stabilizer;  // where each given cell's begins
+    if (!cells_.stabilizers.empty()) {
+      std::int64_t next = 0;
+      for (Index c = 0; c < cells_.cell_count(); ++c) {
+        stabilizer.push_back(next);
+        const auto k = std::ssize(cells_.corners_of(c));
+        next += k * (k + 1) / 2;
+      }
+    }
+    parallel_for(threads_, size_, kCellGrain, [&](std::int64_t begin, std::int64_t end) {
+      for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
+        add_up_row(i, out_.cells_at.at(i), stabilizer);
+      }
+    });
+  }
+
+ private:
+  void copy_cell(std::int64_t c, double mean) {
+    const Index given = out_.given_cell[c];
+    const auto corners = cells_.corners_of(given);
+    const auto d = static_cast<std::int64_t>(cells_.dimension);
+    std::ranges::transform(corners, out_.corners.begin() + out_.start[c],
+                           [this](Index v) { return row_of_[v]; });
+    const double* const from = cells_.gradients.data() + cells_.start[given] * d;
+    std::transform(from, from + std::ssize(corners) * d, out_.gradients.begin() + out_.start[c] * d,
+                   [this](double g) { return g * unit_; });
+    out_.measures[c] = cells_.measures[given] / mean;
+    out_.widths[c] = cells_.widths[given] / unit_;
+  }
+
+  /// Sums what the cells at row i give its pairs, in their order.
+  void add_up_row(Index i, std::span<const Index> cells,
+                  const std::vector<std::int64_t>& stabilizer) {
+    const std::int64_t first = out_.row_start[i];
+    const auto columns =
+        std::span(out_.column.data() + first, out_.column.data() + out_.row_start[i + 1]);
+    double* const entries = out_.entry.data() + first;
+    std::fill_n(entries, columns.size(), 0.0);
+    const int d = out_.dimension;
+    for (const Index c : cells) {
+      const auto corners = out_.corners_of(c);
+      const double* const g = out_.gradients_of(c);
+      const auto own = std::ranges::find(corners, i) - corners.begin();
+      for (std::ptrdiff_t k = 0; k < std::ssize(corners); ++k) {
+        if (k == own) continue;
+        double product = 0;
+        for (int e = 0; e < d; ++e) product += g[own * d + e] * g[k * d + e];
+        product *= out_.measures[c];
+        if (!stabilizer.empty()) {
+          const auto [low, high] = std::minmax(own, k);
+          const auto at = stabilizer[out_.given_cell[c]] + high * (high + 1) / 2 + low;
+          // Of the same units as measure times gradients squared.
+          product += cells_.stabilizers[at] * unit_ * unit_ * out_.measures[c] /
+                     cells_.measures[out_.given_cell[c]];
+        }
+        const auto place = std::ranges::lower_bound(columns, corners[k]) - columns.begin();
+        entries[place] += product;
+      }
+    }
+  }
+
+  const CellComplex& cells_;
+  const CellPattern& pattern_;
+  const double unit_;
+  const int threads_;
+  CellMesh& out_;
+  std::vector<Index> row_of_;  ///< V
+  Index size_ = 0;
+};
+
+}  // namespace
+
+CellPattern pattern_of_cells(const CellComplex& cells, int threads) {
+  CellPattern out;
+  std::vector<char> used(static_cast<std::size_t>(cells.vertices), 0);
+  for (const Index v : cells.corners) used[v] = 1;
+  out.local.assign(used.size(), kNoIndex);
+  for (Index v = 0; v < cells.vertices; ++v) {
+    if (!used[v]) continue;
+    out.local[v] = static_cast<Index>(out.vertices.size());
+    out.vertices.push_back(v);
+  }
+  const CellTable at(cells.vertices, cells.cell_count(), threads,
+                     [&cells](Index c) { return cells.corners_of(c); });
+  const auto add_neighbors = [&](Index i, std::vector<Index>& row) {
+    const Index vertex = out.vertices[i];
+    const auto begin = static_cast<std::ptrdiff_t>(row.size());
+    for (const Index c : at.at(vertex)) {
+      for (const Index v : cells.corners_of(c)) {
+        if (v != vertex) row.push_back(out.local[v]);
+      }
+    }
+    std::sort(row.begin() + begin, row.end());
+    row.erase(std::unique(row.begin() + begin, row.end()), row.end());
+  };
+  list_rows(static_cast<Index>(out.vertices.size()), threads, add_neighbors, out.pattern.start,
+            out.pattern.neighbor);
+  out.parts = connected_components(out.pattern);
+  return out;
+}
+
+std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
+                                                const CellPattern& pattern,
+                                                std::span<const Index> order, double unit,
+                                                int threads) {
+  auto out = std::make_shared<CellMesh>();
+  CellMeshBuilder builder(cells, pattern, order, unit, threads, *out);
+  builder.sort_cells();
+  builder.add_up_masses();
+  builder.name_components(order);
+  builder.add_up_stiffness(order);
+  return out;
+}
+
+}  // namespace geotherm

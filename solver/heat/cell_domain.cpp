@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/cell_domain.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "solver/accuracy/distance_bounds.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+#include "solver/heat/cell_field.h"
+
+namespace geotherm {
+namespace {
+
+/// Share of the work at which the analysis begins, and ends.
+constexpr double kCellsAnalyzedFrom = 0.3, kCellsAnalyzedTo = 0.7;
+
+/// Sizes of the components; the mean edge of one is the mean of its cells' widths.
+std::vector<ComponentSize> measure_cells(const CellMesh& mesh) {
+  std::vector<ComponentSize> sizes(static_cast<std::size_t>(mesh.components.count));
+  for (ComponentSize& size : sizes) size.mean_edge = 0;
+  for (Index c = 0; c < mesh.cell_count(); ++c) {
+    ComponentSize& size = sizes[mesh.components.of[mesh.corners_of(c).front()]];
+    ++size.cells;
+    size.mean_edge += mesh.widths[c];
+    size.area += mesh.widths[c] * mesh.widths[c];
+  }
+  for (ComponentSize& size : sizes) size.mean_edge /= size.cells;
+  return sizes;
+}
+
+class CellInput final : public Domain::Input {
+ public:
+  explicit CellInput(std::shared_ptr<const CellComplex> cells) : cells_(std::move(cells)) {}
+
+  Index cell_count() const override { return cells_->cell_count(); }
+  std::array<const char*, 2> cell_names() const override {
+    return {cells_->cell_name.c_str(), cells_->cells_name.c_str()};
+  }
+  Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
+                                             int threads, const Progress& progress) const override {
+    if (laplacian != LaplacianKind::kAuto && laplacian != LaplacianKind::kCotan) {
+      return Error{ErrorCode::kBadInput,
+                   "the Laplacian " + to_text(laplacian) +
+                       " is of triangle meshes, and these are " + cells_->cells_name,
+                   {"use ", SettingHint{"laplacian", {"auto"}}}};
+    }
+    Stopwatch watch;
+    if (!report(progress, "operators", 0.0)) return cancelled_error();
+    if (const auto valid = check_cells(*cells_); !valid) return valid.error();
+    auto out = std::make_shared<CellDomain>();
+    out->given = cells_;
+    out->input = std::make_shared<const CellInput>(cells_);
+    const CellPattern pattern = pattern_of_cells(*cells_, threads);
+    out->timing.operators = watch.lap();
+
+    if (!report(progress, "analyze", kCellsAnalyzedFrom)) return cancelled_error();
+    std::vector<Vec3> places;
+    if (!cells_->positions.empty()) {
+      for (const Index v : pattern.vertices) places.push_back(cells_->positions[v]);
+    }
+    auto analysis = backend.analyze(pattern.pattern, places, threads);
+    if (!analysis) return analysis.error();
+    out->analysis = std::move(*analysis);
+    out->timing.analyze = watch.lap();
+
+    if (!report(progress, "operators", kCellsAnalyzedTo)) return cancelled_error();
+    out->unit = std::accumulate(cells_->widths.begin(), cells_->widths.end(), 0.0) /
+                static_cast<double>(cells_->cell_count());
+    const std::span<const Index> order = out->analysis->order();
+    out->mesh = build_cell_mesh(*cells_, pattern, order, out->unit, threads);
+    number_rows(pattern, order, *out);
+    out->components = measure_cells(*out->mesh);
+    out->timing.operators += watch.lap();
+    return std::shared_ptr<const Domain>(std::move(out));
+  }
+
+ private:
+  void number_rows(const CellPattern& pattern, std::span<const Index> order,
+                   CellDomain& out) const {
+    out.input_vertices = cells_->vertices;
+    out.row_of_vertex.assign(static_cast<std::size_t>(cells_->vertices), kNoIndex);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Index vertex = pattern.vertices[order[k]];
+      out.vertex_of_row.push_back(vertex);
+      out.row_of_vertex[vertex] = static_cast<Index>(k);
+      out.on_boundary.push_back(cells_->on_boundary.empty() ? 0 : cells_->on_boundary[vertex]);
+    }
+    out.cell_of_given.resize(out.mesh->given_cell.size());
+    for (std::size_t c = 0; c < out.cell_of_given.size(); ++c) {
+      out.cell_of_given[out.mesh->given_cell[c]] = static_cast<Index>(c);
+    }
+  }
+
+  std::shared_ptr<const CellComplex> cells_;
+};
+
+Error bad_source(const std::string& message) { return {ErrorCode::kBadInput, message}; }
+
+/// Checks the sources of a CellComplex.
+Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sources) {
+  const CellComplex& cells = *domain.given;
+  if (sources.empty()) return bad_source("there is no source");
+  if (!sources.edges.empty()) {
+    return bad_source("curves of mesh edges are sources of triangle meshes alone");
+  }
+  for (const SurfacePoint& point : sources.points) {
+    if (!point.is_vertex()) {
+      return bad_source(
+          "points in faces are sources of triangle meshes alone; give vertices or "
+          "points of " +
+          cells.cells_name);
+    }
+    if (point.vertex < 0 || point.vertex >= cells.vertices) {
+      return bad_source("source vertex " + std::to_string(point.vertex) +
+                        " is out of range (0 to " + std::to_string(cells.vertices - 1) + ")");
+    }
+    if (domain.row_of_vertex[point.vertex] == kNoIndex) {
+      return bad_source("source vertex " + std::to_string(point.vertex) + " is in no " +
+                        cells.cell_name);
+    }
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    if (point.cell < 0 || point.cell >= cells.cell_count()) {
+      return bad_source("source " + cells.cell_name + " " + std::to_string(point.cell) +
+                        " is out of range (0 to " + std::to_string(cells.cell_count() - 1) + ")");
+    }
+    const auto corners = cells.corners_of(point.cell);
+    double sum = 0;
+    bool valid = std::ssize(point.weights) == std::ssize(corners);
+    for (const double weight : point.weights) {
+      valid = valid && weight >= 0;
+      sum += weight;
+    }
+    constexpr double kOfOne = 1e-9;
+    if (!valid || !(std::abs(sum - 1) <= kOfOne)) {
+      return bad_source("the source in " + cells.cell_name + " " + std::to_string(point.cell) +
+                        " needs " + std::to_string(corners.size()) +
+                        " weights that are not negative and sum to 1");
+    }
+  }
+  for (const double offset : sources.offsets) {
+    if (!(offset > 0)) continue;
+    return bad_source("the heat method takes no offsets, and one is " + rounded_text(offset));
+  }
+  return {};
+}
+
+double between(const double* a, const double* b, std::size_t dimension) {
+  double square = 0;
+  for (std::size_t e = 0; e < dimension; ++e) square += (a[e] - b[e]) * (a[e] - b[e]);
+  return std::sqrt(square);
+}
+
+/// Turns sources into anchors, and measures the cells that touch one.
+class CellPlacer {
+ public:
+  explicit CellPlacer(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
+
+  void add_vertex(Index vertex) {
+    const Index row = domain_.row_of_vertex[vertex];
+    anchors_[row] = {row, 0.0, 1.0};
+  }
+
+  void add_point(const CellPoint& point) {
+    const Index cell = domain_.cell_of_given[point.cell];
+    const auto corners = mesh_.corners_of(cell);
+    const auto d = static_cast<std::size_t>(mesh_.dimension);
+    const std::vector<double> places = domain_.corner_places(cell);
+    std::vector<double> at(d, 0.0);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (point.weights[k] == 1) return add_vertex(mesh_vertex(corners[k]));
+      for (std::size_t e = 0; e < d; ++e) at[e] += point.weights[k] * places[k * d + e];
+    }
+    touched_.insert(cell);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      auto& anchor =
+          anchors_.try_emplace(corners[k], SourceAnchors::Anchor{corners[k], kUnreached, 0.0})
+              .first->second;
+      if (anchor.offset == 0) continue;  // a source itself, with all its heat
+      anchor.offset = std::min(anchor.offset, between(places.data() + k * d, at.data(), d));
+      anchor.heat += point.weights[k];
+    }
+  }
+
+  SourceAnchors finish() {
+    SourceAnchors out;
+    std::set<Index> parts;
+    std::map<Index, double> near;  // straight distances to the sources, by row
+    for (const auto& [row, anchor] : anchors_) {
+      out.anchors.push_back(anchor);
+      parts.insert(mesh_.components.of[row]);
+      near[row] = anchor.offset;
+      if (anchor.offset > 0) continue;
+      for (const Index cell : mesh_.cells_at.at(row)) touched_.insert(cell);
+    }
+    out.components.assign(parts.begin(), parts.end());
+    for (const Index cell : touched_) {
+      for (const Index row : mesh_.corners_of(cell)) near.try_emplace(row, kUnreached);
+    }
+    // Shortest ways from corner to corner, whatever the order of the cells: until nothing changes.
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Index cell : touched_) changed = shorten(cell, near) || changed;
+    }
+    for (const Index cell : touched_) {
+      SourceAnchors::NearCell field{cell, {}};
+      const double* gradient = mesh_.gradients_of(cell);
+      for (const Index row : mesh_.corners_of(cell)) {
+        for (int e = 0; e < mesh_.dimension; ++e) field.field[e] += near[row] * *gradient++;
+      }
+      out.near_cells.push_back(field);
+    }
+    return out;
+  }
+
+ private:
+  Index mesh_vertex(Index row) const { return domain_.vertex_of_row[row]; }
+
+  /// Brings the corners of a cell as near as the others allow; true where that changed one.
+  bool shorten(Index cell, std::map<Index, double>& near) const {
+    const auto corners = mesh_.corners_of(cell);
+    const auto d = static_cast<std::size_t>(mesh_.dimension);
+    const std::vector<double> places = domain_.corner_places(cell);
+    bool changed = false;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      double& value = near[corners[k]];
+      for (std::size_t j = 0; j < corners.size(); ++j) {
+        const double length = between(places.data() + k * d, places.data() + j * d, d);
+        // Round-off would go on for ever.
+        constexpr double kShorter = 1 - 1e-12;
+        const double other = near[corners[j]] + length;
+        if (!(other < kShorter * value)) continue;
+        value = other;
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  const CellDomain& domain_;
+  const CellMesh& mesh_;
+  std::map<Index, SourceAnchors::Anchor> anchors_;
+  std::set<Index> touched_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Domain::Input> cell_input(std::shared_ptr<const CellComplex> cells) {
+  return std::make_shared<const CellInput>(std::move(cells));
+}
+
+std::shared_ptr<const DomainOperator> CellDomain::combine(double mass_factor,
+                                                          const PerComponent& stiffness_factor,
+                                                          std::vector<Index> held,
+                                                          const PerComponent& /*consistent_share*/,
+                                                          int threads) const {
+  return std::make_shared<const CellOperator>(mesh, mass_factor, stiffness_factor, std::move(held),
+                                              threads);
+}
+
+void CellDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
+                                 int threads) const {
+  constexpr std::int64_t kGrain = 1 << 12;
+  parallel_for(threads, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
+      double sum = 0;
+      for (std::int64_t e = mesh->row_start[i]; e < mesh->row_start[i + 1]; ++e) {
+        sum += mesh->entry[e] * (x[mesh->column[e]] - x[i]);
+      }
+      y[i] = sum;
+    }
+  });
+}
+
+std::vector<double> CellDomain::corner_places(Index cell) const {
+  const int d = mesh->dimension;
+  const auto corners = static_cast<int>(mesh->corners_of(cell).size());
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> gradients(mesh->gradients_of(cell), corners, d);
+  std::vector<double> out(static_cast<std::size_t>(corners * d));
+  Eigen::Map<Rows> places(out.data(), corners, d);
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square =
+      gradients.transpose() * gradients;
+  places = gradients * square.fullPivLu().inverse();
+  return out;
+}
+
+Result<SourceAnchors> CellDomain::place(const SourceSet& sources) const {
+  if (const auto valid = check_cell_sources(*this, sources); !valid) return valid.error();
+  CellPlacer placer(*this);
+  for (const SurfacePoint& point : sources.points) placer.add_vertex(point.vertex);
+  for (const CellPoint& point : sources.cell_points) placer.add_point(point);
+  return placer.finish();
+}
+
+std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,
+                                                        const PerComponent& t,
+                                                        const Workspace& work) const {
+  return std::make_unique<const CellField>(*this, heat, t, work);
+}
+
+void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
+                                      DistanceResult& result) const {
+  if (given->positions.empty()) {
+    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
+        result.distances, [](double distance) { return distance < kUnreached; }));
+    return;
+  }
+  std::vector<LineSource> lines;
+  for (const SurfacePoint& point : sources.points) {
+    const Vec3& at = given->positions[point.vertex];
+    lines.push_back({at, at, 0.0});
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    const auto corners = given->corners_of(point.cell);
+    const Vec3 first = given->positions[corners.front()];
+    Vec3 at = first;
+    for (std::size_t k = 1; k < corners.size(); ++k) {
+      at += point.weights[k] * (given->positions[corners[k]] - first);
+    }
+    lines.push_back({at, at, 0.0});
+  }
+  geotherm::check_straight_lines(given->positions, StraightLine(lines, unit), unit, 1,
+                                 bound_tolerance(MethodKind::kHeat), threads, result);
+}
+
+}  // namespace geotherm

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geotherm/domains.h"
+#include "solver/geometry/cell_mesh.h"
+#include "solver/heat/domain.h"
+
+namespace geotherm {
+
+/// A CellComplex made ready for the heat method.
+struct CellDomain final : Domain {
+  std::shared_ptr<const CellComplex> given;
+  std::shared_ptr<const CellMesh> mesh;
+  std::vector<Index> cell_of_given;  ///< C: number of each given cell in `mesh`
+
+  const Components& parts_of_rows() const override { return mesh->components; }
+  std::span<const double> mass() const override { return mesh->mass; }
+  std::shared_ptr<const DomainOperator> combine(double mass_factor,
+                                                const PerComponent& stiffness_factor,
+                                                std::vector<Index> held,
+                                                const PerComponent& consistent_share,
+                                                int threads) const override;
+  void apply_stiffness(std::span<const double> x, std::span<double> y, int threads) const override;
+  Result<SourceAnchors> place(const SourceSet& sources) const override;
+  std::unique_ptr<const UnitField> unit_field(const HeatField& heat, const PerComponent& t,
+                                              const Workspace& work) const override;
+  void check_straight_lines(const SourceSet& sources, int threads,
+                            DistanceResult& result) const override;
+
+  /// The corners of a cell in the frame of its gradients, D numbers each, up to a shift: where the
+  /// linear functions are that have these gradients (the pseudo-inverse of G).
+  std::vector<double> corner_places(Index cell) const;
+};
+
+/// What makes the domain of a complex.
+std::shared_ptr<const Domain::Input> cell_input(std::shared_ptr<const CellComplex> cells);
+
+}  // namespace geotherm

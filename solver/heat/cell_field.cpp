@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/cell_field.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "solver/accuracy/distance_bounds.h"
+#include "solver/core/parallel.h"
+#include "solver/heat/cell_domain.h"
+#include "solver/heat/field_kernels.h"
+
+namespace geotherm {
+namespace {
+
+/// Minimum ranges of cells per thread, with one column.
+constexpr std::int64_t kCellRanges = 1;
+
+/// G' times the values at the corners.
+template <class Values>
+std::array<double, 3> cell_gradient(const CellMesh& mesh, Index cell, const Values& value) {
+  std::array<double, 3> g{};
+  const double* at = mesh.gradients_of(cell);
+  const auto corners = mesh.corners_of(cell);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const double v = value(k);
+    for (int e = 0; e < mesh.dimension; ++e) g[e] += v * *at++;
+  }
+  return g;
+}
+
+double norm(const std::array<double, 3>& g) {
+  return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
+}  // namespace
+
+CellField::CellField(const CellDomain& domain, const HeatField& heat, const PerComponent& t,
+                     const Workspace& work)
+    : domain_(domain),
+      heat_(heat),
+      root_t_(t.map([](double each) { return std::sqrt(each); })),
+      shortens_(root_t_.most() > 0),
+      work_(work) {
+  if (!shortens_) return;
+  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
+  const double step = std::log(heat.step);
+  work_.for_rows(log_u_.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+    logarithms(heat_.u.data() + begin, log_u_.data() + begin,
+               static_cast<std::size_t>(end - begin));
+    for (std::int64_t e = begin; e < end && !heat_.level.empty(); ++e) {
+      log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
+    }
+  });
+}
+
+CellField::Square CellField::inverse_square(Index cell) const {
+  if (!shortens_) return {};
+  const CellMesh& mesh = *domain_.mesh;
+  const int d = mesh.dimension;
+  // Of fewer than three dimensions the others are the identity's.
+  Eigen::Matrix3d square = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < d; ++i) square(i, i) = 0;
+  const double* at = mesh.gradients_of(cell);
+  for (std::size_t k = 0; k < mesh.corners_of(cell).size(); ++k, at += d) {
+    for (int i = 0; i < d; ++i) {
+      for (int j = 0; j < d; ++j) square(i, j) += at[i] * at[j];
+    }
+  }
+  Square out;
+  Eigen::Map<Eigen::Matrix3d>(out.data()) = square.inverse();
+  return out;
+}
+
+/// The length of X: the slope sqrt(t) |grad log u| relative to that of one front, at most 1. Corner
+/// k lies at (G' G)^-1 G_k, up to a shift.
+double CellField::length(Index cell, const Square& inverse, Eigen::Index column) const {
+  const CellMesh& mesh = *domain_.mesh;
+  const auto corners = mesh.corners_of(cell);
+  const auto g =
+      cell_gradient(mesh, cell, [&](std::size_t k) { return log_u_(corners[k], column); });
+  const double size = norm(g);
+  if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
+  const Eigen::Vector3d along = Eigen::Map<const Eigen::Matrix3d>(inverse.data()) *
+                                Eigen::Map<const Eigen::Vector3d>(g.data()) / size;
+  double low = kUnreached, high = -kUnreached;
+  const double* at = mesh.gradients_of(cell);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    double place = 0;
+    for (int e = 0; e < mesh.dimension; ++e) place += *at++ * along[e];
+    low = std::min(low, place);
+    high = std::max(high, place);
+  }
+  const double root_t = root_t_.of(mesh.components.of[corners.front()]);
+  return front_length(high - low, size, root_t, 1 / root_t);
+}
+
+/// (0, 0, 0) where the gradient is zero or not finite.
+CellField::Direction CellField::of_cell(Index cell, const Square& inverse,
+                                        Eigen::Index column) const {
+  const CellMesh& mesh = *domain_.mesh;
+  const auto corners = mesh.corners_of(cell);
+  const auto level_of = [&](Index row) {
+    return heat_.level.empty()
+               ? 0
+               : int{heat_.level[static_cast<std::size_t>(row * heat_.u.cols() + column)]};
+  };
+  int least = level_of(corners[0]);
+  for (const Index row : corners) least = std::min(least, level_of(row));
+  const auto value = [&](std::size_t k) {  // to one exponent: the largest values'
+    const int above = level_of(corners[k]) - least;
+    const double u = heat_.u(corners[k], column);
+    return above > 0 ? u * std::pow(heat_.step, above) : u;
+  };
+  const double first = value(0);
+  double largest = 0;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    largest = std::max(largest, std::abs(value(k) - first));
+  }
+  if (!(largest > kEquallyWarm * std::abs(first)) || !std::isfinite(largest)) return {};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const auto g = cell_gradient(
+      mesh, cell, [&](std::size_t k) { return std::ldexp(value(k) - first, -exponent); });
+  const double size = norm(g);
+  if (!(size > 0)) return {};
+  const double scale = -(shortens_ ? length(cell, inverse, column) : 1.0) / size;
+  return {g[0] * scale, g[1] * scale, g[2] * scale};
+}
+
+void CellField::add_cells(Index first_cell, Index end_cell, Block& b) const {
+  const CellMesh& mesh = *domain_.mesh;
+  const int d = mesh.dimension;
+  for (Index c = first_cell; c < end_cell; ++c) {
+    const Square inverse = inverse_square(c);
+    const auto corners = mesh.corners_of(c);
+    const double* const gradients = mesh.gradients_of(c);
+    for (Eigen::Index column = 0; column < b.cols(); ++column) {
+      const Direction x = of_cell(c, inverse, column);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        double flow = 0;
+        for (int e = 0; e < d; ++e) flow += gradients[static_cast<int>(k) * d + e] * x[e];
+        b(corners[k], column) += mesh.measures[c] * flow;
+      }
+    }
+  }
+}
+
+Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
+  const CellMesh& mesh = *domain_.mesh;
+  const Eigen::Index columns = heat_.u.cols();
+  Block b = work_.pool.take(heat_.u.rows(), columns);
+  // Ranges write to rows of their own, then those cells follow that join them: each row has its sum
+  // in one order, with any number of threads.
+  parallel_for(work_.threads, std::ssize(mesh.ranges), kCellRanges,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t r = begin; r < end; ++r) {
+                   const CellRange& range = mesh.ranges[static_cast<std::size_t>(r)];
+                   b.middleRows(range.first_row, range.end_row - range.first_row).setZero();
+                   add_cells(range.first_cell, range.end_cell, b);
+                 }
+               });
+  add_cells(mesh.crossing, mesh.cell_count(), b);
+  if (!shortens_) return b;
+  for (Eigen::Index column = 0; column < columns; ++column) {
+    for (const auto& near : anchors[static_cast<std::size_t>(column)].near_cells) {
+      const Direction x = of_cell(near.cell, inverse_square(near.cell), column);
+      const double* gradient = mesh.gradients_of(near.cell);
+      for (const Index row : mesh.corners_of(near.cell)) {
+        double flow = 0;
+        for (int e = 0; e < mesh.dimension; ++e) flow += *gradient++ * (near.field[e] - x[e]);
+        b(row, column) += mesh.measures[near.cell] * flow;
+      }
+    }
+  }
+  return b;
+}
+
+CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
+                              const SourceAnchors& anchors, std::span<const char> held_at_zero,
+                              int threads, Quality& quality) const {
+  struct Sums {
+    double error = 0, measure = 0;
+    CellCounts counts;
+    Index lost = 0;
+  };
+  const CellMesh& mesh = *domain_.mesh;
+  std::vector<char> held(phi.size(), 0);
+  std::ranges::copy(held_at_zero, held.begin());
+  for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
+  std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
+  for (const Index c : anchors.components) holds[c] = 1;
+  Sums all;
+  for (const Sums& part :
+       sums_of_blocks<Sums>(threads, mesh.cell_count(), [&](std::int64_t begin, std::int64_t end) {
+         Sums sum;
+         for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {
+           const auto corners = mesh.corners_of(c);
+           if (!holds[mesh.components.of[corners.front()]]) continue;
+           ++sum.counts.in_reach;
+           const Direction x = of_cell(c, inverse_square(c), column);
+           if (x == Direction{}) {
+             ++sum.counts.without_direction;
+             const bool known =
+                 std::ranges::all_of(corners, [&held](Index row) { return held[row] != 0; });
+             sum.lost += known ? 0 : 1;
+           }
+           const double slope =
+               norm(cell_gradient(mesh, c, [&](std::size_t k) { return phi[corners[k]]; }));
+           sum.error += mesh.measures[c] * std::abs(slope - 1);
+           sum.measure += mesh.measures[c];
+         }
+         return sum;
+       })) {
+    all.error += part.error;
+    all.measure += part.measure;
+    all.counts.in_reach += part.counts.in_reach;
+    all.counts.without_direction += part.counts.without_direction;
+    all.lost += part.lost;
+  }
+  quality.zero_gradient_faces = all.lost;
+  quality.eikonal_error_mean = all.measure > 0 ? all.error / all.measure : 0.0;
+  return all.counts;
+}
+
+}  // namespace geotherm
