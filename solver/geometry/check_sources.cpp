@@ -163,6 +163,11 @@ Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sou
   if (sources.empty()) {
     return Error{ErrorCode::kBadInput, "there is no source", {"name at least one"}};
   }
+  if (!sources.cell_points.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "points of cells are no sources of a triangle mesh",
+                 {"give points of its faces"}};
+  }
   for (const SurfacePoint& point : sources.points) {
     auto valid =
         point.is_vertex() ? check_vertex(surface, point.vertex) : check_in_face(surface, point);

@@ -2,7 +2,7 @@
 #include "solver/heat/cell_domain.h"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -288,7 +288,7 @@ std::vector<double> CellDomain::corner_places(Index cell) const {
   Eigen::Map<Rows> places(out.data(), corners, d);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> square =
       gradients.transpose() * gradients;
-  places = gradients * square.fullPivLu().inverse();
+  places = gradients * square.completeOrthogonalDecomposition().pseudoInverse();
   return out;
 }
 
@@ -308,7 +308,7 @@ std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,
 
 void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
                                       DistanceResult& result) const {
-  if (given->positions.empty()) {
+  if (given->positions.empty() || !given->lengths_are_straight) {
     result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
         result.distances, [](double distance) { return distance < kUnreached; }));
     return;

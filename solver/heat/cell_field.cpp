@@ -2,6 +2,7 @@
 #include "solver/heat/cell_field.h"
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +42,7 @@ CellField::CellField(const CellDomain& domain, const HeatField& heat, const PerC
     : domain_(domain),
       heat_(heat),
       root_t_(t.map([](double each) { return std::sqrt(each); })),
-      shortens_(root_t_.most() > 0),
+      shortens_(root_t_.most() > 0 && domain.mesh->dimension > 1),
       work_(work) {
   if (!shortens_) return;
   log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
@@ -68,8 +69,14 @@ CellField::Square CellField::inverse_square(Index cell) const {
       for (int j = 0; j < d; ++j) square(i, j) += at[i] * at[j];
     }
   }
+  // Of cells that are thin, such as the edges of a grid's corridors, along their own directions.
+  constexpr double kThin = 1e-12;
+  const double mean = square.trace() / 3;
   Square out;
-  Eigen::Map<Eigen::Matrix3d>(out.data()) = square.inverse();
+  Eigen::Map<Eigen::Matrix3d>(out.data()) =
+      std::abs(square.determinant()) > kThin * mean * mean * mean
+          ? Eigen::Matrix3d(square.inverse())
+          : Eigen::Matrix3d(square.completeOrthogonalDecomposition().pseudoInverse());
   return out;
 }
 
@@ -82,6 +89,9 @@ double CellField::length(Index cell, const Square& inverse, Eigen::Index column)
       cell_gradient(mesh, cell, [&](std::size_t k) { return log_u_(corners[k], column); });
   const double size = norm(g);
   if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
+  if (std::ranges::any_of(corners, [this](Index row) { return domain_.on_boundary[row] != 0; })) {
+    return 1;  // at a border the slope falls, too: heat does not leave
+  }
   const Eigen::Vector3d along = Eigen::Map<const Eigen::Matrix3d>(inverse.data()) *
                                 Eigen::Map<const Eigen::Vector3d>(g.data()) / size;
   double low = kUnreached, high = -kUnreached;

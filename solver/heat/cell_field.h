@@ -12,7 +12,8 @@ namespace geotherm {
 struct CellDomain;
 
 /// X = -grad u / |grad u| on every cell of a CellComplex, for K source sets. With t > 0 it is
-/// shortened where fronts meet, as FaceField does it on triangle meshes.
+/// shortened where fronts meet, as FaceField does it on triangle meshes, in cells off the boundary;
+/// in one dimension, where fronts meet in points, it is not.
 class CellField final : public UnitField {
  public:
   /// `t` in squares of the unit, or 0 everywhere. Keeps references.

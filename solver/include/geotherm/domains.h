@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -30,9 +31,11 @@ struct CellComplex {
   /// Empty: nothing.
   std::vector<double> stabilizers;
   std::vector<char> on_boundary;  ///< V: what the boundary rules hold; empty: none
-  /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them,
-  /// and a query counts the distances below the straight line to the nearest source.
+  /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
+  /// No way is shorter than the straight line between `positions`: a query counts the distances
+  /// below it.
+  bool lengths_are_straight = true;
   std::string cell_name = "cell", cells_name = "cells";  ///< in messages
 
   Index cell_count() const { return static_cast<Index>(measures.size()); }
@@ -61,5 +64,45 @@ struct Graph {
 /// A graph as a space of one dimension: each edge is a cell. Errors (kBadInput, with the number):
 /// no edge, an end out of range, both ends the same, a length that is not above 0. Cost: one pass.
 Result<CellComplex> cells_of(const Graph& graph);
+
+/// Faces with any number of corners, as modelling programs write them: V vertices, faces one after
+/// the other. They may be concave, and need not be planar; nothing cuts them into triangles.
+struct PolygonMesh {
+  std::vector<Vec3> positions;       ///< V, model units
+  std::vector<std::int64_t> start;   ///< faces + 1: face f has the corners start[f] to start[f + 1]
+  std::vector<Index> corners;        ///< round each face
+};
+
+/// Cells, and one sentence for each kind of thing that had to be left out.
+struct MadeCells {
+  CellComplex cells;
+  std::vector<Warning> notes;
+};
+
+/// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
+/// values in the plane of its vector area, and what that does not see is held by the stabilizer of
+/// de Goes, Butts, Desbrun 2020 (equation 20, lambda = 1). Cells are the faces that were not left
+/// out, in order: those without area, with fewer than three corners or with one twice. Errors
+/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, no face
+/// that can be used. Cost: one pass.
+Result<MadeCells> cells_of(const PolygonMesh& mesh);
+
+/// Samples in a box, such as the pixels of an image or the voxels of a scan.
+struct Grid {
+  std::array<Index, 3> size = {1, 1, 1};  ///< samples along x, y and z; 1 along z in two dimensions
+  std::array<double, 3> spacing = {1, 1, 1};  ///< between samples, model units, > 0
+  Vec3 origin = Vec3::Zero();                 ///< of sample (0, 0, 0)
+  /// For each sample, x fastest: the speed with which distance is travelled there, so that the
+  /// answer is travel time; 0 where nothing passes. Empty: 1 everywhere.
+  std::vector<double> speeds;
+};
+
+/// A grid as a space: vertices are samples, numbered with x fastest, cells the squares or cubes
+/// between samples that pass, and the edges that lie in none of these, so that corridors one sample
+/// wide connect. Bilinear (trilinear) elements; their gradient is that at the middle. The speed of a
+/// cell is the harmonic mean of its corners'. Errors (kBadInput, with the numbers): sizes that are
+/// not positive or do not fit the speeds, a speed that is negative or not finite, nothing that
+/// passes. Cost: one pass; 0.5 kB a cube.
+Result<CellComplex> cells_of(const Grid& grid);
 
 }  // namespace geotherm

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "geotherm/domains.h"
+#include "solver/core/text.h"
+
+namespace geotherm {
+namespace {
+
+/// What a face gives its corners, in a frame of the plane of its vector area.
+struct PolygonElement {
+  double area = 0;
+  double width = 0;            ///< mean length of its sides
+  Eigen::MatrixXd gradient;    ///< 2 x k
+  Eigen::MatrixXd stabilizer;  ///< k x k
+};
+
+/// Area 0: the face has none. Preconditions: three corners or more, in range.
+PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<const Index> face) {
+  const auto k = static_cast<Eigen::Index>(face.size());
+  PolygonElement out;
+  const auto at = [&](Eigen::Index i) -> const Vec3& {
+    return positions[face[static_cast<std::size_t>((i + k) % k)]];
+  };
+  const Vec3 first = at(0);
+  Vec3 twice = Vec3::Zero();
+  for (Eigen::Index i = 0; i < k; ++i) {
+    twice += (at(i) - first).cross(at(i + 1) - first);
+    out.width += (at(i + 1) - at(i)).norm() / static_cast<double>(k);
+  }
+  const double area = twice.norm() / 2;
+  // Flatter than this, rounding decides where the plane lies.
+  constexpr double kFlat = 1e-12;
+  if (!(area > kFlat * out.width * out.width)) return out;
+  out.area = area;
+  const Vec3 normal = twice / (2 * area);
+  const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+  out.gradient.resize(2, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const Vec3 g = (at(i + 1) - at(i - 1)).cross(normal) / (2 * area);
+    out.gradient.col(i) << g.dot(u), g.dot(v);
+  }
+  // What of the differences along the sides the gradient does not explain.
+  Eigen::MatrixXd rest(k, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const Vec3 side = at(i + 1) - at(i);
+    rest.row(i) = -(side.dot(u) * out.gradient.row(0) + side.dot(v) * out.gradient.row(1));
+    rest(i, i) -= 1;
+    rest(i, (i + 1) % k) += 1;
+  }
+  out.stabilizer = rest.transpose() * rest;
+  return out;
+}
+
+Error bad_polygon(std::size_t face, const std::string& what) {
+  return {ErrorCode::kBadInput, "face " + std::to_string(face) + " " + what};
+}
+
+/// Flags the ends of edges that lie in one face alone.
+std::vector<char> polygon_boundary(const CellComplex& cells) {
+  std::map<std::array<Index, 2>, int> faces_at;
+  const auto each_edge = [&cells](const auto& work) {
+    for (Index c = 0; c < cells.cell_count(); ++c) {
+      const auto corners = cells.corners_of(c);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Index a = corners[k], b = corners[(k + 1) % corners.size()];
+        work(std::array<Index, 2>{std::min(a, b), std::max(a, b)});
+      }
+    }
+  };
+  each_edge([&](const std::array<Index, 2>& edge) { ++faces_at[edge]; });
+  std::vector<char> out(static_cast<std::size_t>(cells.vertices), 0);
+  for (const auto& [edge, count] : faces_at) {
+    if (count == 1) out[edge[0]] = out[edge[1]] = 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<MadeCells> cells_of(const PolygonMesh& mesh) {
+  MadeCells out;
+  CellComplex& cells = out.cells;
+  cells.cell_name = "polygon";
+  cells.cells_name = "polygons";
+  cells.vertices = static_cast<Index>(mesh.positions.size());
+  cells.dimension = 2;
+  cells.positions = mesh.positions;
+  cells.start.push_back(0);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (mesh.positions[v].allFinite()) continue;
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+  }
+  std::size_t left_out = 0;
+  for (std::size_t f = 0; f + 1 < mesh.start.size(); ++f) {
+    const std::int64_t begin = mesh.start[f], end = mesh.start[f + 1];
+    if (begin < 0 || end < begin || end > std::ssize(mesh.corners)) {
+      return bad_polygon(f, "has its corners from " + std::to_string(begin) + " to " +
+                                std::to_string(end) + ", and there are " +
+                                std::to_string(mesh.corners.size()));
+    }
+    const std::span<const Index> face(mesh.corners.data() + begin, mesh.corners.data() + end);
+    for (const Index v : face) {
+      if (v >= 0 && v < cells.vertices) continue;
+      return bad_polygon(f, "has the corner " + std::to_string(v) +
+                                ", which is out of range (0 to " +
+                                std::to_string(cells.vertices - 1) + ")");
+    }
+    std::vector<Index> sorted(face.begin(), face.end());
+    std::ranges::sort(sorted);
+    const bool simple = face.size() >= 3 && std::ranges::adjacent_find(sorted) == sorted.end();
+    const PolygonElement element =
+        simple ? polygon_element(mesh.positions, face) : PolygonElement{};
+    if (!(element.area > 0)) {
+      ++left_out;
+      continue;
+    }
+    cells.corners.insert(cells.corners.end(), face.begin(), face.end());
+    cells.start.push_back(std::ssize(cells.corners));
+    for (Eigen::Index k = 0; k < element.gradient.cols(); ++k) {
+      cells.gradients.insert(cells.gradients.end(),
+                             {element.gradient(0, k), element.gradient(1, k)});
+      for (Eigen::Index j = 0; j <= k; ++j) cells.stabilizers.push_back(element.stabilizer(k, j));
+    }
+    cells.measures.push_back(element.area);
+    cells.widths.push_back(element.width);
+  }
+  if (cells.measures.empty()) {
+    return Error{ErrorCode::kBadInput, "the mesh has no face with an area"};
+  }
+  if (left_out > 0) {
+    out.notes.push_back({counted_text(left_out, "face was", "faces were") +
+                         " left out: no area, or a corner twice"});
+  }
+  cells.on_boundary = polygon_boundary(cells);
+  return out;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <random>
+
+#include "geotherm/geotherm.h"
+#include "tests/support/mesh_zoo.h"
+#include "tests/support/solve.h"
+
+// The heat method on spaces that are no triangle mesh, against closed forms and Dijkstra.
+namespace geotherm::test {
+namespace {
+
+using CellsPtr = std::shared_ptr<const CellComplex>;
+
+CellsPtr shared(Result<CellComplex> cells) {
+  EXPECT_TRUE(cells) << (cells ? "" : cells.error().message);
+  return cells ? std::make_shared<const CellComplex>(*std::move(cells)) : nullptr;
+}
+
+DistanceResult solve_cells(const CellsPtr& cells, const SourceSet& sources,
+                           const HeatOptions& options = {}) {
+  const auto method = HeatMethod::build(cells, options);
+  EXPECT_TRUE(method) << (method ? "" : sentence(method.error()));
+  if (!method) return {};
+  auto result = method->solve(sources);
+  EXPECT_TRUE(result) << (result ? "" : sentence(result.error()));
+  return result ? *std::move(result) : DistanceResult{};
+}
+
+std::vector<double> dijkstra(const Graph& graph, Index source) {
+  std::vector<double> out(static_cast<std::size_t>(graph.vertices), kUnreached);
+  out[source] = 0;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const auto& [a, b, length] : graph.edges) {
+      if (out[a] + length < out[b]) out[b] = out[a] + length, changed = true;
+      if (out[b] + length < out[a]) out[a] = out[b] + length, changed = true;
+    }
+  }
+  return out;
+}
+
+/// Vertices that hang on one of the last few before them, by lengths from a tenth to one.
+Graph random_tree(Index vertices) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> length(0.1, 1.0);
+  Graph out{vertices, {}};
+  for (Index v = 1; v < vertices; ++v) {
+    const Index back = 1 + static_cast<Index>(random() % std::min<Index>(v, 6));
+    out.edges.push_back({v - back, v, length(random)});
+  }
+  return out;
+}
+
+/// Tets of a grid of cubes in the unit box, its inner vertices moved by a quarter of a cube: six
+/// round a diagonal of each cube (Kuhn).
+CellComplex box_of_tets(Index n) {
+  CellComplex out;
+  out.cell_name = "tet";
+  out.cells_name = "tets";
+  out.dimension = 3;
+  out.start.push_back(0);
+  const auto number = [n](Index i, Index j, Index k) { return (i * (n + 1) + j) * (n + 1) + k; };
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> shift(-0.25, 0.25);
+  for (Index i = 0; i <= n; ++i) {
+    for (Index j = 0; j <= n; ++j) {
+      for (Index k = 0; k <= n; ++k) {
+        Vec3 at(i, j, k);
+        const bool inside = std::min({i, j, k}) > 0 && std::max({i, j, k}) < n;
+        if (inside) at += Vec3(shift(random), shift(random), shift(random));
+        out.positions.push_back(at / n);
+        out.on_boundary.push_back(!inside);
+      }
+    }
+  }
+  out.vertices = static_cast<Index>(out.positions.size());
+  const auto add = [&out](const std::array<Index, 4>& tet) {
+    Eigen::Matrix3d edges;
+    double width = 0;
+    for (int k = 0; k < 4; ++k) {
+      for (int j = 0; j < k; ++j)
+        width += (out.positions[tet[k]] - out.positions[tet[j]]).norm() / 6;
+      if (k > 0) edges.row(k - 1) = (out.positions[tet[k]] - out.positions[tet[0]]).transpose();
+    }
+    const Eigen::Matrix3d inverse = edges.inverse();
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 g = k > 0 ? Vec3(inverse.col(k - 1)) : Vec3(-inverse.rowwise().sum());
+      out.gradients.insert(out.gradients.end(), {g[0], g[1], g[2]});
+      out.corners.push_back(tet[k]);
+    }
+    out.start.push_back(std::ssize(out.corners));
+    out.measures.push_back(std::abs(edges.determinant()) / 6);
+    out.widths.push_back(width);
+  };
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      for (Index k = 0; k < n; ++k) {
+        std::array<int, 3> order = {0, 1, 2};
+        do {
+          std::array<Index, 3> at = {i, j, k};
+          std::array<Index, 4> tet{number(i, j, k)};
+          for (int s = 0; s < 3; ++s) {
+            ++at[order[s]];
+            tet[s + 1] = number(at[0], at[1], at[2]);
+          }
+          add(tet);
+        } while (std::ranges::next_permutation(order).found);
+      }
+    }
+  }
+  return out;
+}
+
+/// Mean of |d - |x - x_s|| over the mean distance.
+double straight_error(const CellComplex& cells, const std::vector<double>& distances, Vec3 source) {
+  double error = 0, sum = 0;
+  for (std::size_t v = 0; v < distances.size(); ++v) {
+    const double line = (cells.positions[v] - source).norm();
+    error += std::abs(distances[v] - line);
+    sum += line;
+  }
+  return error / sum;
+}
+
+TEST(Domains, OnATreeDistanceIsThatOfDijkstra) {
+  const Graph tree = random_tree(3000);
+  const auto cells = shared(cells_of(tree));
+  for (const Index source : {0, 1500, 2999}) {
+    const auto exact = dijkstra(tree, source);
+    const auto result = solve_cells(cells, SourceSet::of_vertices({source}));
+    // On each edge u falls away from the source, and phi has that slope: only rounding is left,
+    // that of compact factors.
+    EXPECT_LE(relative_difference(result.distances, exact), 1e-5);
+  }
+}
+
+TEST(Domains, OnACycleDistanceIsRightButForTheEdgeWhereFrontsMeet) {
+  constexpr Index kVertices = 101;
+  Graph cycle{kVertices, {}};
+  for (Index v = 0; v < kVertices; ++v) cycle.edges.push_back({v, (v + 1) % kVertices, 1.0});
+  const auto result = solve_cells(shared(cells_of(cycle)), SourceSet::of_vertices({7}));
+  const auto exact = dijkstra(cycle, 7);
+  for (Index v = 0; v < kVertices; ++v) EXPECT_NEAR(result.distances[v], exact[v], 0.5) << v;
+}
+
+TEST(Domains, HeatThatUnderflowsGoesOn) {
+  // At t = h^2 heat falls by about 2.6 an edge: doubles end after some 700 edges.
+  constexpr Index kVertices = 5000;
+  Graph chain{kVertices, {}};
+  for (Index v = 1; v < kVertices; ++v) chain.edges.push_back({v - 1, v, 0.5});
+  const auto result = solve_cells(shared(cells_of(chain)), SourceSet::of_vertices({0}));
+  EXPECT_NEAR(result.distances.back(), 0.5 * (kVertices - 1), 1e-5 * kVertices);
+}
+
+TEST(Domains, PartsWithoutSourceAndVerticesInNoCellAreUnreached) {
+  const Graph two{5, {{0, 1, 1.0}, {2, 3, 1.0}}};
+  const auto result = solve_cells(shared(cells_of(two)), SourceSet::of_vertices({0}));
+  EXPECT_NEAR(result.distances[1], 1.0, 1e-6);
+  for (const Index v : {2, 3, 4}) EXPECT_EQ(result.distances[v], kUnreached) << v;
+}
+
+TEST(Domains, InABoxOfTetsErrorsFallWithTheEdges) {
+  double before = 1;
+  for (const Index n : {6, 12, 24}) {
+    const auto cells = std::make_shared<const CellComplex>(box_of_tets(n));
+    const Index middle = cells->vertices / 2;
+    const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
+    const double error = straight_error(*cells, result.distances, cells->positions[middle]);
+    // First order, and a tenth for what the smallest grid has of its border.
+    EXPECT_LE(error, 0.6 * before) << n;
+    before = error;
+  }
+  EXPECT_LE(before, 0.02);
+}
+
+TEST(Domains, ASourceInsideATetIsAPointOfIt) {
+  const auto cells = std::make_shared<const CellComplex>(box_of_tets(12));
+  SourceSet inside;
+  const Index tet = cells->cell_count() / 2;
+  inside.cell_points.push_back({tet, {0.1, 0.2, 0.3, 0.4}});
+  Vec3 at = Vec3::Zero();
+  const auto corners = cells->corners_of(tet);
+  for (std::size_t k = 0; k < 4; ++k) {
+    at += inside.cell_points[0].weights[k] * cells->positions[corners[k]];
+  }
+  const auto result = solve_cells(cells, inside);
+  for (const Index v : corners) {  // held there
+    EXPECT_NEAR(result.distances[v], (cells->positions[v] - at).norm(), 1e-9);
+  }
+  EXPECT_LE(straight_error(*cells, result.distances, at), 0.06);
+}
+
+class OnTets : public testing::TestWithParam<std::string> {};
+
+TEST_P(OnTets, BackendsAndConstraintModesAgree) {
+  const auto cells = std::make_shared<const CellComplex>(box_of_tets(8));
+  const auto sources = SourceSet::of_vertices({100});
+  HeatOptions reference;
+  reference.backend = "eigen-ldlt";
+  reference.precision = Precision::kFull;
+  const auto expected = solve_cells(cells, sources, reference).distances;
+  for (const auto mode : {ConstraintMode::kPinSources, ConstraintMode::kPinVertex,
+                          ConstraintMode::kConserveEnergy, ConstraintMode::kPseudoInverse}) {
+    HeatOptions options;
+    options.backend = GetParam();
+    options.constraint.mode = mode;
+    // Compact factors are right to 1e-6 of the largest distance.
+    EXPECT_LE(relative_difference(solve_cells(cells, sources, options).distances, expected), 1e-5)
+        << to_text(options.constraint);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, OnTets, testing::ValuesIn(backend_names()),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+TEST(Domains, AnswersHaveTheSameBitsForAnyNumberOfThreadsParallel) {
+  const auto cells = std::make_shared<const CellComplex>(box_of_tets(24));
+  std::vector<SourceSet> sets;
+  for (Index v = 0; v < 40; ++v) sets.push_back(SourceSet::of_vertices({v * 331}));
+  std::vector<std::vector<double>> first;
+  for (const int threads : {1, 4}) {
+    HeatOptions options;
+    options.threads = threads;
+    const auto method = HeatMethod::build(cells, options);
+    ASSERT_TRUE(method);
+    const auto results = method->solve_each(sets);
+    ASSERT_TRUE(results);
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      if (threads == 1) {
+        first.push_back((*results)[i].distances);
+      } else {
+        EXPECT_EQ((*results)[i].distances, first[i]) << i;
+      }
+    }
+  }
+}
+
+TEST(Domains, OtherOptionsShareWhatStays) {
+  const auto cells = std::make_shared<const CellComplex>(box_of_tets(8));
+  const auto method = HeatMethod::build(cells);
+  ASSERT_TRUE(method);
+  HeatOptions options;
+  options.time_step.factor = 4;
+  options.boundary = BoundaryRule::kAverage;
+  const auto other = method->with(options);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->timing().analyze, 0);
+  const auto sources = SourceSet::of_vertices({300});
+  EXPECT_EQ(other->solve(sources)->distances, solve_cells(cells, sources, options).distances);
+}
+
+TEST(Domains, TrianglesAsPolygonsHaveTheDistancesOfTheTriangleMesh) {
+  const auto mesh = finish(plane_grid(20, 20, 1, 1));
+  PolygonMesh polygons{{mesh->positions().begin(), mesh->positions().end()}, {0}, {}};
+  for (const Face& face : mesh->faces()) {
+    polygons.corners.insert(polygons.corners.end(), face.begin(), face.end());
+    polygons.start.push_back(std::ssize(polygons.corners));
+  }
+  auto made = cells_of(polygons);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(made->notes.empty());
+  HeatOptions options;
+  options.variant = Variant::kClassic;
+  options.laplacian = LaplacianKind::kCotan;
+  options.time_step = {TimeRule::kAbsolute, 1, 0.003};
+  const auto sources = SourceSet::of_vertices({0, 210});
+  const auto as_polygons =
+      solve_cells(std::make_shared<const CellComplex>(std::move(made->cells)), sources, options);
+  const auto as_mesh = HeatMethod::build(mesh, options)->solve(sources);
+  EXPECT_LE(relative_difference(as_polygons.distances, as_mesh->distances), 1e-5);
+}
+
+/// A square cut into n x n quads, of which each is bent out of the plane by `bend` of its side, or
+/// into concave pairs.
+PolygonMesh quads(Index n, double bend) {
+  PolygonMesh out;
+  out.start.push_back(0);
+  const auto number = [n](Index i, Index j) { return i * (n + 1) + j; };
+  for (Index i = 0; i <= n; ++i) {
+    for (Index j = 0; j <= n; ++j) {
+      const double up = (i + j) % 2 == 0 ? bend / n : 0;
+      out.positions.push_back({double(i) / n, double(j) / n, up});
+    }
+  }
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      out.corners.insert(out.corners.end(),
+                         {number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
+      out.start.push_back(std::ssize(out.corners));
+    }
+  }
+  return out;
+}
+
+TEST(Domains, OnQuadsErrorsFallWithTheSides) {
+  double before = 1;
+  for (const Index n : {16, 32, 64}) {
+    const auto cells = std::make_shared<const CellComplex>(std::move(cells_of(quads(n, 0))->cells));
+    const Index middle = cells->vertices / 2;
+    const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
+    const double error = straight_error(*cells, result.distances, cells->positions[middle]);
+    EXPECT_LE(error, 0.65 * before) << n;
+    before = error;
+  }
+  EXPECT_LE(before, 0.02);
+}
+
+TEST(Domains, QuadsThatAreNotPlanarKeepTheirDistances) {
+  // Bent by a twentieth of a side, ways grow by less than its square.
+  const auto cells =
+      std::make_shared<const CellComplex>(std::move(cells_of(quads(48, 0.05))->cells));
+  const Index middle = cells->vertices / 2;
+  const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
+  EXPECT_LE(straight_error(*cells, result.distances, cells->positions[middle]), 0.02);
+}
+
+TEST(Domains, FacesWithoutAreaAreLeftOutAndSaid) {
+  PolygonMesh mesh = quads(4, 0);
+  mesh.corners.insert(mesh.corners.end(), {0, 1, 0, 2, 2});
+  mesh.start.push_back(mesh.start.back() + 3);
+  mesh.start.push_back(mesh.start.back() + 2);
+  const auto made = cells_of(mesh);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->cells.cell_count(), 16);
+  ASSERT_EQ(made->notes.size(), 1U);
+  EXPECT_NE(made->notes[0].message.find("2 faces were left out"), std::string::npos);
+}
+
+TEST(Domains, InAGridErrorsFallWithTheSpacing) {
+  double before = 1;
+  for (const Index n : {33, 65, 129}) {
+    Grid grid{{n, n, 1}, {1.0 / n, 1.0 / n, 1}, Vec3::Zero(), {}};
+    const auto cells = shared(cells_of(grid));
+    const Index middle = cells->vertices / 2;
+    const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
+    const double error = straight_error(*cells, result.distances, cells->positions[middle]);
+    EXPECT_LE(error, 0.65 * before) << n;
+    before = error;
+  }
+  EXPECT_LE(before, 0.015);
+}
+
+TEST(Domains, InAMazeDistanceFollowsTheCorridors) {
+  // Corridors one sample wide, back and forth: distance is the number of steps.
+  constexpr Index kSize = 31;
+  Grid maze{{kSize, kSize, 1}, {1, 1, 1}, Vec3::Zero(), {}};
+  maze.speeds.assign(kSize * kSize, 0.0);
+  Index steps = 0;
+  for (Index y = 0; y < kSize; y += 2) {
+    for (Index x = 0; x < kSize; ++x) maze.speeds[x + kSize * y] = 1;
+    steps += kSize - 1;
+    if (y + 2 >= kSize) break;
+    maze.speeds[((y / 2) % 2 == 0 ? kSize - 1 : 0) + kSize * (y + 1)] = 1;
+    steps += 2;
+  }
+  const Index end = (kSize / 2) % 2 == 0 ? kSize - 1 : 0;
+  const auto result = solve_cells(shared(cells_of(maze)), SourceSet::of_vertices({0}));
+  EXPECT_NEAR(result.distances[end + kSize * (kSize - 1)], steps, 1e-4 * steps);
+}
+
+TEST(Domains, DoubledSpeedHalvesTheTime) {
+  Grid grid{{40, 30, 1}, {1, 1, 1}, Vec3::Zero(), {}};
+  const auto plain = solve_cells(shared(cells_of(grid)), SourceSet::of_vertices({0})).distances;
+  grid.speeds.assign(40 * 30, 2.0);
+  auto fast = solve_cells(shared(cells_of(grid)), SourceSet::of_vertices({0})).distances;
+  for (double& time : fast) time *= 2;
+  EXPECT_LE(relative_difference(fast, plain), 1e-6);
+}
+
+TEST(Domains, VoxelsAreCubes) {
+  Grid grid{{25, 25, 25}, {1, 1, 1}, Vec3::Zero(), {}};
+  const auto cells = shared(cells_of(grid));
+  const Index middle = cells->vertices / 2;
+  const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
+  EXPECT_LE(straight_error(*cells, result.distances, cells->positions[middle]), 0.03);
+}
+
+struct BadCells {
+  const char* name;
+  void (*spoil)(CellComplex& cells);
+  const char* says;
+};
+
+class RefusedCells : public testing::TestWithParam<BadCells> {};
+
+TEST_P(RefusedCells, AreOneLine) {
+  CellComplex cells = box_of_tets(2);
+  GetParam().spoil(cells);
+  const auto method = HeatMethod::build(std::make_shared<const CellComplex>(std::move(cells)));
+  ASSERT_FALSE(method);
+  EXPECT_EQ(method.error().code, ErrorCode::kBadInput);
+  EXPECT_NE(method.error().message.find(GetParam().says), std::string::npos)
+      << method.error().message;
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+const BadCells kBad[] = {
+    {"none", [](CellComplex& c) { c = {}; }, "there are no cells"},
+    {"dimension", [](CellComplex& c) { c.dimension = 4; }, "the dimension is 4"},
+    {"corner", [](CellComplex& c) { c.corners[5] = 99; }, "the corner 99"},
+    {"twice", [](CellComplex& c) { c.corners[5] = c.corners[4]; }, "twice"},
+    {"starts", [](CellComplex& c) { c.start.back() += 1; }, "starts go"},
+    {"middle", [](CellComplex& c) { c.start[1] = -7; }, "corners"},
+    {"gradients", [](CellComplex& c) { c.gradients.pop_back(); }, "numbers of gradients"},
+    {"constant", [](CellComplex& c) { c.gradients[0] += 1; }, "sum to"},
+    {"nan", [](CellComplex& c) { c.gradients[0] = kNan; }, "sum to"},
+    {"measure", [](CellComplex& c) { c.measures[3] = 0; }, "measure 0"},
+    {"width", [](CellComplex& c) { c.widths[3] = kNan; }, "width"},
+    {"place", [](CellComplex& c) { c.positions[3][1] = kNan; }, "vertex 3"},
+};
+INSTANTIATE_TEST_SUITE_P(Arrays, RefusedCells, testing::ValuesIn(kBad),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Domains, SourcesThatDoNotFitAreOneLine) {
+  const auto method = HeatMethod::build(std::make_shared<const CellComplex>(box_of_tets(2)));
+  ASSERT_TRUE(method);
+  SourceSet face, curve, weights, far;
+  face.points.push_back(SurfacePoint::in_face(0, {0.2, 0.3, 0.5}));
+  curve.edges.push_back({0, 1});
+  weights.cell_points.push_back({0, {0.5, 0.5}});
+  far.cell_points.push_back({48, {0.25, 0.25, 0.25, 0.25}});
+  for (const SourceSet& sources :
+       {face, curve, weights, far, SourceSet{}, SourceSet::of_vertices({27})}) {
+    const auto result = method->solve(sources);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kBadInput) << result.error().message;
+  }
+}
+
+TEST(Domains, TheTuftedLaplacianIsOfTriangleMeshes) {
+  HeatOptions options;
+  options.laplacian = LaplacianKind::kTufted;
+  const auto method =
+      HeatMethod::build(std::make_shared<const CellComplex>(box_of_tets(2)), options);
+  ASSERT_FALSE(method);
+  EXPECT_NE(method.error().message.find("these are tets"), std::string::npos);
+}
+
+TEST(Domains, PointsOfCellsAreNoSourcesOfATriangleMesh) {
+  SourceSet sources;
+  sources.cell_points.push_back({0, {0.2, 0.3, 0.5}});
+  const auto result = HeatMethod::build(finish(plane_grid(2, 2, 1, 1)))->solve(sources);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kBadInput);
+}
+
+}  // namespace
+}  // namespace geotherm::test
