@@ -171,7 +171,7 @@ void draw_error(Frame& frame) {
           .c_str());
   ImGui::PopStyleColor();
   frame.mark("error");
-  draw_tip(frame, app::accuracy_line(report));
+  draw_tip(frame, sentence(app::accuracy_line(report)));
 }
 
 struct State {

@@ -143,13 +143,13 @@ Result<std::vector<double>> parse_factors(const std::string& text) {
 }
 
 Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& named,
-                             std::vector<std::string>& warnings) {
+                             std::vector<Warning>& warnings) {
   if (named.empty()) {
     const auto vertex = random_vertices(*model.mesh, 1, 1);
     if (!vertex) return about_model(model.name, vertex.error());
-    std::string note = "no source was given: vertex ";
-    note += std::to_string(vertex->front()) + " was taken; choose others with -s";
-    warnings.push_back(std::move(note));
+    warnings.push_back(
+        {"no source was given: vertex " + std::to_string(vertex->front()) + " was taken",
+         {"choose others with -s"}});
     return SourceSet::of_vertices(*vertex);
   }
   auto resolved = resolve_sources(named, *model.mesh);

@@ -59,11 +59,11 @@ std::string status_name(ErrorCode code) {
 void fail(CompareRow& row, Error error) {
   row.status = status_name(error.code);
   error.subject.clear();  // the backend stands beside it
-  row.message = told(error);
+  row.note = warning_of(std::move(error));
 }
 
 void add_message(CompareRow& row, const std::string& text) {
-  row.message += (row.message.empty() ? "" : "; ") + text;
+  row.note.message += (row.note.message.empty() ? "" : "; ") + text;
 }
 
 double median(std::vector<double> values) {

@@ -4,6 +4,7 @@
 #include "app/session/compare.h"
 #include "app/session/report.h"
 #include "app/session/text.h"
+#include "app/session/wording.h"
 
 namespace geotherm::app {
 namespace {
@@ -29,7 +30,7 @@ Json row_json(const CompareRow& row) {
           {"max_error", figure(row.max_error)},
           {"error_reference", to_text(row.error_reference)},
           {"status", row.status},
-          {"message", row.message}};
+          {"message", told(row.note)}};
 }
 
 /// Names and messages come from elsewhere: what a spreadsheet would take for a formula begins with
@@ -76,8 +77,8 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
                                         : "-",
                    row.mean_error ? percent(*row.mean_error) : "-",
                    row.max_error ? percent(*row.max_error) : "-"});
-    if (!row.message.empty()) {
-      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(row.message) + '\n';
+    if (!row.note.message.empty()) {
+      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(told(row.note)) + '\n';
     }
     before = &row;
   }
@@ -147,9 +148,9 @@ std::string table_row(const CompareRow& row) {
     out += "<td>" + (*error ? percent(**error) : std::string("&ndash;")) + "</td>";
   }
   out += "</tr>\n";
-  if (!row.message.empty()) {
-    out += "<tr><td></td><td></td><td class=message colspan=9>" + escaped(one_line(row.message)) +
-           "</td></tr>\n";
+  if (!row.note.message.empty()) {
+    out += "<tr><td></td><td></td><td class=message colspan=9>" +
+           escaped(one_line(told(row.note))) + "</td></tr>\n";
   }
   return out;
 }

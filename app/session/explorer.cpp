@@ -111,12 +111,12 @@ CheckSettings check_settings(const ExploreRequest& request, const Answer& answer
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
 /// anew: a curve is a walk over the mesh, a point in space a search over all faces.
-Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
-                                                         Explored& explored) {
+Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
+                                                     Explored& explored) {
   const TriangleMesh& mesh = *model_->model.mesh;
   std::vector<Placed> placed;
   SetUnion all;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   for (std::size_t i = 0; i < request.sources.size(); ++i) {
     const SourceSpec& source = request.sources[i];
     const bool same_place = i < placed_.size() && placed_[i].source == source;
@@ -131,7 +131,7 @@ Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& r
       placed.push_back({source, *std::move(places)});
     }
     const ResolvedSources& places = placed.back().places;
-    for (const std::string& warning : places.warnings) {
+    for (const Warning& warning : places.warnings) {
       if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
     add_places(places, static_cast<int>(i), mesh, explored.places);
@@ -160,7 +160,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
   model->warnings = model->model.notes;
-  for (std::string& warning : mesh_warnings(model->mesh)) {
+  for (Warning& warning : mesh_warnings(model->mesh)) {
     model->warnings.push_back(std::move(warning));
   }
   auto base = std::make_shared<PictureData>(picture_of(*mesh));
@@ -207,7 +207,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
                       : Result<TargetPaths>(placed.error());
   if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
   if (!found) {
-    explored.path_failure = told(found.error());
+    explored.path_failure = warning_of(found.error());
   } else {
     explored.paths = std::move(found->paths);
   }
@@ -254,7 +254,7 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
     auto b = answer(request, *request.kept, sources, true, progress);
     if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
     if (!b) {  // A is good all the same
-      explored.b_failure = "B: " + told(b.error());
+      explored.b_failure = about("B", b.error(), ErrorCode::kNumericalFailure);
     } else {
       explored.b = *std::move(b);
       explored.difference = difference_of(*explored.a, *explored.b);
@@ -265,8 +265,8 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   return explored;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,
-               "the memory ended while working on " + request.model +
-                   "; close other programs or take a mesh with fewer faces"};
+               "the memory ended while working on " + request.model,
+               {"close other programs or take a mesh with fewer faces"}};
 }
 
 }  // namespace geotherm::app

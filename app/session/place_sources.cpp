@@ -45,7 +45,15 @@ class Random {
   std::uint64_t state_;
 };
 
-Error misplaced(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+Error misplaced(std::string message, std::string hint) {
+  return {ErrorCode::kBadInput, std::move(message), {std::move(hint)}};
+}
+
+/// There is no such thing; there are `count` of them, from 0.
+Error out_of_range(const std::string& one, const std::string& many, Index asked, Index count) {
+  return misplaced("there is no " + one + " " + std::to_string(asked),
+                   many + " are 0 to " + std::to_string(count - 1));
+}
 
 class Resolver {
  public:
@@ -74,18 +82,18 @@ class Resolver {
     }
     if (found) return {};
     return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
-                     " edges has two faces or more); choose vertices instead");
+                         " edges has two faces or more)",
+                     "choose vertices instead");
   }
 
   Result<void> operator()(const FacePoint& point) {
     if (point.face >= mesh_.face_count()) {
-      return misplaced("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
-                       std::to_string(mesh_.face_count() - 1));
+      return out_of_range("face", "faces", point.face, mesh_.face_count());
     }
     const Face& face = mesh_.faces()[point.face];
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
-      return misplaced("face " + std::to_string(point.face) +
-                       " repeats a corner and has no inside; choose another");
+      return misplaced("face " + std::to_string(point.face) + " repeats a corner and has no inside",
+                       "choose another");
     }
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
@@ -98,9 +106,9 @@ class Resolver {
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
     if (found->distance > kFar * model_size()) {
-      out_.warnings.push_back(where_ + ": the closest point of the surface is " +
-                              significant(found->distance) + " away (the model's size is " +
-                              significant(model_size()) + ")");
+      out_.warnings.push_back({where_ + ": the closest point of the surface is " +
+                               significant(found->distance) + " away (the model's size is " +
+                               significant(model_size()) + ")"});
     }
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
     add_point(found->point, point.offset);
@@ -160,13 +168,13 @@ class Resolver {
   /// One that is there already keeps the smaller offset.
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
-      return misplaced("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
-                       std::to_string(mesh_.vertex_count() - 1));
+      return out_of_range("vertex", "vertices", v, mesh_.vertex_count());
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return misplaced("vertex " + std::to_string(v) +
-                       " belongs to no face, so that no distance starts there; choose another");
+      return misplaced(
+          "vertex " + std::to_string(v) + " belongs to no face, so that no distance starts there",
+          "choose another");
     }
     const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
     if (fresh) {
@@ -188,11 +196,12 @@ class Resolver {
 
   void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
     out_.warnings.push_back(
-        where_ + ": " + grouped(gaps) + " of " +
-        counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") + " of the curve " +
-        (gaps == 1 ? "is" : "are") + " no mesh edge and became the shortest path along edges (" +
-        (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
-        " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")");
+        {where_ + ": " + grouped(gaps) + " of " +
+         counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
+         " of the curve " + (gaps == 1 ? "is" : "are") +
+         " no mesh edge and became the shortest path along edges (" +
+         (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
+         " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")"});
   }
 
   const CleanFaces& clean() {
@@ -270,7 +279,7 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
     if (used[v]) pool.push_back(static_cast<Index>(v));
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
-    return misplaced(grouped(count) + " different vertices were asked for; " +
+    return misplaced(grouped(count) + " different vertices were asked for",
                      grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
   }
   Random random(seed);
@@ -283,8 +292,7 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
 
 Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
   if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
-  const Source pin{VertexList{{constraint.pin_vertex}},
-                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
+  const Source pin{VertexList{{constraint.pin_vertex}}, "constraint " + to_text(constraint),
                    ErrorCode::kBadInput};
   const auto placed = resolve_sources({&pin, 1}, mesh);
   if (!placed) return placed.error();

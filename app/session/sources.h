@@ -94,7 +94,7 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
 
 struct ResolvedSources {
   SourceSet set;  ///< no vertex and no edge twice
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Places sources on a mesh, all in one set. Errors: the blame of the source, its `where`, and what
@@ -103,7 +103,7 @@ Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const T
 
 struct EachSource {
   std::vector<SourceSet> sets;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Places sources on a mesh, every point of them in a set of its own, in their order: each vertex
