@@ -2,11 +2,8 @@
 #include "app/session/explorer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <new>
-#include <set>
 
 #include "app/session/progress.h"
 #include "app/session/sources.h"
@@ -52,39 +49,6 @@ std::string source_name(const SourceSpec& source) {
   constexpr std::size_t kShown = 60;
   return "source " + to_text(source).substr(0, kShown);
 }
-
-/// Puts sets together: no vertex and no edge twice.
-class SetUnion {
- public:
-  void add(const SourceSet& more) {
-    for (std::size_t i = 0; i < more.points.size(); ++i) {
-      add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
-    }
-    edges_.insert(more.edges.begin(), more.edges.end());
-  }
-  SourceSet take() {
-    set_.edges.assign(edges_.begin(), edges_.end());
-    if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
-    return std::move(set_);
-  }
-
- private:
-  void add(const SurfacePoint& point, double offset) {
-    if (point.is_vertex()) {
-      const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
-      if (!fresh) {
-        set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
-        return;
-      }
-    }
-    set_.points.push_back(point);
-    set_.offsets.push_back(offset);
-  }
-
-  SourceSet set_;
-  std::map<Index, std::size_t> vertices_;
-  std::set<std::array<Index, 2>> edges_;
-};
 
 /// What an answer is held against in a session.
 CheckSettings check_settings(const ExploreRequest& request, const Answer& answer) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -77,7 +76,7 @@ class Resolver {
     bool found = false;
     for (Index e = 0; e < edges.edge_count(); ++e) {
       if (edges.sides(e).size() != 1) continue;
-      add_edge(edges.low(e), edges.high(e));
+      set_.add_edge(edges.low(e), edges.high(e));
       found = true;
     }
     if (found) return {};
@@ -98,7 +97,7 @@ class Resolver {
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
     }
-    add_point(SurfacePoint::in_face(point.face, point.weights), point.offset);
+    set_.add(SurfacePoint::in_face(point.face, point.weights), point.offset);
     return {};
   }
 
@@ -106,12 +105,12 @@ class Resolver {
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
     if (found->distance > kFar * model_size()) {
-      out_.warnings.push_back({where_ + ": the closest point of the surface is " +
-                               significant(found->distance) + " away (the model's size is " +
-                               significant(model_size()) + ")"});
+      warnings_.push_back({where_ + ": the closest point of the surface is " +
+                           significant(found->distance) + " away (the model's size is " +
+                           significant(model_size()) + ")"});
     }
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
-    add_point(found->point, point.offset);
+    set_.add(found->point, point.offset);
     return {};
   }
 
@@ -129,13 +128,13 @@ class Resolver {
       const Index b = mesh_.standing_for(curve.vertices[i]);
       if (a == b) continue;
       if (graph.adjacent(a, b)) {
-        add_edge(a, b);
+        set_.add_edge(a, b);
         continue;
       }
       const auto path = graph.shortest_path(a, b);
       if (!path) return about(place(curve, i), path.error());
       if (gaps++ == 0) first_gap = i;
-      for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
+      for (std::size_t j = 1; j < path->size(); ++j) set_.add_edge((*path)[j - 1], (*path)[j]);
     }
     // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
     if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
@@ -150,22 +149,9 @@ class Resolver {
   }
 
   /// What was added since the last call.
-  ResolvedSources finish() {
-    out_.set.edges.assign(edges_.begin(), edges_.end());
-    const auto is_zero = [](double offset) { return offset == 0; };
-    if (std::ranges::all_of(out_.set.offsets, is_zero)) out_.set.offsets.clear();
-    vertices_.clear();
-    edges_.clear();
-    return std::exchange(out_, {});
-  }
+  ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
-  void add_point(const SurfacePoint& point, double offset) {
-    out_.set.points.push_back(point);
-    out_.set.offsets.push_back(offset);
-  }
-
-  /// One that is there already keeps the smaller offset.
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
       return out_of_range("vertex", "vertices", v, mesh_.vertex_count());
@@ -176,17 +162,9 @@ class Resolver {
           "vertex " + std::to_string(v) + " belongs to no face, so that no distance starts there",
           "choose another");
     }
-    const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
-    if (fresh) {
-      add_point(SurfacePoint::at_vertex(v), offset);
-    } else {
-      double& least = out_.set.offsets[known->second];
-      least = std::min(least, offset);
-    }
+    set_.add(SurfacePoint::at_vertex(v), offset);
     return {};
   }
-
-  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
 
   /// Where the i-th vertex stands.
   static std::string place(const VertexCurve& curve, std::size_t i) {
@@ -195,13 +173,13 @@ class Resolver {
   }
 
   void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
-    out_.warnings.push_back(
-        {where_ + ": " + grouped(gaps) + " of " +
-         counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
-         " of the curve " + (gaps == 1 ? "is" : "are") +
-         " no mesh edge and became the shortest path along edges (" +
-         (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
-         " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")"});
+    warnings_.push_back({where_ + ": " + grouped(gaps) + " of " +
+                         counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
+                         " of the curve " + (gaps == 1 ? "is" : "are") +
+                         " no mesh edge and became the shortest path along edges (" +
+                         (gaps == 1 ? "" : "the first: ") + "vertex " +
+                         std::to_string(curve.vertices[first - 1]) + " to " +
+                         std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")"});
   }
 
   const CleanFaces& clean() {
@@ -226,12 +204,38 @@ class Resolver {
   std::optional<CleanFaces> clean_;
   double size_ = -1;
   std::string where_;
-  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
-  std::set<std::array<Index, 2>> edges_;
-  ResolvedSources out_;
+  SetUnion set_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace
+
+void SetUnion::add(const SurfacePoint& point, double offset) {
+  if (point.is_vertex()) {
+    const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
+    if (!fresh) {
+      set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
+      return;
+    }
+  }
+  set_.points.push_back(point);
+  set_.offsets.push_back(offset);
+}
+
+void SetUnion::add(const SourceSet& more) {
+  for (std::size_t i = 0; i < more.points.size(); ++i) {
+    add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
+  }
+  edges_.insert(more.edges.begin(), more.edges.end());
+}
+
+SourceSet SetUnion::take() {
+  set_.edges.assign(edges_.begin(), edges_.end());
+  if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
+  vertices_.clear();
+  edges_.clear();
+  return std::exchange(set_, {});
+}
 
 Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh) {
   Resolver resolver(mesh);

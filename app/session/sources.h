@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -91,6 +94,21 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 /// follows a # are skipped. `curve`: only ids, which form one polyline.
 /// Errors: kBadFile with the number of the line.
 Result<std::vector<Source>> read_source_file(const std::string& path, bool curve);
+
+/// Puts sources together into one set: no vertex and no edge twice. A vertex keeps its smallest
+/// offset.
+class SetUnion {
+ public:
+  void add(const SurfacePoint& point, double offset);
+  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
+  void add(const SourceSet& more);
+  SourceSet take();  ///< what was added since the last call
+
+ private:
+  SourceSet set_;
+  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
+  std::set<std::array<Index, 2>> edges_;
+};
 
 struct ResolvedSources {
   SourceSet set;  ///< no vertex and no edge twice
