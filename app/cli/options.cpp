@@ -71,8 +71,7 @@ Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
   for (const std::string& text : arguments.sources) {
     auto spec = parse_source(text);
     if (!spec) return about("--source", spec.error());
-    const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
-    sources.push_back({*std::move(spec), "--source " + one_line(shown), ErrorCode::kBadInput});
+    sources.push_back({*std::move(spec), "--source " + shortened(text), ErrorCode::kBadInput});
   }
   if (arguments.file.empty()) return sources;
   auto listed = read_source_file(arguments.file, arguments.curve);

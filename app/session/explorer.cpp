@@ -7,6 +7,7 @@
 
 #include "app/session/progress.h"
 #include "app/session/sources.h"
+#include "app/session/text.h"
 #include "app/session/wording.h"
 
 namespace geotherm::app {
@@ -42,12 +43,6 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
       places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
     }
   }
-}
-
-/// How messages call a source; a long list is cut.
-std::string source_name(const SourceSpec& source) {
-  constexpr std::size_t kShown = 60;
-  return "source " + to_text(source).substr(0, kShown);
 }
 
 /// What an answer is held against in a session.
@@ -89,7 +84,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
     if (known != placed_.end()) {
       placed.push_back(*known);
     } else {
-      const Source named{source, source_name(source), ErrorCode::kBadInput};
+      const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
       auto places = resolve_sources({&named, 1}, mesh);
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
