@@ -167,7 +167,7 @@ void draw_error(Frame& frame) {
   ImGui::PushStyleColor(ImGuiCol_Text,
                         report.is_poor() ? frame.colours().warning : frame.colours().dim);
   ImGui::TextUnformatted(
-      ("error " + app::percent(report.figures.mean_relative) + ", " + to_text(report.grade))
+      ("error " + percent_text(report.figures.mean_relative) + ", " + to_text(report.grade))
           .c_str());
   ImGui::PopStyleColor();
   frame.mark("error");

@@ -80,9 +80,9 @@ void draw_figures(Frame& frame, const AccuracyReport& report) {
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
              "The more accurate method; solved once for these sources.");
-  draw_value(frame, "mean error", app::percent(e.mean_relative), "",
+  draw_value(frame, "mean error", percent_text(e.mean_relative), "",
              "Mean of |d \u2212 d_exact| / d_exact over the vertices.");
-  draw_value(frame, "largest error", app::percent(e.max_of_range), "",
+  draw_value(frame, "largest error", percent_text(e.max_of_range), "",
              "Largest |d \u2212 d_exact|, as a share of the largest distance.");
   draw_value(frame, "bias", app::significant(e.mean_signed, 3), "",
              "Mean of d \u2212 d_exact, model units: below 0, distances are too short.");

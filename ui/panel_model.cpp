@@ -131,9 +131,9 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
 void draw_error(Frame& frame, const AccuracyReport& report) {
   const ImVec4 colour = report.is_poor() ? frame.colours().warning : frame.colours().text;
   const std::string tip = sentence(app::accuracy_line(report));
-  draw_value(frame, "mean error", app::percent(report.figures.mean_relative), "", tip.c_str(),
+  draw_value(frame, "mean error", percent_text(report.figures.mean_relative), "", tip.c_str(),
              colour);
-  draw_value(frame, "largest error", app::percent(report.figures.max_of_range), "", tip.c_str(),
+  draw_value(frame, "largest error", percent_text(report.figures.max_of_range), "", tip.c_str(),
              colour);
 }
 

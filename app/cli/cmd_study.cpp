@@ -8,10 +8,10 @@
 #include "app/cli/study.h"
 #include "app/picture/chart.h"
 #include "app/session/answer.h"
-#include "app/session/check.h"
 #include "app/session/outputs.h"
 #include "app/session/sources.h"
 #include "app/session/text.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
 
@@ -103,7 +103,7 @@ std::string study_svg(const std::string& model, const Study& study) {
   const StudyRow* best = best_row(study);
   const std::string found = best == nullptr
                                 ? ""
-                                : "; least: " + percent(*best->mean_error) +
+                                : "; least: " + percent_text(*best->mean_error) +
                                       " at t = " + significant(best->unit_t, 3) + " h\u00b2";
   std::string body =
       chart::text(kLeft, 36, "start", "head",

@@ -13,7 +13,7 @@ namespace geotherm::app {
 namespace {
 
 std::string figures_in_words(const DistanceError& e) {
-  return percent(e.mean_relative) + " on average, at most " + percent(e.max_of_range) +
+  return percent_text(e.mean_relative) + " on average, at most " + percent_text(e.max_of_range) +
          " of the largest distance, at vertex " + std::to_string(e.worst);
 }
 
@@ -142,7 +142,5 @@ std::vector<Warning> replaced_warnings(MethodKind poor, const Warning& poor_line
 std::string error_title(const AccuracyReport& report) {
   return "error, against " + to_text(report.reference);
 }
-
-std::string percent(double share) { return percent_text(share); }
 
 }  // namespace geotherm::app

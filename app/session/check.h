@@ -83,7 +83,4 @@ std::vector<Warning> replaced_warnings(MethodKind poor, const Warning& poor_line
 /// What the values are, over a colour bar: "error against exact".
 std::string error_title(const AccuracyReport& report);
 
-/// "0.81 %".
-std::string percent(double share);
-
 }  // namespace geotherm::app

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/chart.h"
-#include "app/session/check.h"
 #include "app/session/compare.h"
 #include "app/session/report.h"
 #include "app/session/text.h"
 #include "app/session/wording.h"
+#include "geotherm/accuracy.h"
 
 namespace geotherm::app {
 namespace {
@@ -75,8 +75,8 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
                    row.status != "ok"   ? row.status
                    : row.max_difference ? significant(*row.max_difference, 2)
                                         : "-",
-                   row.mean_error ? percent(*row.mean_error) : "-",
-                   row.max_error ? percent(*row.max_error) : "-"});
+                   row.mean_error ? percent_text(*row.mean_error) : "-",
+                   row.max_error ? percent_text(*row.max_error) : "-"});
     if (!row.note.message.empty()) {
       messages += one_line(row.model) + ", " + row.name() + ": " + one_line(told(row.note)) + '\n';
     }
@@ -145,7 +145,7 @@ std::string table_row(const CompareRow& row) {
       row.max_difference ? significant(*row.max_difference, 2) : std::string("&ndash;");
   out += ok ? "<td>" + difference + "</td>" : "<td class=bad>" + escaped(row.status) + "</td>";
   for (const auto* error : {&row.mean_error, &row.max_error}) {
-    out += "<td>" + (*error ? percent(**error) : std::string("&ndash;")) + "</td>";
+    out += "<td>" + (*error ? percent_text(**error) : std::string("&ndash;")) + "</td>";
   }
   out += "</tr>\n";
   if (!row.note.message.empty()) {
