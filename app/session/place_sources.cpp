@@ -20,15 +20,6 @@ namespace {
 /// A point farther from the surface than this share of the model's size is worth a word.
 constexpr double kFar = 0.01;
 
-std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
-  std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
-  for (const Face& face : mesh.faces()) {
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
-    for (const Index corner : face) used[corner] = 1;
-  }
-  return used;
-}
-
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
  public:
@@ -56,7 +47,8 @@ Error out_of_range(const std::string& one, const std::string& many, Index asked,
 
 class Resolver {
  public:
-  explicit Resolver(const TriangleMesh& mesh) : mesh_(mesh), used_(vertices_in_faces(mesh)) {}
+  explicit Resolver(const TriangleMesh& mesh)
+      : mesh_(mesh), used_(vertices_in_faces(mesh.vertex_count(), mesh.faces())) {}
 
   Result<void> operator()(const VertexList& list) {
     for (const Index v : list.vertices) {
@@ -90,7 +82,7 @@ class Resolver {
       return out_of_range("face", "faces", point.face, mesh_.face_count());
     }
     const Face& face = mesh_.faces()[point.face];
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
+    if (repeats_corner(face)) {
       return misplaced("face " + std::to_string(point.face) + " repeats a corner and has no inside",
                        "choose another");
     }
@@ -277,7 +269,7 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
 
 Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
                                            std::uint64_t seed) {
-  const std::vector<char> used = vertices_in_faces(mesh);
+  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), mesh.faces());
   std::vector<Index> pool;
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) pool.push_back(static_cast<Index>(v));
