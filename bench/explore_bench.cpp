@@ -23,12 +23,6 @@ constexpr PictureArea kArea{{310, 22}, {660, 756}};
 constexpr int kDrags = 40;
 constexpr int kFrames = 15;
 
-double median(std::vector<double> all) {
-  if (all.empty()) return kNotMeasured;
-  std::ranges::sort(all);
-  return all[all.size() / 2];
-}
-
 /// Wakes whoever waits for a session's work.
 class Bell {
  public:

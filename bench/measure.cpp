@@ -41,8 +41,6 @@ PeakMemory::PeakMemory() {
 
 double PeakMemory::megabytes() const { return std::max(0.0, status_megabytes("VmHWM:") - before_); }
 
-namespace {
-
 double median(std::vector<double> values) {
   if (values.empty()) return kNotMeasured;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -50,6 +48,8 @@ double median(std::vector<double> values) {
   if (values.size() % 2 == 1) return *middle;
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
+
+namespace {
 
 class Times {
  public:

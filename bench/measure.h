@@ -51,6 +51,9 @@ inline constexpr const char* kBaseline = "baseline";
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
+/// kNotMeasured where there are no values.
+double median(std::vector<double> values);
+
 /// How the two layers below the heat method do: figures of the best attempt.
 struct Rates {
   double factor_gflops = kNotMeasured;  ///< 10^9 operations a second, both matrices side by side

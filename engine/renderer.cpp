@@ -197,7 +197,8 @@ Result<Image> draw_picture(const Device& device, Renderer& renderer, const Scene
   if (size.x < 1 || size.y < 1 || size.x > kLargestPicture || size.y > kLargestPicture) {
     return Error{ErrorCode::kBadInput,
                  "a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                     " pixels cannot be drawn; sides are 1 to " + std::to_string(kLargestPicture)};
+                     " pixels cannot be drawn",
+                 {"sides are 1 to " + std::to_string(kLargestPicture)}};
   }
   const int at_once =
       std::min(device.largest_picture(), largest_tile > 0 ? largest_tile : kUsualTile);

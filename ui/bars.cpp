@@ -167,11 +167,11 @@ void draw_error(Frame& frame) {
   ImGui::PushStyleColor(ImGuiCol_Text,
                         report.is_poor() ? frame.colours().warning : frame.colours().dim);
   ImGui::TextUnformatted(
-      ("error " + app::percent(report.figures.mean_relative) + ", " + to_text(report.grade))
+      ("error " + percent_text(report.figures.mean_relative) + ", " + to_text(report.grade))
           .c_str());
   ImGui::PopStyleColor();
   frame.mark("error");
-  draw_tip(frame, app::accuracy_line(report));
+  draw_tip(frame, sentence(app::accuracy_line(report)));
 }
 
 struct State {

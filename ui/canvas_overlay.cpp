@@ -188,8 +188,10 @@ void take_notices(Frame& frame) {
     const app::LogLine& line = log[taken];
     if (line.kind != app::LogLine::Kind::kError) continue;
     auto& notices = frame.ui.notices;
-    std::erase_if(notices, [&](const Notice& notice) { return notice.text == line.text; });
-    notices.push_back({line.text, line.kind, ImGui::GetTime() + kNoticeTime, line.settings});
+    std::string text = sentence(line.text, line.hint);
+    std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });
+    notices.push_back(
+        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, settings_of(line.hint)});
     if (notices.size() > kMaxNotices) notices.erase(notices.begin());
   }
 }

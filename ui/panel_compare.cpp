@@ -76,13 +76,13 @@ void draw_ab_panel(Frame& frame) {
 namespace {
 
 void draw_figures(Frame& frame, const AccuracyReport& report) {
-  if (!report.measured) return draw_note(app::told(report), frame.colours().dim);
+  if (!report.measured) return draw_note(sentence(report), frame.colours().dim);
   const DistanceError& e = report.figures;
   draw_value(frame, "against", to_text(report.reference), "",
              "The more accurate method; solved once for these sources.");
-  draw_value(frame, "mean error", app::percent(e.mean_relative), "",
+  draw_value(frame, "mean error", percent_text(e.mean_relative), "",
              "Mean of |d \u2212 d_exact| / d_exact over the vertices.");
-  draw_value(frame, "largest error", app::percent(e.max_of_range), "",
+  draw_value(frame, "largest error", percent_text(e.max_of_range), "",
              "Largest |d \u2212 d_exact|, as a share of the largest distance.");
   draw_value(frame, "bias", app::significant(e.mean_signed, 3), "",
              "Mean of d \u2212 d_exact, model units: below 0, distances are too short.");
@@ -91,7 +91,7 @@ void draw_figures(Frame& frame, const AccuracyReport& report) {
                "Where the error is largest: " + app::significant(e.max, 3) + " model units.");
   }
   draw_error_plot(frame, report.histogram);
-  draw_note(app::told(report), report.is_poor() ? frame.colours().warning : frame.colours().dim);
+  draw_note(sentence(report), report.is_poor() ? frame.colours().warning : frame.colours().dim);
 }
 
 /// Figures of a vertex are shown at a face that has it.
@@ -234,8 +234,8 @@ void draw_compare_panel(Frame& frame) {
   draw_bars(frame, "Query, median", &app::CompareRow::query_ms_median);
   draw_table(frame);
   for (const app::CompareRow& row : compare.rows) {
-    if (row.message.empty()) continue;
-    draw_note(row.name() + ": " + row.message,
+    if (row.note.message.empty()) continue;
+    draw_note(row.name() + ": " + sentence(row.note),
               row.status == "ok" ? frame.colours().dim : frame.colours().error);
   }
 }

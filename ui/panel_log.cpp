@@ -6,7 +6,6 @@
 #include <imgui_stdlib.h>
 #include <algorithm>
 
-#include "app/session/wording.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -57,7 +56,7 @@ void draw_filters(Frame& frame, const std::vector<const app::LogLine*>& lines) {
   ImGui::SameLine(0, frame.px(12));
   if (draw_button(frame, "copy", "Copy")) {
     std::string text;
-    for (const app::LogLine* line : lines) (text += line->text) += '\n';
+    for (const app::LogLine* line : lines) (text += sentence(line->text, line->hint)) += '\n';
     ImGui::SetClipboardText(text.c_str());
   }
   draw_tip(frame, "Copies the lines that are shown.");
@@ -70,10 +69,11 @@ void draw_line(Frame& frame, const app::LogLine& line) {
   ImGui::SameLine(frame.px(16));
   ImGui::PushStyleColor(ImGuiCol_Text, colour_of(frame, line.kind));
   // One line each, so that a long log costs what is seen of it.
-  ImGui::TextUnformatted(app::one_line(line.text).c_str());
+  const std::string text = sentence(line.text, line.hint);
+  ImGui::TextUnformatted(app::one_line(text).c_str());
   ImGui::PopStyleColor();
-  if (ImGui::CalcTextSize(line.text.c_str()).x > ImGui::GetWindowWidth() - frame.px(30)) {
-    draw_tip(frame, line.text);
+  if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetWindowWidth() - frame.px(30)) {
+    draw_tip(frame, text);
   }
 }
 
@@ -123,7 +123,7 @@ void run_line(Frame& frame) {
   if (line.empty()) return;
   auto command = app::parse_command(line);
   if (!command) {  // stays in the field to be mended
-    form.error = app::told(command.error());
+    form.error = sentence(command.error());
     return;
   }
   form.error.clear();

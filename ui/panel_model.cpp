@@ -86,7 +86,9 @@ void draw_report(Frame& frame, const app::ExploredModel& model) {
   draw_count(frame, "components", mesh.components, "Parts without a common vertex.");
   draw_value(frame, "boundary", boundary_text(mesh), "", "Edges with one face.");
   draw_flaws(frame, mesh);
-  for (const std::string& warning : model.warnings) draw_note(warning, frame.colours().warning);
+  for (const Warning& warning : model.warnings) {
+    draw_note(sentence(warning), frame.colours().warning);
+  }
   if (draw_more(frame, "Size and triangles")) draw_details(frame, mesh);
 }
 
@@ -128,10 +130,10 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
 /// How wrong the distances are, by the method wavefront or what the panel of the error names.
 void draw_error(Frame& frame, const AccuracyReport& report) {
   const ImVec4 colour = report.is_poor() ? frame.colours().warning : frame.colours().text;
-  const std::string tip = app::accuracy_line(report);
-  draw_value(frame, "mean error", app::percent(report.figures.mean_relative), "", tip.c_str(),
+  const std::string tip = sentence(app::accuracy_line(report));
+  draw_value(frame, "mean error", percent_text(report.figures.mean_relative), "", tip.c_str(),
              colour);
-  draw_value(frame, "largest error", app::percent(report.figures.max_of_range), "", tip.c_str(),
+  draw_value(frame, "largest error", percent_text(report.figures.max_of_range), "", tip.c_str(),
              colour);
 }
 
@@ -192,7 +194,9 @@ void draw_quality_panel(Frame& frame) {
   } else {
     draw_dim(frame, "Quality is measured when the drag ends.");
   }
-  for (const std::string& warning : answer->warnings) draw_note(warning, frame.colours().warning);
+  for (const Warning& warning : answer->warnings) {
+    draw_note(sentence(warning), frame.colours().warning);
+  }
 }
 
 }  // namespace geotherm::ui

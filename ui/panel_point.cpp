@@ -71,8 +71,8 @@ void draw_paths(Frame& frame) {
     draw_value(frame, to_text(path.field), app::significant(path.path.length, 5), "",
                "Length from the nearest source to the target, model units.");
   }
-  const std::string& failure = frame.explored().path_failure;
-  if (!failure.empty()) draw_note(failure, frame.colours().warning);
+  const auto& failure = frame.explored().path_failure;
+  if (failure) draw_note(sentence(*failure), frame.colours().warning);
   if (draw_button(frame, "forget paths", "Forget paths")) {
     frame.send(app::command::Target{std::nullopt});
   }

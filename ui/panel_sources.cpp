@@ -107,7 +107,7 @@ void draw_typed(Frame& frame) {
   const bool adds = draw_button(frame, "add ids", "add", possible, button);
   if (sets || adds) {
     const auto source = app::parse_source(spec);
-    form.error = source ? "" : app::told(source.error());
+    form.error = source ? "" : sentence(source.error());
     if (source && sets) frame.send(app::command::SetSources{{*source}});
     if (source && adds) frame.send(app::command::AddSources{{*source}});
   }

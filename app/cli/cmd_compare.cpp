@@ -98,7 +98,7 @@ Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs)
 
 /// The sources that were named, the same for each query; or single vertices at random.
 Result<void> choose_sources(const Model& model, const Plan& plan, CompareTask& task,
-                            std::vector<std::string>& warnings) {
+                            std::vector<Warning>& warnings) {
   if (!plan.sources.empty()) {
     auto resolved = resolve_sources(plan.sources, *model.mesh);
     if (!resolved) return resolved.error();
@@ -144,7 +144,8 @@ std::optional<Error> failure_of_all(const std::vector<CompareRow>& rows) {
   const std::string what = rows.size() == 1 ? first.name() + " failed: "
                                             : "all " + std::to_string(rows.size()) +
                                                   " solvers failed; " + first.name() + ": ";
-  return Error{ErrorCode::kNumericalFailure, one_line(first.model) + ": " + what + first.message};
+  return Error{ErrorCode::kNumericalFailure,
+               one_line(first.model) + ": " + what + first.note.message, first.note.hint};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "app/session/report.h"
 #include "app/session/sources.h"
 #include "app/session/text.h"
+#include "app/session/wording.h"
 #include "geotherm/isolines.h"
 
 namespace geotherm::app {
@@ -79,7 +80,7 @@ Json isolines_json(const Answer& figures, const std::vector<double>& levels,
                {"sources", sources_json(figures.sources)},
                {"levels", levels},
                {"lines", Json::array()},
-               {"warnings", figures.warnings}};
+               {"warnings", told(figures.warnings)}};
   if (figures.error) json["error"] = error_json(*figures.error);
   double total = 0;
   for (const Isoline& line : lines) {
@@ -115,7 +116,8 @@ std::string isolines_table(const Answer& figures, const std::vector<double>& lev
          counted(static_cast<std::int64_t>(levels.size()), "level", "levels") +
          ", distances up to " + significant(figures.distance.max) + " (" +
          to_text(figures.method->kind()) + ")\n" +
-         (figures.error ? "error: " + accuracy_line(*figures.error) + '\n' : "") + table.text();
+         (figures.error ? "error: " + told(accuracy_line(*figures.error)) + '\n' : "") +
+         table.text();
 }
 
 LinePicture picture_of_lines(const Answer& figures, const std::vector<Isoline>& lines) {
@@ -179,8 +181,8 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
 
   if (lines.empty()) {
-    figures->warnings.push_back("there is no line: the largest distance is " +
-                                significant(figures->distance.max));
+    figures->warnings.push_back(
+        {"there is no line: the largest distance is " + significant(figures->distance.max)});
   }
   CommandOutput out{"", figures->warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),

@@ -45,7 +45,7 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (!model) return model.error();
   const MeshReport mesh = inspect_mesh(*model->mesh);
   CommandOutput out{"", model->notes, {}};
-  for (std::string& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
+  for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
   const CrackReport cracks = find_cracks(*model->mesh);
   if (cracks.vertices > 0) out.warnings.push_back(crack_note(cracks));
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
@@ -54,7 +54,7 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   std::string text = to_text(Json{{"model", full_model_json(model->name, mesh)},
                                   {"cracks", cracks_json(cracks)},
                                   {"timing_ms", {{"load", model->load_ms}}},
-                                  {"warnings", out.warnings}});
+                                  {"warnings", told(out.warnings)}});
   const auto written = outputs.write_text(arguments.json, std::move(text), out.text);
   if (!written) return written.error();
   out.made = outputs.made();

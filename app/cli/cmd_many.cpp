@@ -111,7 +111,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const auto written = outputs.write(path, [&] { return array->finish(); });
   if (!written) return written.error();
 
-  if (sums.unreached > 0) figures->warnings.push_back(unreached_note(*work, sums.unreached));
+  if (sums.unreached > 0) figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
   if (!arguments.json.empty()) {
     const auto reported = outputs.write_text(
@@ -324,7 +324,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   if (arguments.symmetric) symmetrise(pairs);
 
   const auto unreached = std::ranges::count(pairs.entries, kUnreached);
-  if (unreached > 0) figures->warnings.push_back(unreached_note(*work, unreached));
+  if (unreached > 0) figures->warnings.push_back({unreached_note(*work, unreached)});
   CommandOutput out{"", figures->warnings, {}};
   for (const std::string& path : arguments.outputs) {
     const auto written = outputs.write(path, [&]() -> Result<void> {

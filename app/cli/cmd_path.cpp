@@ -32,7 +32,7 @@ struct PathFigures {
   PathOptions options;
   std::vector<FoundLine> paths;
   double setup_ms = 0, path_ms = 0;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::optional<AccuracyReport> error;  ///< of the distances from the start that lead the way
 };
 
@@ -101,7 +101,7 @@ Json path_json(const PathFigures& figures) {
        {"method", to_text(figures.method.method)},
        {"timing_ms",
         {{"load", figures.model.load_ms}, {"setup", figures.setup_ms}, {"path", figures.path_ms}}},
-       {"warnings", figures.warnings}});
+       {"warnings", told(figures.warnings)}});
   if (figures.error) json["error"] = error_json(*figures.error);
   return json;
 }
@@ -114,7 +114,7 @@ std::string path_table(const PathFigures& figures) {
   table.add_row({"field", to_text(figures.options.field) + ", led by distances of " +
                               to_text(figures.method.method)});
   if (figures.error && figures.error->measured) {
-    table.add_row({"error", "of the distances: " + accuracy_line(*figures.error)});
+    table.add_row({"error", "of the distances: " + told(accuracy_line(*figures.error))});
   }
   table.add_row({"set-up", milliseconds(figures.setup_ms) + " ms"});
   table.add_row({"search", milliseconds(figures.path_ms) + " ms"});
@@ -199,7 +199,7 @@ Result<PathTask> task_of(const PathArguments& arguments) {
 }
 
 Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const TriangleMesh& mesh,
-                                        std::vector<std::string>& warnings) {
+                                        std::vector<Warning>& warnings) {
   std::vector<SurfacePoint> out;
   for (const Source& point : points) {
     const auto placed = resolve_sources({&point, 1}, mesh);
@@ -219,8 +219,9 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
   auto checked = solver.check_method(ready, {&from, 1}, {mode}, part_of(progress, 0.9, 1.0));
   if (!checked) return checked.error();
   AccuracyReport& report = checked->error.report;
-  auto warning = accuracy_warning(report, accuracy_line(report));
-  if (!warning.empty()) figures.warnings.push_back(std::move(warning));
+  if (auto warning = accuracy_warning(report, accuracy_line(report))) {
+    figures.warnings.push_back(*std::move(warning));
+  }
   figures.error = std::move(report);
   return {};
 }
@@ -234,7 +235,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
   ModelSolver solver(figures.model);
   const auto ready = solver.prepare(task.method, part_of(progress, 0, 0.5));
   if (!ready) return ready.error();
-  const auto about_method = told(ready->method->warnings());
+  const auto& about_method = ready->method->warnings();
   figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
   const PathFinder finder(figures.model.mesh, ready->method);
   figures.setup_ms = watch.milliseconds();

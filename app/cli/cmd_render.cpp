@@ -98,7 +98,7 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
 Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState& asked,
                             const std::vector<Source>& sources, const std::vector<Source>& targets,
                             CheckSettings check, const Progress& progress, PictureFigures& figures,
-                            std::vector<std::string>& warnings) {
+                            std::vector<Warning>& warnings) {
   const MethodOptions& options = asked.options;
   auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
@@ -125,8 +125,9 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
     return solved.error();
   }
   if (!solved) {
-    warnings.push_back("there are no distances, the surface is drawn in grey: " +
-                       told(solved.error()));
+    Warning said = warning_of(solved.error());
+    said.message.insert(0, "there are no distances, the surface is drawn in grey: ");
+    warnings.push_back(std::move(said));
     add_distances(data,
                   std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
@@ -181,13 +182,13 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
   return drawn;
 }
 
-void note_scale(const PictureFigures& figures, std::vector<std::string>& warnings) {
+void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   const std::optional<double>& asked = figures.settings.line_spacing;
   if (!asked || *asked <= 0 || figures.scale.spacing > 0 || !figures.scale.coloured) return;
   const double room = figures.scale.max - figures.scale.min;
-  warnings.push_back("isolines every " + significant(*asked) +
-                     " would be closer together than pixels and are left out; try --spacing " +
-                     significant(round_spacing(room)));
+  warnings.push_back({"isolines every " + significant(*asked) +
+                          " would be closer together than pixels and are left out",
+                      {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
 }
 
 /// How the sources were given, for the picture's file.
@@ -284,7 +285,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   data->caption = caption_of(figures);
   note_scale(figures, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
-    out.warnings.push_back("drawing in software, on " + figures.device.name);
+    out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }
   if (auto drawn = draw_frames(drawing, *data, progress, outputs, figures, out.text); !drawn) {
     return drawn.error();

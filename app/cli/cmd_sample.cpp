@@ -38,7 +38,7 @@ struct SampleFigures {
   FarthestPoints points;
   double sampling_ms = 0;
   double peak_rss_mb = 0;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::optional<SampleCheck> error = {};     ///< of some samples; none: not to be checked
   std::optional<SampleCheck> replaced = {};  ///< of the poor method that this one stands for
 };
@@ -97,7 +97,7 @@ Json sample_json(const SampleFigures& f) {
                  {"sampling", f.sampling_ms},
                  {"query", f.points.query_ms}}},
                {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
-               {"warnings", f.warnings}};
+               {"warnings", told(f.warnings)}};
   if (f.error) json["error"] = error_json(*f.error);
   if (f.replaced) json["replaced"] = error_json(*f.replaced);
   return json;
@@ -126,7 +126,7 @@ std::string sample_table(const SampleFigures& f) {
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
   figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +
                                    milliseconds(points.query_ms) + " ms each"});
-  if (f.error) figures.add_row({"error", accuracy_line(*f.error)});
+  if (f.error) figures.add_row({"error", told(accuracy_line(*f.error))});
   constexpr auto kRight = TextTable::Align::kRight;
   TextTable list({{"sample", kRight}, {"vertex", kRight}, {"radius", kRight}, {"cell", kRight}});
   const std::vector<Index> cells = cell_sizes(points);
@@ -263,12 +263,12 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
         check_samples(task, solver, *ready, part_of(progress, kSampled, 1.0), announce, figures);
     if (!done) return done.error();
   }
-  const auto add_warnings = [&figures](const std::vector<std::string>& more) {
+  const auto add_warnings = [&figures](const std::vector<Warning>& more) {
     figures.warnings.insert(figures.warnings.end(), more.begin(), more.end());
   };
   add_warnings(figures.model.notes);
-  add_warnings(told(figures.method->warnings()));
-  add_warnings(told(figures.points.first.warnings));
+  add_warnings(figures.method->warnings());
+  add_warnings(figures.points.first.warnings);
   const auto unreached = std::ranges::count(figures.points.distances, kUnreached);
   add_warnings(unreached_notes(mesh, static_cast<Index>(unreached)));
   note_unused_settings(arguments, task.options, figures.warnings);

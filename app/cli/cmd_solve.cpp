@@ -112,7 +112,7 @@ Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& f
                      "--fields: there is no error: " + why + "; leave the field error out"};
       }
       if (!known) {
-        figures.warnings.push_back("--fields: the field error is left out: " + why);
+        figures.warnings.push_back({"--fields: the field error is left out: " + why});
         continue;
       }
       error = figures.error->values;

@@ -8,10 +8,10 @@
 #include "app/cli/study.h"
 #include "app/picture/chart.h"
 #include "app/session/answer.h"
-#include "app/session/check.h"
 #include "app/session/outputs.h"
 #include "app/session/sources.h"
 #include "app/session/text.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
 
@@ -103,7 +103,7 @@ std::string study_svg(const std::string& model, const Study& study) {
   const StudyRow* best = best_row(study);
   const std::string found = best == nullptr
                                 ? ""
-                                : "; least: " + percent(*best->mean_error) +
+                                : "; least: " + percent_text(*best->mean_error) +
                                       " at t = " + significant(best->unit_t, 3) + " h\u00b2";
   std::string body =
       chart::text(kLeft, 36, "start", "head",
@@ -143,13 +143,13 @@ Result<std::vector<double>> parse_factors(const std::string& text) {
 }
 
 Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& named,
-                             std::vector<std::string>& warnings) {
+                             std::vector<Warning>& warnings) {
   if (named.empty()) {
     const auto vertex = random_vertices(*model.mesh, 1, 1);
     if (!vertex) return about_model(model.name, vertex.error());
-    std::string note = "no source was given: vertex ";
-    note += std::to_string(vertex->front()) + " was taken; choose others with -s";
-    warnings.push_back(std::move(note));
+    warnings.push_back(
+        {"no source was given: vertex " + std::to_string(vertex->front()) + " was taken",
+         {"choose others with -s"}});
     return SourceSet::of_vertices(*vertex);
   }
   auto resolved = resolve_sources(named, *model.mesh);

@@ -34,8 +34,8 @@ int fail(int code, const std::string& message) {
 int fail(const Error& error) { return fail(exit_code(error.code), told(error)); }
 
 int print(const CommandOutput& output) {
-  for (const std::string& warning : output.warnings) {
-    std::fprintf(stderr, "geotherm: warning: %s\n", one_line(warning).c_str());
+  for (const Warning& warning : output.warnings) {
+    std::fprintf(stderr, "geotherm: warning: %s\n", one_line(told(warning)).c_str());
   }
   if (!output.note.empty()) {
     std::fprintf(stderr, "geotherm: %s\n", one_line(output.note).c_str());

@@ -64,9 +64,9 @@ Result<void> write_line_files(const LineFileArguments& arguments, const LinePict
         return svg.error();
       }
       if (!svg->shows_lines && !picture.lines.empty()) {
-        out.warnings.push_back(one_line(path) +
-                               " shows no line: all are behind the surface; look from another side "
-                               "with --azimuth and --elevation");
+        out.warnings.push_back({one_line(path) + " shows no line: all are behind the surface",
+                                {"look from another side with ", SettingHint{"azimuth"}, " and ",
+                                 SettingHint{"elevation"}}});
       }
       written = outputs.write_text(path, std::move(svg->text), out.text);
     } else {

@@ -22,9 +22,9 @@ namespace {
 /// Warnings of answers that are shown; they are alike from source to source.
 constexpr std::size_t kMaxWarnings = 5;
 
-void add_warnings(std::vector<std::string>& all, const std::vector<std::string>& more) {
-  for (const std::string& text : more) {
-    if (std::ranges::find(all, text) == all.end()) all.push_back(text);
+void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {
+  for (const Warning& warning : more) {
+    if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
   }
 }
 
@@ -105,13 +105,13 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   }
   figures.method = std::move(ready->method);
   figures.options = ready->options;
-  add_warnings(figures.warnings, told(figures.method->warnings()));
+  add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 
   const std::size_t rows = work.sources.sets.size();
   StreamOptions stream;
   stream.chunk = work.chunk;
-  std::vector<std::string> of_answers;
+  std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
     auto taken = take(row, answer.distances);
@@ -119,7 +119,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
       not_taken = taken.error();
       return taken;
     }
-    add_warnings(of_answers, told(answer.warnings));
+    add_warnings(of_answers, answer.warnings);
     answer.distances = {};
     if (row == 0) figures.first = std::move(answer);
     return {};
@@ -141,9 +141,9 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   if (of_answers.size() > kMaxWarnings) {
     const auto more = static_cast<std::int64_t>(of_answers.size() - kMaxWarnings);
     of_answers.resize(kMaxWarnings);
-    of_answers.push_back("and " + counted(more, "more such warning", "more such warnings") +
-                         " about the first " +
-                         counted(static_cast<std::int64_t>(work.chunk), "source", "sources"));
+    of_answers.push_back({"and " + counted(more, "more such warning", "more such warnings") +
+                          " about the first " +
+                          counted(static_cast<std::int64_t>(work.chunk), "source", "sources")});
   }
   add_warnings(figures.warnings, of_answers);
   note_unused_settings(arguments.settings, work.options, figures.warnings);
@@ -188,7 +188,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
        {{"factor", figures.method->memory_mb()},
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
-      {"warnings", figures.warnings}};
+      {"warnings", told(figures.warnings)}};
   if (figures.error) json["error"] = error_json(*figures.error);
   if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
   return json;
@@ -206,7 +206,7 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
                                 milliseconds(figures.queries_ms / rows) + " ms each"});
-  if (figures.error) table.add_row({"error", accuracy_line(*figures.error)});
+  if (figures.error) table.add_row({"error", told(accuracy_line(*figures.error))});
   return table.text();
 }
 

@@ -43,7 +43,7 @@ struct ManyFigures {
   DistanceResult first;   ///< the first answer, without its distances
   double queries_ms = 0;  ///< from the first source to the last row
   double peak_rss_mb = 0;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   MethodOptions options;                ///< of `method`
   std::optional<SampleCheck> error;     ///< of some of the sources; none: not to be checked
   std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for

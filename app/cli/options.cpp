@@ -71,8 +71,7 @@ Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
   for (const std::string& text : arguments.sources) {
     auto spec = parse_source(text);
     if (!spec) return about("--source", spec.error());
-    const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
-    sources.push_back({*std::move(spec), "--source " + one_line(shown), ErrorCode::kBadInput});
+    sources.push_back({*std::move(spec), "--source " + shortened(text), ErrorCode::kBadInput});
   }
   if (arguments.file.empty()) return sources;
   auto listed = read_source_file(arguments.file, arguments.curve);
@@ -170,7 +169,7 @@ Result<ViewerState> settings_in(const SettingArguments& arguments) {
 }
 
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
-                          std::vector<std::string>& warnings) {
+                          std::vector<Warning>& warnings) {
   if (options.method != MethodKind::kHeat) {
     const ViewerState usual = usual_settings();
     std::vector<std::string> unused;
@@ -180,15 +179,15 @@ void note_unused_settings(const SettingArguments& arguments, const MethodOptions
       if (typed->second != setting.get(usual)) unused.push_back("--" + std::string(setting.name));
     }
     if (unused.empty()) return;
-    warnings.push_back("the method " + to_text(options.method) + " does not use " + joined(unused) +
-                       "; these are options of --method heat");
+    warnings.push_back({"the method " + to_text(options.method) + " does not use " +
+                        joined(unused) + "; these are options of --method heat"});
     return;
   }
   const auto factor = arguments.texts.find("time-factor");
   if (options.time_step.rule != TimeRule::kAbsolute || factor == arguments.texts.end()) return;
-  warnings.push_back("--time-factor " + factor->second + " is not used: --time-step " +
-                     arguments.texts.find("time-step")->second +
-                     " is the time itself; leave one of them out");
+  warnings.push_back({"--time-factor " + factor->second + " is not used: --time-step " +
+                      arguments.texts.find("time-step")->second +
+                      " is the time itself; leave one of them out"});
 }
 
 void add_check_options(CLI::App& command, CheckArguments& arguments) {
@@ -232,11 +231,17 @@ Result<CheckSettings> check_settings(const CheckArguments& arguments) {
   return settings;
 }
 
+Result<void> refuse_better(const CheckSettings& settings, const std::string& what) {
+  if (settings.on_poor != OnPoor::kBetter) return {};
+  return Error{ErrorCode::kBadInput, "--on-poor better may answer by another method, and " + what +
+                                         " is about the heat u; leave one of them out"};
+}
+
 std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
-                          const AccuracyReport& report, const std::string& line) {
+                          const AccuracyReport& report, const Warning& line) {
   if (quiet || !outputs.uses_stdout() || json == "-") return {};
   if (!report.measured || report.is_poor()) return {};
-  return "accuracy: " + line;
+  return "accuracy: " + told(line);
 }
 
 namespace {
@@ -298,9 +303,7 @@ Result<PictureSettings> picture_settings(const ViewerState& asked, const Setting
     return map.error();
   }
   if (!a.turntable.empty()) {
-    const auto frames =
-        whole_between(a.turntable, 1, kMaxFrames,
-                      "is no number of pictures; give 1 to " + std::to_string(kMaxFrames));
+    const auto frames = whole_between(a.turntable, 1, kMaxFrames, "is no number of pictures");
     if (!frames) return about("--turntable", frames.error());
     picture.turntable = *frames;
   }

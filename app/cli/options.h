@@ -44,7 +44,7 @@ Result<ViewerState> settings_in(const SettingArguments& arguments);
 
 /// Says which of the typed settings of methods have no effect beside the others.
 void note_unused_settings(const SettingArguments& arguments, const MethodOptions& options,
-                          std::vector<std::string>& warnings);
+                          std::vector<Warning>& warnings);
 
 /// Where distance is 0, as typed.
 struct SourceArguments {
@@ -82,11 +82,15 @@ void add_no_check_option(CLI::App& command, CheckArguments& arguments);
 /// Errors: kBadInput (options that contradict each other, a word that is none).
 Result<CheckSettings> check_settings(const CheckArguments& arguments);
 
+/// Refuses distances that may turn into those of another method where the heat is needed. `what`:
+/// the option that needs it, with its value. Errors: kBadInput.
+Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
+
 /// How right the distances are, for standard error where it is nowhere on standard output; empty:
 /// it is there, nobody wants it, or a warning says it. `json`: where the JSON goes; `line`:
 /// accuracy_line().
 std::string accuracy_note(const std::string& json, const Outputs& outputs, bool quiet,
-                          const AccuracyReport& report, const std::string& line);
+                          const AccuracyReport& report, const Warning& line);
 
 /// What a picture needs beside the settings of the table, as typed.
 struct PictureArguments {

@@ -8,6 +8,7 @@
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
 #include "app/session/text.h"
+#include "app/session/wording.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
@@ -147,7 +148,7 @@ std::string picture_table(const PictureFigures& f) {
                      counted(s.samples, "sample", "samples") + " a pixel"});
   table.add_row({"view", view_in_words(f)});
   table.add_row({"model", caption_of(f)});
-  if (f.solve && f.solve->error) table.add_row({"error", accuracy_line(*f.solve->error)});
+  if (f.solve && f.solve->error) table.add_row({"error", told(accuracy_line(*f.solve->error))});
   for (const PictureFigures::Line& line : f.lines) {
     table.add_row({"path", line.field + " to " + one_line(line.target) + ": " +
                                significant(line.length, 6) + " long"});

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "app/session/check.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
 #include "app/session/text.h"
@@ -165,7 +164,7 @@ const StudyRow* find(const Study& study, TimeRule rule, double factor, BoundaryR
 }
 
 std::string cell(const StudyRow* row) {
-  return row != nullptr && row->mean_error ? percent(*row->mean_error) : "-";
+  return row != nullptr && row->mean_error ? percent_text(*row->mean_error) : "-";
 }
 
 /// The values that a part of the rows has, in their order.
@@ -210,8 +209,8 @@ std::string constraints_table(const Study& study) {
     const StudyRow* row = find(study, best->rule, best->factor, best->boundary, constraint.mode);
     if (row == nullptr) continue;
     table.add_row({constraint_name(row->constraint), cell(row),
-                   row->max_error ? percent(*row->max_error) : "-",
-                   row->source_distance ? percent(*row->source_distance) : "-"});
+                   row->max_error ? percent_text(*row->max_error) : "-",
+                   row->source_distance ? percent_text(*row->source_distance) : "-"});
   }
   return "at m = " + significant(best->factor) + ", " + rule_text(best->rule) + ", " +
          to_text(best->boundary) + ":\n" + table.text();
@@ -250,8 +249,8 @@ std::string study_table(const std::string& model, const Study& study) {
                      factors_table(study);
   const StudyRow* best = best_row(study);
   if (best == nullptr) return text + "\nno row has an error; see --json for the messages\n";
-  text += '\n' + constraints_table(study) + "\nbest: " + percent(*best->mean_error) + " with " +
-          words_of(*best) + ", t = " + significant(best->unit_t) + " h^2\n";
+  text += '\n' + constraints_table(study) + "\nbest: " + percent_text(*best->mean_error) +
+          " with " + words_of(*best) + ", t = " + significant(best->unit_t) + " h^2\n";
   std::set<std::string> messages;
   for (const StudyRow& row : study.rows) {
     if (!row.message.empty() && messages.insert(row.message).second) {

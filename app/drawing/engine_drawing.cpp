@@ -23,8 +23,8 @@ Result<void> check_address_space() {
   return Error{ErrorCode::kOutOfMemory,
                "drawing needs " + std::to_string(kNeeded / kMegabyte) +
                    " MB of address space, and this process may take only " +
-                   std::to_string(std::max<std::int64_t>(*left, 0) / kMegabyte) +
-                   " MB more; raise its limit (ulimit -v)"};
+                   std::to_string(std::max<std::int64_t>(*left, 0) / kMegabyte) + " MB more",
+               {"raise its limit (ulimit -v)"}};
 }
 
 class EngineDrawing final : public Drawing {

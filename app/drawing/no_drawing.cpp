@@ -7,7 +7,8 @@ namespace {
 
 Error no_renderer() {
   return {ErrorCode::kNoDevice,
-          "this build has no renderer; configure it with -DGEOTHERM_BUILD_ENGINE=ON"};
+          "this build has no renderer",
+          {"configure it with -DGEOTHERM_BUILD_ENGINE=ON"}};
 }
 
 class NoDrawing final : public Drawing {

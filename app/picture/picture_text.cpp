@@ -8,6 +8,7 @@
 
 #include "app/picture/picture_settings.h"
 #include "app/session/text.h"
+#include "app/session/wording.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {
@@ -62,9 +63,9 @@ Result<Value> value_of(const Named<Value> (&all)[N], std::string_view text, cons
   for (const auto& each : all) {
     if (text == each.name) return each.value;
   }
-  return Error{ErrorCode::kBadInput, std::string("there is no ") + what + " '" +
-                                         one_line(std::string(text)) + "'; there are " +
-                                         joined(names_of(all))};
+  return Error{ErrorCode::kBadInput,
+               std::string("there is no ") + what + " '" + one_line(std::string(text)) + "'",
+               {"there are " + joined(names_of(all))}};
 }
 
 std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
@@ -126,15 +127,11 @@ std::vector<std::pair<std::string, std::string>> settings_in_words(const Picture
 
 namespace {
 
-Error wrong(const std::string& text, const std::string& why) {
-  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why};
-}
-
 Result<double> number_between(const std::string& text, double least, double most,
-                              const std::string& why) {
+                              const std::string& why, const std::string& hint) {
   const auto value = number_in<double>(text);
   if (value && *value >= least && *value <= most) return *value;
-  return wrong(text, why);
+  return bad_value(text, why, hint);
 }
 
 /// The parts before and after the first of `marks`.
@@ -150,7 +147,7 @@ std::optional<std::pair<std::string, std::string>> halves(const std::string& tex
 Result<int> whole_between(const std::string& text, int least, int most, const std::string& why) {
   const auto value = number_in<int>(text);
   if (value && *value >= least && *value <= most) return *value;
-  return wrong(text, why);
+  return bad_value(text, why, "give " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 Result<Size> parse_size(const std::string& text) {
@@ -162,13 +159,14 @@ Result<Size> parse_size(const std::string& text) {
     };
     if (fits(width) && fits(height)) return Size{*width, *height};
   }
-  return wrong(text, "is no size; give WxH in pixels, each 1 to " +
-                         std::to_string(kLargestPictureSide) + ", such as 1920x1080");
+  return bad_value(text, "is no size",
+                   "give WxH in pixels, each 1 to " + std::to_string(kLargestPictureSide) +
+                       ", such as 1920x1080");
 }
 
 Result<int> parse_samples(const std::string& text) {
   if (text == "1" || text == "4") return text == "1" ? 1 : 4;
-  return wrong(text, "samples a pixel cannot be had; give 1 or 4");
+  return bad_value(text, "samples a pixel cannot be had", "give 1 or 4");
 }
 
 Result<Range> parse_range(const std::string& text) {
@@ -184,33 +182,31 @@ Result<Range> parse_range(const std::string& text) {
       (range.min || range.max) && !(range.min && range.max && *range.min >= *range.max)) {
     return range;
   }
-  return wrong(text,
-               "is no range; give MIN:MAX with MIN below MAX, such as 0:2.5; one of them "
-               "may be left out");
+  return bad_value(text, "is no range",
+                   "give MIN:MAX with MIN below MAX, such as 0:2.5; one of them may be left out");
 }
 
 Result<std::optional<double>> parse_spacing(const std::string& text) {
   if (text.empty() || text == "auto") return std::optional<double>();
   const auto value = number_in<double>(text);
   if (value && *value >= 0 && std::isfinite(*value)) return value;
-  return wrong(text,
-               "is no spacing of isolines; give a length in model units, such as 0.5, or 0 "
-               "for none");
+  return bad_value(text, "is no spacing of isolines",
+                   "give a length in model units, such as 0.5, or 0 for none");
 }
 
 Result<double> parse_azimuth(const std::string& text) {
-  return number_between(text, -kMaxAngle, kMaxAngle,
-                        "is no angle; give degrees about the vertical axis, such as 30");
+  return number_between(text, -kMaxAngle, kMaxAngle, "is no angle",
+                        "give degrees about the vertical axis, such as 30");
 }
 
 Result<double> parse_elevation(const std::string& text) {
-  return number_between(text, -90, 90,
-                        "is no elevation; give degrees from -90 (from below) to 90 (from above)");
+  return number_between(text, -90, 90, "is no elevation",
+                        "give degrees from -90 (from below) to 90 (from above)");
 }
 
 Result<double> parse_zoom(const std::string& text) {
-  return number_between(text, kMinZoom, kMaxZoom,
-                        "is no zoom; give 0.001 to 1000000, such as 2: twice as large as it fits");
+  return number_between(text, kMinZoom, kMaxZoom, "is no zoom",
+                        "give 0.001 to 1000000, such as 2: twice as large as it fits");
 }
 
 Result<Pan> parse_pan(const std::string& text) {
@@ -222,14 +218,15 @@ Result<Pan> parse_pan(const std::string& text) {
     };
     if (fits(right) && fits(up)) return Pan{*right, *up};
   }
-  return wrong(text, "is no shift; give RIGHT:UP in picture heights, such as 0.1:-0.25");
+  return bad_value(text, "is no shift", "give RIGHT:UP in picture heights, such as 0.1:-0.25");
 }
 
 Result<bool> parse_projection(const std::string& text) {
   if (text == "perspective") return false;
   if (text == "orthographic") return true;
-  return Error{ErrorCode::kBadInput, "there is no projection '" + one_line(text) +
-                                         "'; there are perspective, orthographic"};
+  return Error{ErrorCode::kBadInput,
+               "there is no projection '" + one_line(text) + "'",
+               {"there are perspective, orthographic"}};
 }
 
 Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text) {
@@ -240,7 +237,7 @@ Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& tex
     const std::size_t end = k < 2 ? rest.find(':') : rest.size();
     const auto value = number_in<double>(rest.substr(0, end));
     if (end == std::string::npos || !value || !std::isfinite(*value)) {
-      return wrong(text, "is no point; give X:Y:Z in model units, such as 0:1.5:-2, or auto");
+      return bad_value(text, "is no point", "give X:Y:Z in model units, such as 0:1.5:-2, or auto");
     }
     centre[k] = *value;
     rest.erase(0, k < 2 ? end + 1 : end);
@@ -251,7 +248,7 @@ Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& tex
 Result<bool> parse_switch(const std::string& text) {
   if (text == "on") return true;
   if (text == "off") return false;
-  return wrong(text, "is neither on nor off");
+  return bad_value(text, "is neither on nor off");
 }
 
 int frame_count(const PictureSettings& settings) { return std::max(settings.turntable, 1); }

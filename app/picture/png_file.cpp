@@ -26,7 +26,7 @@ struct PngWriter {
   std::vector<std::string> words;  ///< what `texts` points to
   std::string bytes;
   std::string failure;
-  bool memory_ended = false;
+  bool memory_ended = false;  ///< ours or libpng's
 };
 
 PngWriter& writer_of(png_structp png) { return *static_cast<PngWriter*>(png_get_io_ptr(png)); }
@@ -54,6 +54,15 @@ void flush_png_bytes(png_structp) {}
   }
   png_longjmp(png, 1);
 }
+
+/// libpng reports a lack of memory in words alone, so it asks here for its own.
+png_voidp allocate_for_png(png_structp png, png_alloc_size_t size) {
+  void* const block = ::operator new(size, std::nothrow);
+  if (block == nullptr) static_cast<PngWriter*>(png_get_mem_ptr(png))->memory_ended = true;
+  return block;
+}
+
+void free_for_png(png_structp, png_voidp block) { ::operator delete(block); }
 
 void ignore_png_warning(png_structp, png_const_charp) {}
 
@@ -113,17 +122,18 @@ Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngTe
   PngWriter writer{picture, is_opaque(picture), {}, {}, {}, {}};
   add_texts(writer, texts);
   png_structp png =
-      png_create_write_struct(PNG_LIBPNG_VER_STRING, &writer, fail_png, ignore_png_warning);
+      png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &writer, fail_png, ignore_png_warning,
+                                &writer, allocate_for_png, free_for_png);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
   const bool written = info != nullptr && write_png(png, info, writer);
   png_destroy_write_struct(&png, &info);
   if (written) return std::move(writer.bytes);
   const std::string size =
       std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels";
-  if (writer.memory_ended || info == nullptr ||
-      writer.failure.find("memory") != std::string::npos) {
+  if (writer.memory_ended) {
     return Error{ErrorCode::kOutOfMemory,
-                 "not enough memory to write a picture of " + size + "; ask for a smaller --size"};
+                 "not enough memory to write a picture of " + size,
+                 {"ask for a smaller ", SettingHint{"size"}}};
   }
   return Error{ErrorCode::kBadInput,
                "the picture of " + size + " cannot be written as PNG: " + writer.failure};

@@ -20,7 +20,7 @@ struct TargetPath {
 
 struct TargetPaths {
   std::vector<TargetPath> paths;  ///< geodesic, distance, and heat where the method is that
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// The point of the source set that is nearest to `target`: a point, or one on a curve's edge.

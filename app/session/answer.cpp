@@ -31,19 +31,19 @@ CheckedAnswers checked_answers(const Answer& answer) {
   return {*answer.method, answer.options, {&answer.sources, 1}, {&answer.result.distances, 1}};
 }
 
-std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached) {
-  std::vector<std::string> notes;
+std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached) {
+  std::vector<Warning> notes;
   const Index loose = mesh.unreferenced_vertices;
   if (loose > 0) {
-    notes.push_back(counted(loose, "vertex belongs", "vertices belong") +
-                    " to no face; their distance is infinite");
+    notes.push_back({counted(loose, "vertex belongs", "vertices belong") +
+                     " to no face; their distance is infinite"});
   }
   const Index lost = unreached - loose;
   if (lost > 0) {
-    notes.push_back(counted(lost, "vertex lies", "vertices lie") +
-                    " in components without a source (there are " +
-                    counted(mesh.components, "component", "components") +
-                    "); their distance is infinite");
+    notes.push_back({counted(lost, "vertex lies", "vertices lie") +
+                     " in components without a source (there are " +
+                     counted(mesh.components, "component", "components") +
+                     "); their distance is infinite"});
   }
   return notes;
 }

@@ -34,7 +34,7 @@ struct Answer {
   double setup_ms = 0;     ///< from the question to the method being ready
   double peak_rss_mb = 0;  ///< of set-up and query
   double report_ms = 0;    ///< of `mesh`, where it was timed
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   std::shared_ptr<const AccuracyReport> error = {};     ///< null: it was not to be checked
   std::shared_ptr<const AccuracyReport> replaced = {};  ///< of the poor answer before this one
 };
@@ -43,7 +43,7 @@ struct Answer {
 CheckedAnswers checked_answers(const Answer& answer);
 
 /// One sentence for each reason why `unreached` vertices have no distance.
-std::vector<std::string> unreached_notes(const MeshSummary& mesh, Index unreached);
+std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached);
 
 /// Turns kBadInput of the library, which found something wrong with the mesh, into kBadFile, with
 /// the model's name in front where it has one.

@@ -18,7 +18,9 @@ namespace {
 const SourceSpec kFirstSource = RandomVertices{};
 constexpr Index kMaxRandom = std::numeric_limits<Index>::max();
 
-Error bad(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+Error bad(std::string message, Hint hint = {}) {
+  return {ErrorCode::kBadInput, std::move(message), std::move(hint)};
+}
 
 bool is_random(const SourceSpec& source) { return std::holds_alternative<RandomVertices>(source); }
 
@@ -34,9 +36,12 @@ class Applier {
   explicit Applier(ViewerState& state) : s_(state) {}
 
   Result<void> operator()(const command::Open& c) {
-    if (c.model.empty()) return bad("no model was named; give a path or a bundled model's name");
+    if (c.model.empty()) {
+      return bad("no model was named", {"give a path or a bundled model's name"});
+    }
     if (c.model == kStandardInput) {
-      return bad("standard input cannot be opened here; write the model to a file and name that");
+      return bad("standard input cannot be opened here",
+                 {"write the model to a file and name that"});
     }
     s_.model = c.model;
     s_.reading = {};
@@ -91,7 +96,7 @@ class Applier {
   Result<void> operator()(const command::ExtendCurve& c) {
     auto* const curve = s_.sources.empty() ? nullptr : std::get_if<VertexCurve>(&s_.sources.back());
     if (curve == nullptr) {
-      return bad("the last source is no curve to extend; begin one with source add curve:V");
+      return bad("the last source is no curve to extend", {"begin one with source add curve:V"});
     }
     curve->vertices.insert(curve->vertices.end(), c.vertices.begin(), c.vertices.end());
     return {};
@@ -234,8 +239,8 @@ class Applier {
 
   Result<void> operator()(const command::Target& c) {
     if (c.point && !is_single_point(*c.point)) {
-      return bad("'" + one_line(to_text(*c.point)) +
-                 "' is no target; write one vertex, face:ID:b0:b1:b2 or xyz:x:y:z");
+      return bad_value(to_text(*c.point), "is no target",
+                       "write one vertex, face:ID:b0:b1:b2 or xyz:x:y:z");
     }
     s_.target = c.point;
     return {};
@@ -254,7 +259,9 @@ class Applier {
   Result<void> operator()(const command::Quit& /*c*/) { return {}; }
 
  private:
-  static Error nothing_kept() { return bad("no settings are kept as B; keep some first: keep"); }
+  static Error nothing_kept() {
+    return bad("no settings are kept as B", {"keep some first: keep"});
+  }
 
   std::vector<SourceSpec>::reverse_iterator last_random() {
     return std::find_if(s_.sources.rbegin(), s_.sources.rend(), is_random);
@@ -263,9 +270,8 @@ class Applier {
   Result<void> check_index(int index) const {
     const auto count = static_cast<int>(s_.sources.size());
     if (index >= 0 && index < count) return {};
-    if (count == 0) return bad("there is no source " + std::to_string(index) + "; there is none");
-    return bad("there is no source " + std::to_string(index) + "; sources are 0 to " +
-               std::to_string(count - 1));
+    return bad("there is no source " + std::to_string(index),
+               {count == 0 ? "there is none" : "sources are 0 to " + std::to_string(count - 1)});
   }
 
   ViewerState& s_;

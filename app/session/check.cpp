@@ -13,15 +13,13 @@ namespace geotherm::app {
 namespace {
 
 std::string figures_in_words(const DistanceError& e) {
-  return percent(e.mean_relative) + " on average, at most " + percent(e.max_of_range) +
+  return percent_text(e.mean_relative) + " on average, at most " + percent_text(e.max_of_range) +
          " of the largest distance, at vertex " + std::to_string(e.worst);
 }
 
-/// Why a method is not held against another one.
-std::string not_asked(MethodKind kind, CheckMode mode) {
-  if (kind == MethodKind::kExact) return "this is the most accurate method there is";
-  if (mode == CheckMode::kThorough) return "nothing more accurate fits a mesh of this size";
-  return to_text(kind) + " is near exact; --check measures how near";
+/// ", against exact: poor because ...".
+std::string graded(const AccuracyReport& report) {
+  return ", against " + to_text(report.reference) + ": " + to_text(report.grade) + report.reason;
 }
 
 RemedySearch search_of(CheckMode mode) {
@@ -38,14 +36,16 @@ RemedySearch search_of(CheckMode mode) {
 
 }  // namespace
 
-Result<void> refuse_better(const CheckSettings& settings, const std::string& what) {
-  if (settings.on_poor != OnPoor::kBetter) return {};
-  return Error{ErrorCode::kBadInput, "--on-poor better may answer by another method, and " + what +
-                                         " is about the heat u; leave one of them out"};
-}
-
 AccuracyReport unchecked(MethodKind method, CheckMode mode) {
-  return unmeasured(method, not_asked(method, mode));
+  if (method == MethodKind::kExact) {
+    return unmeasured(method, "this is the most accurate method there is");
+  }
+  if (mode == CheckMode::kThorough) {
+    return unmeasured(method, "nothing more accurate fits a mesh of this size");
+  }
+  AccuracyReport report = unmeasured(method, to_text(method) + " is near exact");
+  report.advice = {SettingHint{"check"}, " measures how near"};
+  return report;
 }
 
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces) {
@@ -55,7 +55,9 @@ MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index
 }
 
 AccuracyReport failed_check(MethodKind method, const Error& error) {
-  AccuracyReport report = unmeasured(method, "the distances were not checked: " + told(error));
+  Warning said = warning_of(error);
+  AccuracyReport report = unmeasured(method, "the distances were not checked: " + said.message);
+  report.advice = std::move(said.hint);
   report.failed = true;
   return report;
 }
@@ -89,45 +91,50 @@ MethodOptions better_options(const MethodOptions& options, MethodKind kind) {
   return better;
 }
 
-std::string accuracy_line(const AccuracyReport& report) {
-  if (!report.measured) return told(report);
-  return figures_in_words(report.figures) + ", against " + to_text(report.reference) + ": " +
-         to_text(report.grade) + told(report.advice);
+Warning accuracy_line(const AccuracyReport& report) {
+  if (!report.measured) return {report.verdict + report.reason, report.advice};
+  return {figures_in_words(report.figures) + graded(report), report.advice};
 }
 
-std::string accuracy_line(const SampleCheck& check) {
+Warning accuracy_line(const SampleCheck& check) {
   const AccuracyReport& report = check.report;
-  if (!report.measured) return told(report);
-  return "on " + grouped(static_cast<std::int64_t>(report.sets)) + " of " +
-         counted(static_cast<std::int64_t>(check.of), "source", "sources") + ": " +
-         figures_in_words(report.figures) + " from source " + std::to_string(check.worst) +
-         ", against " + to_text(report.reference) + ": " + to_text(report.grade) +
-         told(report.advice);
+  if (!report.measured) return accuracy_line(report);
+  return {"on " + grouped(static_cast<std::int64_t>(report.sets)) + " of " +
+              counted(static_cast<std::int64_t>(check.of), "source", "sources") + ": " +
+              figures_in_words(report.figures) + " from source " + std::to_string(check.worst) +
+              graded(report),
+          report.advice};
 }
 
-std::string accuracy_warning(const AccuracyReport& report, const std::string& line) {
-  if (report.is_poor()) return "poor distances: " + line;
-  return report.failed ? told(report) : std::string();
+std::optional<Warning> accuracy_warning(const AccuracyReport& report, const Warning& line) {
+  if (report.is_poor()) return Warning{"poor distances: " + line.message, line.hint};
+  if (report.failed) return line;
+  return {};
 }
 
-Result<void> refuse_poor(const AccuracyReport& report, const std::string& line) {
-  if (report.is_poor()) {
-    return Error{ErrorCode::kNumericalFailure, "poor distances: " + line};
+Result<void> refuse_poor(const AccuracyReport& report, const Warning& line) {
+  auto warning = accuracy_warning(report, line);
+  if (!warning) return {};
+  Error error{ErrorCode::kNumericalFailure, std::move(warning->message), std::move(warning->hint)};
+  if (report.failed) {
+    error.hint.insert(error.hint.end(), {error.hint.empty() ? "leave " : "; leave ",
+                                         SettingHint{"on-poor"}, " fail out"});
   }
-  if (!report.failed) return {};
-  return Error{ErrorCode::kNumericalFailure, told(report) + "; leave --on-poor fail out"};
+  return error;
 }
 
-std::vector<std::string> replaced_warnings(MethodKind poor, const std::string& poor_line,
-                                           MethodKind by, const AccuracyReport& report,
-                                           const std::string& line) {
-  std::vector<std::string> warnings = {"the method " + to_text(by) + " answered, for the method " +
-                                       to_text(poor) + " gave poor distances: " + poor_line};
+std::vector<Warning> replaced_warnings(MethodKind poor, const Warning& poor_line, MethodKind by,
+                                       const AccuracyReport& report, const Warning& line) {
+  std::vector<Warning> warnings = {{"the method " + to_text(by) + " answered, for the method " +
+                                        to_text(poor) +
+                                        " gave poor distances: " + poor_line.message,
+                                    poor_line.hint}};
   if (report.is_poor()) {
-    warnings.push_back("the method " + to_text(by) +
-                       ", which answered, gave poor distances: " + line);
+    warnings.push_back(
+        {"the method " + to_text(by) + ", which answered, gave poor distances: " + line.message,
+         line.hint});
   } else if (report.failed) {
-    warnings.push_back(told(report));
+    warnings.push_back(line);
   }
   return warnings;
 }
@@ -135,7 +142,5 @@ std::vector<std::string> replaced_warnings(MethodKind poor, const std::string& p
 std::string error_title(const AccuracyReport& report) {
   return "error, against " + to_text(report.reference);
 }
-
-std::string percent(double share) { return percent_text(share); }
 
 }  // namespace geotherm::app

@@ -34,10 +34,6 @@ struct CheckSettings {
   bool quick = false;  ///< while something moves: figures alone, no search, no warning
 };
 
-/// Refuses distances that may turn into those of another method where the heat is needed. `what`:
-/// the option that needs it, with its value. Errors: kBadInput.
-Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
-
 /// The reference method: the one that was named, else that of the mode; the method itself, or none
 /// better, where answers are not checked.
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces);
@@ -70,25 +66,21 @@ struct SampleCheck {
 
 /// "1.9 % on average, at most 4.3 % of the largest distance, at vertex 17, against wavefront:
 /// good".
-std::string accuracy_line(const AccuracyReport& report);
-std::string accuracy_line(const SampleCheck& check);
+Warning accuracy_line(const AccuracyReport& report);
+Warning accuracy_line(const SampleCheck& check);
 
-/// What is to be warned of; empty: nothing.
-std::string accuracy_warning(const AccuracyReport& report, const std::string& line);
+/// What is to be warned of, if anything. `line`: the accuracy_line() of the report.
+std::optional<Warning> accuracy_warning(const AccuracyReport& report, const Warning& line);
 
 /// For OnPoor::kFail. Errors: kNumericalFailure, where the distances are poor or nobody knows.
-Result<void> refuse_poor(const AccuracyReport& report, const std::string& line);
+Result<void> refuse_poor(const AccuracyReport& report, const Warning& line);
 
 /// Says that `by` answered in place of `poor`, and, where that is so, that `by` is poor as well or
 /// was not checked. Each line is the accuracy_line() of its report.
-std::vector<std::string> replaced_warnings(MethodKind poor, const std::string& poor_line,
-                                           MethodKind by, const AccuracyReport& report,
-                                           const std::string& line);
+std::vector<Warning> replaced_warnings(MethodKind poor, const Warning& poor_line, MethodKind by,
+                                       const AccuracyReport& report, const Warning& line);
 
 /// What the values are, over a colour bar: "error against exact".
 std::string error_title(const AccuracyReport& report);
-
-/// "0.81 %".
-std::string percent(double share);
 
 }  // namespace geotherm::app

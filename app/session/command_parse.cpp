@@ -8,7 +8,6 @@
 #include "app/session/command_words.h"
 #include "app/session/settings.h"
 #include "app/session/text.h"
-#include "app/session/wording.h"
 
 namespace geotherm::app {
 namespace {
@@ -148,7 +147,11 @@ Result<Command> read_save_picture(WordReader& reader) {
   command::SavePicture save{reader.next()};
   if (!reader.at_end() && reader.peek() != "panels") {
     const auto size = parse_size(reader.next());
-    if (!size) return reader.blame_last(told(size.error()) + ", or panels");
+    if (!size) {
+      Error error = reader.blame_last(size.error());
+      error.hint.emplace_back(", or panels");
+      return error;
+    }
     save.width = size->width;
     save.height = size->height;
   }
@@ -221,8 +224,7 @@ Result<Command> read_setting(const Setting& setting, WordReader& reader) {
   const std::string value = reader.next();
   ViewerState scratch = initial_state();
   if (auto set = setting.set(scratch, value); !set) {
-    const Error blamed = reader.blame_last(told(set.error()));
-    return Error{set.error().code, blamed.message};
+    return reader.blame_last(set.error());
   }
   return Command(command::Set{name, setting.get(scratch)});
 }
@@ -242,8 +244,9 @@ Result<Command> parse_command(std::string_view line) {
   const std::string name = is_group ? first + " " + reader.next() : first;
   const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
   if (form == std::end(kForms)) {
-    return reader.blame_last("there is no command '" + one_line(name) + "'; there are " +
-                             names(is_group ? first : ""));
+    return reader.blame_last({ErrorCode::kBadInput,
+                              "there is no command '" + one_line(name) + "'",
+                              {"there are " + names(is_group ? first : "")}});
   }
   if (reader.left() < form->least || reader.left() > form->most) {
     reader.skip(std::min(reader.left(), form->most));  // to what is too much, or missing

@@ -7,7 +7,6 @@
 #include "app/session/command.h"
 #include "app/session/sources.h"
 #include "app/session/text.h"
-#include "app/session/wording.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {
@@ -127,9 +126,9 @@ Result<WordReader> WordReader::of(std::string_view line) {
       const std::size_t begin = at;
       while (at < line.size() && !is_blank(line[at]) && line[at] != '#') {
         if (line[at] == '"' || is_control(line[at])) {
-          return Error{ErrorCode::kBadInput, column_text(at + 1) +
-                                                 "expected a word; one with quotes or control " +
-                                                 "characters stands in double quotes"};
+          return Error{ErrorCode::kBadInput,
+                       column_text(at + 1) + "expected a word",
+                       {"one with quotes or control characters stands in double quotes"}};
         }
         ++at;
       }
@@ -148,8 +147,9 @@ Error WordReader::fail(const std::string& what) const {
   return {ErrorCode::kBadInput, std::move(text)};
 }
 
-Error WordReader::blame_last(const std::string& why) const {
-  return {ErrorCode::kBadInput, column_text(words_[next_ - 1].column) + why};
+Error WordReader::blame_last(Error why) const {
+  why.message.insert(0, column_text(words_[next_ - 1].column));
+  return why;
 }
 
 Result<double> WordReader::number(double least, double most) {
@@ -180,7 +180,7 @@ Result<std::vector<Index>> WordReader::vertices() {
 
 Result<SourceSpec> WordReader::source() {
   auto spec = parse_source(next());
-  if (!spec) return blame_last(told(spec.error()));
+  if (!spec) return blame_last(spec.error());
   return spec;
 }
 

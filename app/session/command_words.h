@@ -45,8 +45,8 @@ class WordReader {
 
   /// "column N: expected WHAT", of the next word or the end of the line.
   Error fail(const std::string& what) const;
-  /// "column N: WHY", of the word before.
-  Error blame_last(const std::string& why) const;
+  /// The error as "column N: WHY", of the word before.
+  Error blame_last(Error why) const;
 
  private:
   struct Word {

@@ -59,11 +59,11 @@ std::string status_name(ErrorCode code) {
 void fail(CompareRow& row, Error error) {
   row.status = status_name(error.code);
   error.subject.clear();  // the backend stands beside it
-  row.message = told(error);
+  row.note = warning_of(std::move(error));
 }
 
 void add_message(CompareRow& row, const std::string& text) {
-  row.message += (row.message.empty() ? "" : "; ") + text;
+  row.note.message += (row.note.message.empty() ? "" : "; ") + text;
 }
 
 double median(std::vector<double> values) {
@@ -196,17 +196,12 @@ Answers better_answers(const Model& model, const CompareTask& task, MethodKind k
 }
 
 void measure_error(const Answers& answers, const Answers& better, CompareRow& row) {
-  double mean = 0, most = 0, count = 0;
-  for (std::size_t q = 0; q < std::min(answers.size(), better.size()); ++q) {
-    const DistanceError error = distance_error(answers[q], better[q]);
-    if (error.worst == kNoIndex) continue;
-    mean += error.mean_relative;
-    most = std::max(most, error.max_of_range);
-    ++count;
-  }
-  if (count == 0) return;
-  row.mean_error = mean / count;
-  row.max_error = most;
+  const std::size_t count = std::min(answers.size(), better.size());
+  const DistanceError error =
+      joint_error(std::span(answers).first(count), std::span(better).first(count)).figures;
+  if (error.worst == kNoIndex) return;
+  row.mean_error = error.mean_relative;
+  row.max_error = error.max_of_range;
 }
 
 CompareRow empty_row(const Model& model, const MethodOptions& solver) {

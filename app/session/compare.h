@@ -31,8 +31,8 @@ struct CompareRow {
   /// largest distance. Empty where there is none, or this is it.
   std::optional<double> mean_error, max_error;
   MethodKind error_reference = MethodKind::kExact;
-  std::string status;   ///< "ok", or the kind of failure
-  std::string message;  ///< why something is missing; may stand beside "ok"
+  std::string status;  ///< "ok", or the kind of failure
+  Warning note;        ///< why something is missing; may stand beside "ok"
 
   /// The backend, or the name of another method.
   std::string name() const { return method == MethodKind::kHeat ? backend : to_text(method); }
@@ -45,12 +45,12 @@ struct CompareTask {
   std::vector<SourceSet> batch;        ///< solved in one call
 };
 
-/// Runs the task through each solver, one after the other. A failure is a row with its message.
+/// Runs the task through each solver, one after the other. A failure is a row with its note.
 /// Differences are those of the distances from the reference's, divided by its largest one: the
 /// largest and the mean over the vertices of the first 10 queries. Errors are those of the first 3
 /// against the best method that fits the mesh (reference_for()). Iterative backends answer as
 /// many queries as they can in about five seconds (one at least), and skip the batch where it would
-/// take longer; `message` says so. The only error: kCancelled.
+/// take longer; `note` says so. The only error: kCancelled.
 Result<std::vector<CompareRow>> compare_backends(const Model& model, const CompareTask& task,
                                                  const Progress& progress = {});
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/chart.h"
-#include "app/session/check.h"
 #include "app/session/compare.h"
 #include "app/session/report.h"
 #include "app/session/text.h"
+#include "app/session/wording.h"
+#include "geotherm/accuracy.h"
 
 namespace geotherm::app {
 namespace {
@@ -29,7 +30,7 @@ Json row_json(const CompareRow& row) {
           {"max_error", figure(row.max_error)},
           {"error_reference", to_text(row.error_reference)},
           {"status", row.status},
-          {"message", row.message}};
+          {"message", told(row.note)}};
 }
 
 /// Names and messages come from elsewhere: what a spreadsheet would take for a formula begins with
@@ -74,10 +75,10 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
                    row.status != "ok"   ? row.status
                    : row.max_difference ? significant(*row.max_difference, 2)
                                         : "-",
-                   row.mean_error ? percent(*row.mean_error) : "-",
-                   row.max_error ? percent(*row.max_error) : "-"});
-    if (!row.message.empty()) {
-      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(row.message) + '\n';
+                   row.mean_error ? percent_text(*row.mean_error) : "-",
+                   row.max_error ? percent_text(*row.max_error) : "-"});
+    if (!row.note.message.empty()) {
+      messages += one_line(row.model) + ", " + row.name() + ": " + one_line(told(row.note)) + '\n';
     }
     before = &row;
   }
@@ -144,12 +145,12 @@ std::string table_row(const CompareRow& row) {
       row.max_difference ? significant(*row.max_difference, 2) : std::string("&ndash;");
   out += ok ? "<td>" + difference + "</td>" : "<td class=bad>" + escaped(row.status) + "</td>";
   for (const auto* error : {&row.mean_error, &row.max_error}) {
-    out += "<td>" + (*error ? percent(**error) : std::string("&ndash;")) + "</td>";
+    out += "<td>" + (*error ? percent_text(**error) : std::string("&ndash;")) + "</td>";
   }
   out += "</tr>\n";
-  if (!row.message.empty()) {
-    out += "<tr><td></td><td></td><td class=message colspan=9>" + escaped(one_line(row.message)) +
-           "</td></tr>\n";
+  if (!row.note.message.empty()) {
+    out += "<tr><td></td><td></td><td class=message colspan=9>" +
+           escaped(one_line(told(row.note))) + "</td></tr>\n";
   }
   return out;
 }

@@ -21,7 +21,7 @@ namespace geotherm::app {
 struct ExploredModel {
   Model model;
   MeshReport mesh;
-  std::vector<std::string> warnings;        ///< about file and mesh, one sentence each
+  std::vector<Warning> warnings;            ///< about file and mesh, one sentence each
   std::shared_ptr<const PictureData> base;  ///< without a solve
   std::shared_ptr<const RayTree> rays;      ///< null: not made yet
 };
@@ -48,11 +48,11 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  std::vector<TargetPath> paths;  ///< to ViewerState::target
-  std::string path_failure;       ///< why there are none although there is a target; empty: none
-  std::string b_failure;          ///< why there is no B although settings are kept; empty: none
-  bool checked = false;           ///< true if these answers were shown before, without their errors
-  std::uint64_t version = 0;      ///< incremented with every change
+  std::vector<TargetPath> paths;        ///< to ViewerState::target
+  std::optional<Warning> path_failure;  ///< why there are none although there is a target
+  std::optional<Error> b_failure;       ///< why there is no B although settings are kept
+  bool checked = false;       ///< true if these answers were shown before, without their errors
+  std::uint64_t version = 0;  ///< incremented with every change
 };
 
 /// The t that a time step means on a mesh, model units squared. Precondition: it has one component;

@@ -2,14 +2,12 @@
 #include "app/session/explorer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <new>
-#include <set>
 
 #include "app/session/progress.h"
 #include "app/session/sources.h"
+#include "app/session/text.h"
 #include "app/session/wording.h"
 
 namespace geotherm::app {
@@ -47,45 +45,6 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
   }
 }
 
-/// How messages call a source; a long list is cut.
-std::string source_name(const SourceSpec& source) {
-  constexpr std::size_t kShown = 60;
-  return "source " + to_text(source).substr(0, kShown);
-}
-
-/// Puts sets together: no vertex and no edge twice.
-class SetUnion {
- public:
-  void add(const SourceSet& more) {
-    for (std::size_t i = 0; i < more.points.size(); ++i) {
-      add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
-    }
-    edges_.insert(more.edges.begin(), more.edges.end());
-  }
-  SourceSet take() {
-    set_.edges.assign(edges_.begin(), edges_.end());
-    if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
-    return std::move(set_);
-  }
-
- private:
-  void add(const SurfacePoint& point, double offset) {
-    if (point.is_vertex()) {
-      const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
-      if (!fresh) {
-        set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
-        return;
-      }
-    }
-    set_.points.push_back(point);
-    set_.offsets.push_back(offset);
-  }
-
-  SourceSet set_;
-  std::map<Index, std::size_t> vertices_;
-  std::set<std::array<Index, 2>> edges_;
-};
-
 /// What an answer is held against in a session.
 CheckSettings check_settings(const ExploreRequest& request, const Answer& answer) {
   CheckSettings settings;
@@ -111,12 +70,12 @@ CheckSettings check_settings(const ExploreRequest& request, const Answer& answer
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
 /// anew: a curve is a walk over the mesh, a point in space a search over all faces.
-Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& request,
-                                                         Explored& explored) {
+Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
+                                                     Explored& explored) {
   const TriangleMesh& mesh = *model_->model.mesh;
   std::vector<Placed> placed;
   SetUnion all;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   for (std::size_t i = 0; i < request.sources.size(); ++i) {
     const SourceSpec& source = request.sources[i];
     const bool same_place = i < placed_.size() && placed_[i].source == source;
@@ -125,13 +84,13 @@ Result<std::vector<std::string>> Explorer::place_sources(const ExploreRequest& r
     if (known != placed_.end()) {
       placed.push_back(*known);
     } else {
-      const Source named{source, source_name(source), ErrorCode::kBadInput};
+      const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
       auto places = resolve_sources({&named, 1}, mesh);
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
     }
     const ResolvedSources& places = placed.back().places;
-    for (const std::string& warning : places.warnings) {
+    for (const Warning& warning : places.warnings) {
       if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
     add_places(places, static_cast<int>(i), mesh, explored.places);
@@ -160,7 +119,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
   model->warnings = model->model.notes;
-  for (std::string& warning : mesh_warnings(model->mesh)) {
+  for (Warning& warning : mesh_warnings(model->mesh)) {
     model->warnings.push_back(std::move(warning));
   }
   auto base = std::make_shared<PictureData>(picture_of(*mesh));
@@ -207,7 +166,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
                       : Result<TargetPaths>(placed.error());
   if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
   if (!found) {
-    explored.path_failure = told(found.error());
+    explored.path_failure = warning_of(found.error());
   } else {
     explored.paths = std::move(found->paths);
   }
@@ -254,7 +213,7 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
     auto b = answer(request, *request.kept, sources, true, progress);
     if (!b && b.error().code == ErrorCode::kCancelled) return b.error();
     if (!b) {  // A is good all the same
-      explored.b_failure = "B: " + told(b.error());
+      explored.b_failure = about("B", b.error(), ErrorCode::kNumericalFailure);
     } else {
       explored.b = *std::move(b);
       explored.difference = difference_of(*explored.a, *explored.b);
@@ -265,8 +224,8 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   return explored;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,
-               "the memory ended while working on " + request.model +
-                   "; close other programs or take a mesh with fewer faces"};
+               "the memory ended while working on " + request.model,
+               {"close other programs or take a mesh with fewer faces"}};
 }
 
 }  // namespace geotherm::app

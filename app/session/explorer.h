@@ -52,7 +52,7 @@ class Explorer {
 
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
-  Result<std::vector<std::string>> place_sources(const ExploreRequest& request, Explored& explored);
+  Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
                                                const MethodOptions& options,
                                                const ResolvedSources& sources, bool is_b,

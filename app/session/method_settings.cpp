@@ -52,21 +52,17 @@ constexpr int kMaxThreads = 1024;
 constexpr int kMaxRefine = 6;
 constexpr const char* kFree = "free";  // the memory limit that the machine sets
 
-Error bad_value(const Text& text, const Text& why) {
-  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why};
-}
-
 Result<double> parse_time_factor(const Text& text) {
   const auto factor = number_in<double>(text);
   if (factor && *factor > 0 && std::isfinite(*factor)) return *factor;
-  return bad_value(text, "is no time factor; it must be a positive number, such as 1");
+  return bad_value(text, "is no time factor", "it must be a positive number, such as 1");
 }
 
 /// 0: one a core.
 Result<int> parse_threads(const Text& text) {
   const auto threads = number_in<int>(text);
   if (threads && *threads >= 0 && *threads <= kMaxThreads) return *threads;
-  return bad_value(text, "is no number of threads; give 1 to " + std::to_string(kMaxThreads));
+  return bad_value(text, "is no number of threads", "give 1 to " + std::to_string(kMaxThreads));
 }
 
 /// In 2^20 bytes; 0: what is free.
@@ -82,16 +78,17 @@ Result<double> parse_memory_limit(const Text& text) {
   }
   const auto size = number_in<double>(number);
   if (size && *size > 0 && *size * unit > 0 && std::isfinite(*size * unit)) return *size * unit;
-  return bad_value(text,
-                   "is no size; give a positive number of MB, or one with K, M or G, such as "
-                   "800 or 4G, or free");
+  return bad_value(
+      text, "is no size",
+      "give a positive number of MB, or one with K, M or G, such as 800 or 4G, or free");
 }
 
 Result<int> parse_refine(const Text& text) {
   const auto times = number_in<int>(text);
   if (times && *times >= 0 && *times <= kMaxRefine) return *times;
-  return bad_value(text, "is no number of refinements; give 0 to " + std::to_string(kMaxRefine) +
-                             ", each makes four times as many faces");
+  return bad_value(
+      text, "is no number of refinements",
+      "give 0 to " + std::to_string(kMaxRefine) + ", each makes four times as many faces");
 }
 
 Result<Text> parse_backend(const Text& text) {
@@ -140,7 +137,7 @@ Result<void> set_check(State& s, const Text& text) {
     s.check = value;
     return {};
   }
-  return bad_value(text, "is no check; there are " + joined(check_names()));
+  return bad_value(text, "is no check", "there are " + joined(check_names()));
 }
 
 }  // namespace

@@ -31,29 +31,27 @@ Result<std::optional<double>> parse_weld(const std::string& text) {
   if (text.empty() || text == "off") return std::optional<double>();
   const auto distance = number_in<double>(text);
   if (distance && *distance >= 0 && std::isfinite(*distance)) return std::optional(*distance);
-  return Error{ErrorCode::kBadInput,
-               "'" + one_line(text) +
-                   "' is no distance; give a length in model units, or 0 for vertices that are "
-                   "equal"};
+  return bad_value(text, "is no distance",
+                   "give a length in model units, or 0 for vertices that are equal");
 }
 
 namespace {
 
-void note_polygons_and_welding(const MeshFile& file, std::vector<std::string>& notes) {
+void note_polygons_and_welding(const MeshFile& file, std::vector<Warning>& notes) {
   if (file.polygons > 0) {
-    notes.push_back(counted(file.polygons, "polygon was", "polygons were") + " triangulated");
+    notes.push_back({counted(file.polygons, "polygon was", "polygons were") + " triangulated"});
   }
   if (file.welded > 0) {
-    notes.push_back("the file shares no vertices between faces: " +
-                    counted(file.welded, "equal corner was", "equal corners were") +
-                    " welded, and vertices are numbered by first appearance");
+    notes.push_back({"the file shares no vertices between faces: " +
+                     counted(file.welded, "equal corner was", "equal corners were") +
+                     " welded, and vertices are numbered by first appearance"});
   }
 }
 
 Model model_of(MeshFile file, std::string name, const std::string& path, double load_ms) {
   Model model{std::move(name), path, nullptr, load_ms, {}};
   note_polygons_and_welding(file, model.notes);
-  model.notes.insert(model.notes.end(), file.notes.begin(), file.notes.end());
+  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
   model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
   return model;
 }
@@ -65,9 +63,9 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   if (!path.has_extension() && !std::filesystem::exists(path, unknown)) {
     std::vector<std::string_view> names;
     for (const BundledModel& model : bundled_models()) names.push_back(model.name);
-    return Error{ErrorCode::kBadFile, "'" + one_line(text) +
-                                          "' is neither a file nor a bundled model; bundled are " +
-                                          joined(names)};
+    return Error{ErrorCode::kBadFile,
+                 "'" + one_line(text) + "' is neither a file nor a bundled model",
+                 {"bundled are " + joined(names)}};
   }
   if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
   const Stopwatch watch;
@@ -88,7 +86,8 @@ Result<Model> bundled(const std::string& name, const ModelReading& reading,
                       const Progress& progress) {
   if (!reading.format.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "--format: " + name + " is a bundled model and no file; leave --format out"};
+                 name + " is a bundled model and no file",
+                 {"leave ", SettingHint{"format"}, " out"}};
   }
   const auto file = bundled_file(name);
   if (!file) return file.error();
@@ -101,8 +100,8 @@ Result<Model> from_standard_input(const ModelReading& reading, const Progress& p
   const std::string name = "standard input";
   if (reading.format.empty()) {
     return Error{ErrorCode::kBadInput,
-                 "the model - is standard input, which has no extension; add --format with obj, "
-                 "ply, off or stl"};
+                 "the model - is standard input, which has no extension",
+                 {"add ", SettingHint{"format"}, " with obj, ply, off or stl"}};
   }
   if (!report(progress, "reading " + name, -1)) return cancelled_error();
   const Stopwatch watch;
@@ -132,8 +131,8 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   if (!model || !reading.weld) return model;
   if (!report(progress, "welding", -1)) return cancelled_error();
   auto welded = weld(*model->mesh, *reading.weld);
-  if (!welded) return about("--weld", welded.error());
-  model->notes.push_back(weld_note(welded->merged, *reading.weld));
+  if (!welded) return welded.error();
+  model->notes.push_back({weld_note(welded->merged, *reading.weld)});
   model->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
   return model;
 }
@@ -180,10 +179,10 @@ Result<std::string> bundled_file(std::string_view name) {
     if (std::filesystem::exists(folder / file, unknown)) return (folder / file).string();
     tried.push_back(one_line(folder.string()));
   }
-  return Error{ErrorCode::kBadFile, "the bundled model " + std::string(name) + " has no file " +
-                                        file + " in " + joined(tried, " or ") +
-                                        "; install geotherm again, or set GEOTHERM_MODELS to the "
-                                        "folder that holds it"};
+  return Error{ErrorCode::kBadFile,
+               "the bundled model " + std::string(name) + " has no file " + file + " in " +
+                   joined(tried, " or "),
+               {"install geotherm again, or set GEOTHERM_MODELS to the folder that holds it"}};
 }
 
 }  // namespace geotherm::app

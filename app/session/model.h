@@ -35,8 +35,8 @@ struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
   std::string path;  ///< empty for a bundled model, - for standard input
   std::shared_ptr<const TriangleMesh> mesh;
-  double load_ms = 0;              ///< reading
-  std::vector<std::string> notes;  ///< what reading had to do, one sentence each
+  double load_ms = 0;          ///< reading
+  std::vector<Warning> notes;  ///< what reading had to do, one sentence each
 };
 
 /// The same model for work whose errors stand beside its name, or in its row.

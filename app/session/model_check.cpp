@@ -103,14 +103,15 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
                                search, with_prefix(progress, "finding the cause: "));
       if (!found) return found;
     }
-    const std::string line = accuracy_line(report);
+    const Warning line = accuracy_line(report);
     if (settings.on_poor == OnPoor::kFail) {
       if (auto right = refuse_poor(report, line); !right) {
         return about_model(model_.name, right.error());
       }
     }
-    auto warning = accuracy_warning(report, line);
-    if (!warning.empty()) answer.warnings.push_back(std::move(warning));
+    if (auto warning = accuracy_warning(report, line)) {
+      answer.warnings.push_back(*std::move(warning));
+    }
   }
   answer.error = std::make_shared<const AccuracyReport>(std::move(report));
   return {};
@@ -146,7 +147,7 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
   if (!better) return better.error();
   if (!*better) {
     describe_mesh(answer);
-    answer.warnings.push_back(accuracy_warning(*answer.error, accuracy_line(*answer.error)));
+    answer.warnings.push_back(*accuracy_warning(*answer.error, accuracy_line(*answer.error)));
     return {};
   }
   Answer& next = **better;
@@ -195,15 +196,15 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
                        part_of(checking, 0.0, 0.5));
   if (!check) return check.error();
   CheckedMethod out{ready, *std::move(check), {}, {}};
-  const std::string line = accuracy_line(out.error);
+  const Warning line = accuracy_line(out.error);
   if (settings.on_poor == OnPoor::kFail) {
     if (auto right = refuse_poor(out.error.report, line); !right) {
       return about_model(model_.name, right.error());
     }
   }
   if (settings.on_poor != OnPoor::kBetter || !out.error.report.is_poor()) {
-    if (auto warning = accuracy_warning(out.error.report, line); !warning.empty()) {
-      out.warnings.push_back(std::move(warning));
+    if (auto warning = accuracy_warning(out.error.report, line)) {
+      out.warnings.push_back(*std::move(warning));
     }
     return out;
   }
@@ -219,7 +220,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
                                           part_of(checking, 0.5, 1.0), ask);
   if (!better) return better.error();
   if (!*better) {
-    out.warnings.push_back(accuracy_warning(out.error.report, line));
+    out.warnings.push_back(*accuracy_warning(out.error.report, line));
     return out;
   }
   (*better)->replaced = std::move(out.error);

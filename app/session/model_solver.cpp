@@ -14,7 +14,7 @@
 namespace geotherm::app {
 namespace {
 
-void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
+void add(std::vector<Warning>& all, const std::vector<Warning>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -131,9 +131,9 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
   answer.distance = summarize(answer.result.distances);
   answer.peak_rss_mb = peak_rss_mb();
   if (use_ == Use::kOneAnswer) add(answer.warnings, model_.notes);
-  add(answer.warnings, told(answer.method->warnings()));
+  add(answer.warnings, answer.method->warnings());
   add(answer.warnings, sources.warnings);
-  add(answer.warnings, told(answer.result.warnings));
+  add(answer.warnings, answer.result.warnings);
   return answer;
 }
 

@@ -36,7 +36,7 @@ struct CheckedMethod {
   ReadyMethod by;                       ///< what answers: the one asked for, or a better one
   SampleCheck error;                    ///< of `by`
   std::optional<SampleCheck> replaced;  ///< the check of the poor method that `by` replaced
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Answers questions about one model. Every command and the viewer ask here. It keeps what later

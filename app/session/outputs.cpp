@@ -19,31 +19,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error cannot_write(const std::string& path, const std::string& cause) {
-  return {ErrorCode::kBadFile, one_line(path) + ": cannot be written: " + cause};
+Error cannot_write(const std::string& path, const std::string& cause, const std::string& hint) {
+  return {ErrorCode::kBadFile, one_line(path) + ": cannot be written: " + cause, {hint}};
 }
 
 Result<void> check_place(const std::string& path) {
   std::error_code unknown;
-  if (path.empty()) return Error{ErrorCode::kBadInput, "an output file has no name; give one"};
+  if (path.empty()) return Error{ErrorCode::kBadInput, "an output file has no name", {"give one"}};
   if (fs::is_directory(path, unknown)) {
-    return cannot_write(path, "it is a folder; give the name of a file in it");
+    return cannot_write(path, "it is a folder", "give the name of a file in it");
   }
   if (fs::exists(path, unknown)) {
     if (::access(path.c_str(), W_OK) == 0) return {};
-    return cannot_write(path, std::generic_category().message(errno) + "; choose another name");
+    return cannot_write(path, std::generic_category().message(errno), "choose another name");
   }
   const fs::path parent = fs::path(path).parent_path();
   const std::string folder = parent.empty() ? "." : parent.string();
   if (!fs::exists(folder, unknown)) {
-    return cannot_write(path, "there is no folder " + one_line(folder) + "; make it first");
+    return cannot_write(path, "there is no folder " + one_line(folder), "make it first");
   }
   if (!fs::is_directory(folder, unknown)) {
-    return cannot_write(path, one_line(folder) + " is no folder; choose another place");
+    return cannot_write(path, one_line(folder) + " is no folder", "choose another place");
   }
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
-  return cannot_write(path, "folder " + one_line(folder) + ": " +
-                                std::generic_category().message(errno) + "; choose another place");
+  return cannot_write(path,
+                      "folder " + one_line(folder) + ": " + std::generic_category().message(errno),
+                      "choose another place");
 }
 
 std::string resolved_path(const std::string& path) {
@@ -79,14 +80,16 @@ Result<void> Outputs::expect(const std::string& path, std::string_view option) {
     if (!is_this(other)) continue;
     return Error{ErrorCode::kBadInput,
                  std::string(option) + ": " + (path == "-" ? "standard output" : one_line(path)) +
-                     " is asked for twice; give each output a place of its own"};
+                     " is asked for twice",
+                 {"give each output a place of its own"}};
   }
   if (path != "-") {
     if (auto place = check_place(path); !place) return place;
     for (const Input& input : inputs_) {
       if (!same_file(path, resolved, input.path, input.resolved)) continue;
-      return Error{ErrorCode::kBadInput, std::string(option) + ": " + one_line(path) + " is " +
-                                             input.called + "; give another name"};
+      return Error{ErrorCode::kBadInput,
+                   std::string(option) + ": " + one_line(path) + " is " + input.called,
+                   {"give another name"}};
     }
   }
   files_.push_back({path, resolved, is_new});

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -21,15 +20,6 @@ namespace {
 /// A point farther from the surface than this share of the model's size is worth a word.
 constexpr double kFar = 0.01;
 
-std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
-  std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
-  for (const Face& face : mesh.faces()) {
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
-    for (const Index corner : face) used[corner] = 1;
-  }
-  return used;
-}
-
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
  public:
@@ -45,11 +35,20 @@ class Random {
   std::uint64_t state_;
 };
 
-Error misplaced(std::string message) { return {ErrorCode::kBadInput, std::move(message)}; }
+Error misplaced(std::string message, std::string hint) {
+  return {ErrorCode::kBadInput, std::move(message), {std::move(hint)}};
+}
+
+/// There is no such thing; there are `count` of them, from 0.
+Error out_of_range(const std::string& one, const std::string& many, Index asked, Index count) {
+  return misplaced("there is no " + one + " " + std::to_string(asked),
+                   many + " are 0 to " + std::to_string(count - 1));
+}
 
 class Resolver {
  public:
-  explicit Resolver(const TriangleMesh& mesh) : mesh_(mesh), used_(vertices_in_faces(mesh)) {}
+  explicit Resolver(const TriangleMesh& mesh)
+      : mesh_(mesh), used_(vertices_in_faces(mesh.vertex_count(), mesh.faces())) {}
 
   Result<void> operator()(const VertexList& list) {
     for (const Index v : list.vertices) {
@@ -69,28 +68,28 @@ class Resolver {
     bool found = false;
     for (Index e = 0; e < edges.edge_count(); ++e) {
       if (edges.sides(e).size() != 1) continue;
-      add_edge(edges.low(e), edges.high(e));
+      set_.add_edge(edges.low(e), edges.high(e));
       found = true;
     }
     if (found) return {};
     return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
-                     " edges has two faces or more); choose vertices instead");
+                         " edges has two faces or more)",
+                     "choose vertices instead");
   }
 
   Result<void> operator()(const FacePoint& point) {
     if (point.face >= mesh_.face_count()) {
-      return misplaced("there is no face " + std::to_string(point.face) + "; faces are 0 to " +
-                       std::to_string(mesh_.face_count() - 1));
+      return out_of_range("face", "faces", point.face, mesh_.face_count());
     }
     const Face& face = mesh_.faces()[point.face];
-    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) {
-      return misplaced("face " + std::to_string(point.face) +
-                       " repeats a corner and has no inside; choose another");
+    if (repeats_corner(face)) {
+      return misplaced("face " + std::to_string(point.face) + " repeats a corner and has no inside",
+                       "choose another");
     }
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
     }
-    add_point(SurfacePoint::in_face(point.face, point.weights), point.offset);
+    set_.add(SurfacePoint::in_face(point.face, point.weights), point.offset);
     return {};
   }
 
@@ -98,12 +97,12 @@ class Resolver {
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
     if (found->distance > kFar * model_size()) {
-      out_.warnings.push_back(where_ + ": the closest point of the surface is " +
-                              significant(found->distance) + " away (the model's size is " +
-                              significant(model_size()) + ")");
+      warnings_.push_back({where_ + ": the closest point of the surface is " +
+                           significant(found->distance) + " away (the model's size is " +
+                           significant(model_size()) + ")"});
     }
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
-    add_point(found->point, point.offset);
+    set_.add(found->point, point.offset);
     return {};
   }
 
@@ -121,13 +120,13 @@ class Resolver {
       const Index b = mesh_.standing_for(curve.vertices[i]);
       if (a == b) continue;
       if (graph.adjacent(a, b)) {
-        add_edge(a, b);
+        set_.add_edge(a, b);
         continue;
       }
       const auto path = graph.shortest_path(a, b);
       if (!path) return about(place(curve, i), path.error());
       if (gaps++ == 0) first_gap = i;
-      for (std::size_t j = 1; j < path->size(); ++j) add_edge((*path)[j - 1], (*path)[j]);
+      for (std::size_t j = 1; j < path->size(); ++j) set_.add_edge((*path)[j - 1], (*path)[j]);
     }
     // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
     if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
@@ -142,43 +141,22 @@ class Resolver {
   }
 
   /// What was added since the last call.
-  ResolvedSources finish() {
-    out_.set.edges.assign(edges_.begin(), edges_.end());
-    const auto is_zero = [](double offset) { return offset == 0; };
-    if (std::ranges::all_of(out_.set.offsets, is_zero)) out_.set.offsets.clear();
-    vertices_.clear();
-    edges_.clear();
-    return std::exchange(out_, {});
-  }
+  ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
-  void add_point(const SurfacePoint& point, double offset) {
-    out_.set.points.push_back(point);
-    out_.set.offsets.push_back(offset);
-  }
-
-  /// One that is there already keeps the smaller offset.
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
-      return misplaced("there is no vertex " + std::to_string(v) + "; vertices are 0 to " +
-                       std::to_string(mesh_.vertex_count() - 1));
+      return out_of_range("vertex", "vertices", v, mesh_.vertex_count());
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return misplaced("vertex " + std::to_string(v) +
-                       " belongs to no face, so that no distance starts there; choose another");
+      return misplaced(
+          "vertex " + std::to_string(v) + " belongs to no face, so that no distance starts there",
+          "choose another");
     }
-    const auto [known, fresh] = vertices_.try_emplace(v, out_.set.points.size());
-    if (fresh) {
-      add_point(SurfacePoint::at_vertex(v), offset);
-    } else {
-      double& least = out_.set.offsets[known->second];
-      least = std::min(least, offset);
-    }
+    set_.add(SurfacePoint::at_vertex(v), offset);
     return {};
   }
-
-  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
 
   /// Where the i-th vertex stands.
   static std::string place(const VertexCurve& curve, std::size_t i) {
@@ -187,12 +165,13 @@ class Resolver {
   }
 
   void note_gaps(const VertexCurve& curve, Index gaps, std::size_t first) {
-    out_.warnings.push_back(
-        where_ + ": " + grouped(gaps) + " of " +
-        counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") + " of the curve " +
-        (gaps == 1 ? "is" : "are") + " no mesh edge and became the shortest path along edges (" +
-        (gaps == 1 ? "" : "the first: ") + "vertex " + std::to_string(curve.vertices[first - 1]) +
-        " to " + std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")");
+    warnings_.push_back({where_ + ": " + grouped(gaps) + " of " +
+                         counted(static_cast<Index>(curve.vertices.size()) - 1, "step", "steps") +
+                         " of the curve " + (gaps == 1 ? "is" : "are") +
+                         " no mesh edge and became the shortest path along edges (" +
+                         (gaps == 1 ? "" : "the first: ") + "vertex " +
+                         std::to_string(curve.vertices[first - 1]) + " to " +
+                         std::to_string(curve.vertices[first]) + ", " + place(curve, first) + ")"});
   }
 
   const CleanFaces& clean() {
@@ -217,12 +196,38 @@ class Resolver {
   std::optional<CleanFaces> clean_;
   double size_ = -1;
   std::string where_;
-  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
-  std::set<std::array<Index, 2>> edges_;
-  ResolvedSources out_;
+  SetUnion set_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace
+
+void SetUnion::add(const SurfacePoint& point, double offset) {
+  if (point.is_vertex()) {
+    const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
+    if (!fresh) {
+      set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
+      return;
+    }
+  }
+  set_.points.push_back(point);
+  set_.offsets.push_back(offset);
+}
+
+void SetUnion::add(const SourceSet& more) {
+  for (std::size_t i = 0; i < more.points.size(); ++i) {
+    add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
+  }
+  edges_.insert(more.edges.begin(), more.edges.end());
+}
+
+SourceSet SetUnion::take() {
+  set_.edges.assign(edges_.begin(), edges_.end());
+  if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
+  vertices_.clear();
+  edges_.clear();
+  return std::exchange(set_, {});
+}
 
 Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh) {
   Resolver resolver(mesh);
@@ -264,13 +269,13 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
 
 Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
                                            std::uint64_t seed) {
-  const std::vector<char> used = vertices_in_faces(mesh);
+  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), mesh.faces());
   std::vector<Index> pool;
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) pool.push_back(static_cast<Index>(v));
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
-    return misplaced(grouped(count) + " different vertices were asked for; " +
+    return misplaced(grouped(count) + " different vertices were asked for",
                      grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
   }
   Random random(seed);
@@ -283,8 +288,7 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
 
 Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
   if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
-  const Source pin{VertexList{{constraint.pin_vertex}},
-                   "--constraint pin-vertex:" + std::to_string(constraint.pin_vertex),
+  const Source pin{VertexList{{constraint.pin_vertex}}, "constraint " + to_text(constraint),
                    ErrorCode::kBadInput};
   const auto placed = resolve_sources({&pin, 1}, mesh);
   if (!placed) return placed.error();

@@ -332,7 +332,7 @@ Json solve_json(const Answer& f) {
                  {"factor_forecast", heat ? Json(f.method->heat()->forecast_mb()) : Json(nullptr)},
                  {"peak_rss", f.peak_rss_mb}}},
                {"quality", quality_json(f.result.quality, heat)},
-               {"warnings", f.warnings}});
+               {"warnings", told(f.warnings)}});
   if (!f.result.nearest_source.empty()) {
     json["regions"] = regions_json(f.sources, f.result.nearest_source);
   }

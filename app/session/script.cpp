@@ -34,7 +34,7 @@ Result<std::string> read_text(const std::string& path) {
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.bad() && file.is_open()) return text;
   const std::string reason = std::error_code(errno, std::generic_category()).message();
-  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason + "; name a file of commands"};
+  return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason, {"name a file of commands"}};
 }
 
 }  // namespace
@@ -50,8 +50,10 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     if (is_empty(line)) continue;
     auto command = parse_command(line);
     if (!command) {
-      return Error{ErrorCode::kBadFile, one_line(name) + ": line " + std::to_string(number) + ", " +
-                                            told(command.error())};
+      return Error{
+          ErrorCode::kBadFile,
+          one_line(name) + ": line " + std::to_string(number) + ", " + command.error().message,
+          command.error().hint};
     }
     lines.push_back({number, *std::move(command)});
   }
@@ -165,8 +167,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error bad(const std::string& path, const std::string& cause) {
-  return {ErrorCode::kBadInput, one_line(path) + ": " + cause};
+Error bad(const std::string& path, const std::string& cause, const std::string& hint) {
+  return {ErrorCode::kBadInput, one_line(path) + ": " + cause, {hint}};
 }
 
 /// Whether the file or one of the folders that the path names is hidden.
@@ -179,9 +181,8 @@ bool is_hidden(const fs::path& path) {
 /// Extension and hidden names; `path` has no links in it, or they have been followed.
 Result<void> check_name(const std::string& path, const Command& command) {
   if (is_hidden(path)) {
-    return bad(path,
-               "commands write no hidden files and nothing into hidden folders; choose a path "
-               "without names that begin with a dot");
+    return bad(path, "commands write no hidden files and nothing into hidden folders",
+               "choose a path without names that begin with a dot");
   }
   if (std::holds_alternative<command::SaveDistances>(command)) return check_distance_path(path);
   std::string what = "sessions and logs are", extension = ".geotherm";
@@ -193,7 +194,7 @@ Result<void> check_name(const std::string& path, const Command& command) {
     extension = ".json";
   }
   if (io::file_extension(path) == extension) return {};
-  return bad(path, what + " written as " + extension + "; name a FILE" + extension);
+  return bad(path, what + " written as " + extension, "name a FILE" + extension);
 }
 
 }  // namespace
@@ -215,7 +216,8 @@ const std::string* saved_path(const Command& command) {
 Result<void> check_saved_name(const Command& command) {
   const std::string& path = *saved_path(command);
   if (path == "-") {
-    return Error{ErrorCode::kBadInput, "a command writes files alone; give the name of one, not -"};
+    return Error{
+        ErrorCode::kBadInput, "a command writes files alone", {"give the name of one, not -"}};
   }
   if (auto checked = check_name(path, command); !checked) return checked;
   // From the current folder, which may itself lie in a hidden one.
@@ -223,7 +225,9 @@ Result<void> check_saved_name(const Command& command) {
   const std::string target = fs::proximate(path, unknown).string();
   if (unknown) return {};  // Opening the file says what is wrong with its path.
   if (const auto checked = check_name(target, command); !checked) {
-    return bad(path, "leads by a link to " + told(checked.error()));
+    return Error{ErrorCode::kBadInput,
+                 one_line(path) + ": leads by a link to " + checked.error().message,
+                 checked.error().hint};
   }
   return {};
 }
@@ -233,8 +237,8 @@ Result<void> check_replaced_by_script(const Command& command) {
   std::error_code unknown;
   if (!fs::exists(fs::symlink_status(path, unknown))) return {};
   return bad(path,
-             "is there already, and a script replaces only files that it wrote itself in this "
-             "run; choose another name, or remove the file");
+             "is there already, and a script replaces only files that it wrote itself in this run",
+             "choose another name, or remove the file");
 }
 
 }  // namespace geotherm::app

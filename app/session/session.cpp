@@ -46,9 +46,9 @@ Session::Session(SessionHooks hooks) : state_(std::make_unique<State>(std::move(
 
 Session::~Session() = default;
 
-void Session::State::note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings) {
+void Session::State::note(LogLine::Kind kind, std::string text, Hint hint) {
   if (log.size() >= kMaxLogLines) log.erase(log.begin(), log.begin() + kMaxLogLines / 4);
-  log.push_back({kind, std::move(text), std::move(settings)});
+  log.push_back({kind, std::move(text), std::move(hint)});
   last_logged_merges = kind == LogLine::Kind::kCommand;
 }
 
@@ -82,7 +82,8 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   if (const auto* wish = std::get_if<command::Compare>(&command)) {
     if (!explored.a) {
       return Error{ErrorCode::kBadInput,
-                   "there is nothing to compare yet; open a model and give it a source"};
+                   "there is nothing to compare yet",
+                   {"open a model and give it a source"}};
     }
     return start_compare(*wish);
   }
@@ -91,8 +92,9 @@ Result<void> Session::State::perform(const Command& command, const Session& sess
   if (const auto* set = std::get_if<command::Set>(&command); set && set->name == "colour-map") {
     const auto& maps = hooks.colour_maps;
     if (!maps.empty() && std::ranges::find(maps, set->value) == maps.end()) {
-      return Error{ErrorCode::kBadInput, "there is no colour map '" + one_line(set->value) +
-                                             "'; there are " + joined(maps)};
+      return Error{ErrorCode::kBadInput,
+                   "there is no colour map '" + one_line(set->value) + "'",
+                   {"there are " + joined(maps)}};
     }
   }
   auto next = app::apply(state, command);
@@ -132,7 +134,7 @@ Result<void> Session::State::submit(const Command& command, const Session& sessi
   auto done = perform(command, session, giver);
   if (!done) {
     if (!said) note(LogLine::Kind::kCommand, to_text(command));
-    note(LogLine::Kind::kError, told(done.error()));
+    note(done.error());
     return done;
   }
   if (const auto* run = std::get_if<command::Run>(&command)) {
@@ -154,8 +156,10 @@ Result<void> Session::State::run_script(const std::string& path) {
   if (++scripts_run > kMaxScripts) {
     script.clear();
     scripts_run = 0;
-    return Error{ErrorCode::kBadInput, one_line(path) + ": " + std::to_string(kMaxScripts) +
-                                           " scripts have run each other; end the circle"};
+    return Error{
+        ErrorCode::kBadInput,
+        one_line(path) + ": " + std::to_string(kMaxScripts) + " scripts have run each other",
+        {"end the circle"}};
   }
   auto lines = read_script(path);
   if (!lines) return lines.error();
@@ -232,6 +236,7 @@ void Session::set_dragging(bool dragging) {
 }
 
 void Session::say(LogLine::Kind kind, std::string text) { state_->note(kind, std::move(text)); }
+void Session::say(const Error& error) { state_->note(error); }
 
 const ViewerState& Session::state() const { return state_->state; }
 const Explored& Session::explored() const { return state_->explored; }

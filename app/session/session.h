@@ -18,7 +18,7 @@ struct LogLine {
   enum class Kind { kCommand, kNote, kWarning, kError };
   Kind kind = Kind::kNote;
   std::string text;
-  std::vector<SettingHint> settings = {};  ///< of an error: what may help
+  Hint hint = {};  ///< of a warning or an error: what to do
 };
 
 /// Times of one query, for the plot.
@@ -95,6 +95,7 @@ class Session {
 
   /// Adds a line to the log.
   void say(LogLine::Kind kind, std::string text);
+  void say(const Error& error);
   /// Everything that is to be known, oldest first; the last few thousand lines.
   std::span<const LogLine> log() const;
   std::span<const QueryRecord> queries() const;  ///< the last ones, oldest first

@@ -23,8 +23,9 @@ std::string script_head() {
 }
 
 Error not_yet(const char* what) {
-  return {ErrorCode::kBadInput, std::string("there are no ") + what +
-                                    " yet; open a model, give it a source and wait for the answer"};
+  return {ErrorCode::kBadInput,
+          std::string("there are no ") + what + " yet",
+          {"open a model, give it a source and wait for the answer"}};
 }
 
 /// One name for each file.

@@ -15,6 +15,7 @@
 #include "app/session/explorer.h"
 #include "app/session/script.h"
 #include "app/session/session.h"
+#include "app/session/wording.h"
 #include "geotherm/progress.h"
 
 // What session*.cpp share.
@@ -72,7 +73,9 @@ struct Session::State {
   Result<void> run_script(const std::string& path);
   void pump(const Session& session);
   void step_back(std::vector<ViewerState>& from, std::vector<ViewerState>& to);
-  void note(LogLine::Kind kind, std::string text, std::vector<SettingHint> settings = {});
+  void note(LogLine::Kind kind, std::string text, Hint hint = {});
+  void note(LogLine::Kind kind, const Warning& said) { note(kind, said.message, said.hint); }
+  void note(const Error& error) { note(LogLine::Kind::kError, warning_of(error)); }
 
   // session_work.cpp: what runs elsewhere.
   ExploreRequest wanted() const;

@@ -73,7 +73,7 @@ void Session::State::refresh() {
   const ExploreRequest request = wanted();
   if (requested && requested->covers(request)) {
     // What is shown belongs to the state: a model that did not open is a matter of the log.
-    if (answered && answered->covers(request) && explored.b_failure.empty()) failure.clear();
+    if (answered && answered->covers(request) && !explored.b_failure) failure.clear();
     return;
   }
   start(request);
@@ -128,7 +128,7 @@ bool Session::State::take() {
       note(LogLine::Kind::kNote, "opened " + one_line(explored.model->model.name) + ": " +
                                      grouped(explored.model->mesh.vertices) + " vertices, " +
                                      grouped(explored.model->mesh.faces) + " faces");
-      for (const std::string& warning : explored.model->warnings) {
+      for (const Warning& warning : explored.model->warnings) {
         note(LogLine::Kind::kWarning, warning);
       }
     } else if (auto* answered_now = std::get_if<Answered>(&message)) {
@@ -140,7 +140,7 @@ bool Session::State::take() {
         note(LogLine::Kind::kNote,
              "compared " + counted(static_cast<Index>(compare.rows.size()), "backend", "backends"));
       } else {
-        note(LogLine::Kind::kError, told(compared->rows.error()));
+        note(compared->rows.error());
       }
     }
   }
@@ -148,9 +148,9 @@ bool Session::State::take() {
 }
 
 void Session::State::say_failure(const Error& error) {
-  failure = told(error);
+  failure = sentence(error);
   if (!first_error) first_error = error;
-  note(LogLine::Kind::kError, failure, settings_of(error.hint));
+  note(error);
 }
 
 /// The model does not open: the one before it is still there. False: none was being opened.
@@ -181,9 +181,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   explored.version = version + 1;
   answered = request;
   if (is_last) failure.clear();
-  if (is_last && !explored.b_failure.empty()) {
-    say_failure({ErrorCode::kNumericalFailure, explored.b_failure});
-  }
+  if (is_last && explored.b_failure) say_failure(*explored.b_failure);
   if (!explored.a) return;
   if (explored.checked) {
     note_error(before);
@@ -197,18 +195,19 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   const View view = state.picture.view;
   if (needs_fields(view) && explored.a->method->heat() == nullptr) {
     note(LogLine::Kind::kWarning,
-         "the view " + to_text(view) + " shows the heat u, which the method " +
-             to_text(explored.a->options.method) + " has not; set method heat");
+         {"the view " + to_text(view) + " shows the heat u, which the method " +
+              to_text(explored.a->options.method) + " has not",
+          {"set ", SettingHint{"method", {"heat"}}}});
   }
-  if (!explored.path_failure.empty() && explored.path_failure != before.path_failure) {
-    note(LogLine::Kind::kWarning, "no paths: " + explored.path_failure);
+  if (const auto& none = explored.path_failure; none && none != before.path_failure) {
+    note(LogLine::Kind::kWarning, "no paths: " + none->message, none->hint);
   }
   note_warnings(before);
 }
 
 /// What an answer warns of and the one before it did not.
 void Session::State::note_warnings(const Explored& before) {
-  for (const std::string& warning : explored.a->warnings) {
+  for (const Warning& warning : explored.a->warnings) {
     const bool known = before.a && before.model == explored.model &&
                        std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
     if (!known) note(LogLine::Kind::kWarning, warning);
@@ -219,7 +218,9 @@ void Session::State::note_warnings(const Explored& before) {
 void Session::State::note_error(const Explored& before) {
   const auto& error = explored.a->error;
   if (error && error->measured && !error->is_poor()) {
-    note(LogLine::Kind::kNote, "error: " + accuracy_line(*error));
+    Warning line = accuracy_line(*error);
+    line.message.insert(0, "error: ");
+    note(LogLine::Kind::kNote, line);
   }
   note_warnings(before);
 }
@@ -284,9 +285,10 @@ void Session::cancel() {
   s.worker->cancel();
   s.close_opening();
   // What waited says nothing any more, so it is said here.
-  s.failure = "the work was cancelled; change something to start it again";
-  s.first_error = Error{ErrorCode::kCancelled, s.failure};
-  s.note(LogLine::Kind::kError, s.failure);
+  s.first_error = Error{
+      ErrorCode::kCancelled, "the work was cancelled", {"change something to start it again"}};
+  s.failure = sentence(*s.first_error);
+  s.note(*s.first_error);
 }
 
 }  // namespace geotherm::app

@@ -252,7 +252,8 @@ Result<std::vector<Source>> as_curve(const std::string& shown, const std::vector
     const auto* list = std::get_if<VertexList>(&source.spec);
     if (list == nullptr) {
       return Error{ErrorCode::kBadFile,
-                   source.where + ": not a vertex id; --curve joins vertices, one id a line"};
+                   source.where + ": not a vertex id",
+                   {SettingHint{"curve"}, " joins vertices, one id a line"}};
     }
     curve.vertices.push_back(list->vertices.front());
   }
@@ -265,7 +266,8 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown)) {
     return Error{ErrorCode::kBadFile,
-                 one_line(path) + ": is a folder; give a file with one vertex id or point a line"};
+                 one_line(path) + ": is a folder",
+                 {"give a file with one vertex id or point a line"}};
   }
   const auto file = io::FileBytes::read(path);
   if (!file) {
@@ -294,8 +296,8 @@ Result<std::vector<Source>> read_source_file(const std::string& path, bool curve
     lines.push_back(number);
   }
   if (sources.empty()) {
-    return Error{ErrorCode::kBadFile,
-                 shown + ": holds no source; write one vertex id or point a line"};
+    return Error{
+        ErrorCode::kBadFile, shown + ": holds no source", {"write one vertex id or point a line"}};
   }
   if (!curve) return sources;
   return as_curve(shown, sources, lines);

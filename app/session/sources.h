@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,9 +95,24 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 /// Errors: kBadFile with the number of the line.
 Result<std::vector<Source>> read_source_file(const std::string& path, bool curve);
 
+/// Puts sources together into one set: no vertex and no edge twice. A vertex keeps its smallest
+/// offset.
+class SetUnion {
+ public:
+  void add(const SurfacePoint& point, double offset);
+  void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
+  void add(const SourceSet& more);
+  SourceSet take();  ///< what was added since the last call
+
+ private:
+  SourceSet set_;
+  std::map<Index, std::size_t> vertices_;  ///< to their place among the points
+  std::set<std::array<Index, 2>> edges_;
+};
+
 struct ResolvedSources {
   SourceSet set;  ///< no vertex and no edge twice
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Places sources on a mesh, all in one set. Errors: the blame of the source, its `where`, and what
@@ -103,7 +121,7 @@ Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const T
 
 struct EachSource {
   std::vector<SourceSet> sets;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Places sources on a mesh, every point of them in a set of its own, in their order: each vertex

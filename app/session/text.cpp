@@ -65,6 +65,12 @@ std::string wrapped(const std::string& text, std::size_t width) {
 
 std::string one_line(std::string_view text) { return printable(text); }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kShown = 60;
+  if (text.size() <= kShown) return one_line(text);
+  return one_line(text.substr(0, kShown - 3)) + "...";
+}
+
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : printable(text)) {

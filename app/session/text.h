@@ -56,6 +56,9 @@ std::string wrapped(const std::string& text, std::size_t width);
 /// Fit for one line: what cannot be shown becomes '?' (solver/core/text.h).
 std::string one_line(std::string_view text);
 
+/// The same of at most 60 bytes: of a longer text the beginning and "...".
+std::string shortened(std::string_view text);
+
 /// Text for HTML, SVG and XML: &, <, > and double quotes as entities, and '?' for what these may
 /// not hold (control characters, bytes that are no UTF-8).
 std::string escaped(std::string_view text);

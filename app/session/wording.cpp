@@ -19,8 +19,6 @@ constexpr const char* kBeforeOption = "--";
 
 std::string told(const Error& error) { return sentence(error, kBeforeOption); }
 
-std::string told(const Hint& hint) { return hint_text(hint, kBeforeOption); }
-
 std::string told(const Warning& warning) { return sentence(warning, kBeforeOption); }
 
 std::vector<std::string> told(const std::vector<Warning>& warnings) {
@@ -31,14 +29,24 @@ std::vector<std::string> told(const std::vector<Warning>& warnings) {
 
 std::string told(const AccuracyReport& report) { return sentence(report, kBeforeOption); }
 
-Error about(const std::string& where, Error error) {
-  const Hint hint = std::exchange(error.hint, {});
-  return {error.code, where + ": " + sentence(error), hint};
+Error bad_value(const std::string& text, const std::string& why, const std::string& hint) {
+  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why,
+          hint.empty() ? Hint() : Hint{hint}};
+}
+
+Warning warning_of(Error error) {
+  Hint hint = std::exchange(error.hint, {});
+  return {sentence(error), std::move(hint)};
+}
+
+Error about(const std::string& where, const Error& error) {
+  Warning said = warning_of(error);
+  return {error.code, where + ": " + said.message, std::move(said.hint)};
 }
 
 Error about(const std::string& where, Error error, ErrorCode code) {
   error.code = code;
-  return about(where, std::move(error));
+  return about(where, error);
 }
 
 Error with_hint(Error error, Hint hint) {
@@ -110,64 +118,66 @@ std::string mesh_in_words(const MeshSummary& mesh) {
               : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
 }
 
-std::string crack_note(const CrackReport& cracks) {
+Warning crack_note(const CrackReport& cracks) {
   const std::string distance = number_text(cracks.distance);
-  return counted(cracks.vertices, "vertex lies", "vertices lie") +
-         (cracks.distance > 0 ? " within " + distance + " of another"
-                              : " exactly where another one does") +
-         ": the surface is cracked; --weld " + distance + " closes " +
-         grouped(cracks.closed_edges) + " of " +
-         counted(cracks.border_edges, "border edge", "border edges");
+  return {counted(cracks.vertices, "vertex lies", "vertices lie") +
+              (cracks.distance > 0 ? " within " + distance + " of another"
+                                   : " exactly where another one does") +
+              ": the surface is cracked",
+          {SettingHint{"weld", {distance}},
+           " closes " + grouped(cracks.closed_edges) + " of " +
+               counted(cracks.border_edges, "border edge", "border edges")}};
 }
 
-std::vector<std::string> mesh_warnings(const MeshReport& mesh) {
-  std::vector<std::string> out;
+std::vector<Warning> mesh_warnings(const MeshReport& mesh) {
+  std::vector<Warning> out;
   if (mesh.components == 0)
-    out.emplace_back("no face can carry distances; check how the file was exported");
+    out.push_back({"no face can carry distances", {"check how the file was exported"}});
   if (mesh.components > 1) {
-    out.push_back(grouped(mesh.components) +
-                  " components: distances are infinite on those without a source");
+    out.push_back({grouped(mesh.components) +
+                   " components: distances are infinite on those without a source"});
   }
   if (mesh.unreferenced_vertices > 0) {
-    out.push_back(counted(mesh.unreferenced_vertices, "vertex belongs", "vertices belong") +
-                  " to no face; their distance is infinite");
+    out.push_back({counted(mesh.unreferenced_vertices, "vertex belongs", "vertices belong") +
+                   " to no face; their distance is infinite"});
   }
   if (mesh.nonmanifold_edges > 0) {
-    out.push_back(counted(mesh.nonmanifold_edges, "edge has", "edges have") +
-                  " more than two faces; distances pass through all of them");
+    out.push_back({counted(mesh.nonmanifold_edges, "edge has", "edges have") +
+                   " more than two faces; distances pass through all of them"});
   }
   if (mesh.nonmanifold_vertices > 0) {
-    out.push_back(counted(mesh.nonmanifold_vertices, "vertex joins", "vertices join") +
-                  " parts of the surface that share no edge there");
+    out.push_back({counted(mesh.nonmanifold_vertices, "vertex joins", "vertices join") +
+                   " parts of the surface that share no edge there"});
   }
   if (mesh.repeated_corner_faces > 0) {
-    out.push_back(counted(mesh.repeated_corner_faces, "face repeats", "faces repeat") +
-                  " a corner and will be left out");
+    out.push_back({counted(mesh.repeated_corner_faces, "face repeats", "faces repeat") +
+                   " a corner and will be left out"});
   }
   const Mollification& mollified = mesh.mollified;
   if (mollified.most > 0) {
-    out.push_back(counted(mollified.faces, "face has", "faces have") +
-                  " no or nearly no area: " + counted(mollified.edges, "edge", "edges") + " in " +
-                  counted(mollified.components, "component", "components") +
-                  " will be lengthened, by up to " + significant(mollified.most) + ", which is " +
-                  significant(mollified.most / mesh.mean_edge_length, 2) + " mean edges");
+    out.push_back({counted(mollified.faces, "face has", "faces have") +
+                   " no or nearly no area: " + counted(mollified.edges, "edge", "edges") + " in " +
+                   counted(mollified.components, "component", "components") +
+                   " will be lengthened, by up to " + significant(mollified.most) + ", which is " +
+                   significant(mollified.most / mesh.mean_edge_length, 2) + " mean edges"});
   } else if (mesh.components > 0 && mesh.smallest_angle < kNeedle) {
-    out.push_back("there are needles: the smallest angle is " +
-                  significant(mesh.smallest_angle, 2) + " degrees");
+    out.push_back({"there are needles: the smallest angle is " +
+                   significant(mesh.smallest_angle, 2) + " degrees"});
   }
   if (mesh.duplicate_faces > 0) {
-    out.push_back(counted(mesh.duplicate_faces, "duplicate face", "duplicate faces") +
-                  " will be left out");
+    out.push_back(
+        {counted(mesh.duplicate_faces, "duplicate face", "duplicate faces") + " will be left out"});
   }
   if (mesh.inconsistent_faces > 0) {
-    out.push_back(counted(mesh.inconsistent_faces, "face is", "faces are") +
-                  " turned against the neighbours; distances do not depend on it");
+    out.push_back({counted(mesh.inconsistent_faces, "face is", "faces are") +
+                   " turned against the neighbours; distances do not depend on it"});
   }
   if (!mesh.orientable)
-    out.emplace_back("the surface cannot be oriented; distances are right all the same");
+    out.push_back({"the surface cannot be oriented; distances are right all the same"});
   if (mesh.duplicate_positions > 0) {
-    out.push_back(counted(mesh.duplicate_positions, "vertex lies", "vertices lie") +
-                  " exactly where another one does; where they should be one, the surface is cut");
+    out.push_back(
+        {counted(mesh.duplicate_positions, "vertex lies", "vertices lie") +
+         " exactly where another one does; where they should be one, the surface is cut"});
   }
   return out;
 }

@@ -18,13 +18,18 @@ namespace geotherm::app {
 
 /// "SUBJECT: WHAT; try --backend cg, which needs no factor".
 std::string told(const Error& error);
-std::string told(const Hint& hint);
 std::string told(const Warning& warning);
 std::vector<std::string> told(const std::vector<Warning>& warnings);
 std::string told(const AccuracyReport& report);
 
+/// kBadInput: "'TEXT' WHY", and what to do in its hint.
+Error bad_value(const std::string& text, const std::string& why, const std::string& hint = {});
+
+/// What the error says, where the work goes on all the same.
+Warning warning_of(Error error);
+
 /// The error with where it happened in front: "WHERE: WHAT".
-Error about(const std::string& where, Error error);
+Error about(const std::string& where, const Error& error);
 Error about(const std::string& where, Error error, ErrorCode code);
 
 /// The error with this hint, unless it has one.
@@ -57,9 +62,9 @@ std::string refinement_in_words(const RefinementCounts& refinement);
 std::string mesh_in_words(const MeshSummary& mesh);
 
 /// What closes the cracks. Precondition: there are some.
-std::string crack_note(const CrackReport& cracks);
+Warning crack_note(const CrackReport& cracks);
 
 /// What a user should know before trusting distances on the mesh, one sentence each.
-std::vector<std::string> mesh_warnings(const MeshReport& mesh);
+std::vector<Warning> mesh_warnings(const MeshReport& mesh);
 
 }  // namespace geotherm::app

@@ -9,8 +9,10 @@ class NoWindow final : public ViewerWindow {
  public:
   Result<void> run(const ViewerStart& /*start*/) override {
     return Error{ErrorCode::kNoDevice,
-                 "this build has no window; configure it with -DGEOTHERM_BUILD_VIEWER=ON, or draw "
-                 "without one: geotherm render, geotherm view --headless"};
+                 "this build has no window",
+                 {"configure it with -DGEOTHERM_BUILD_VIEWER=ON, or draw without one: geotherm "
+                  "render, geotherm view ",
+                  SettingHint{"headless"}}};
   }
 };
 

@@ -38,7 +38,10 @@ Result<std::unique_ptr<WindowLoop>> WindowLoop::open(const ViewerStart& start) {
   engine::WindowOptions options;
   if (start.width > 0) options.size = {start.width, start.height};
   auto window = engine::Window::open(options);
-  if (!window) return window.error();
+  if (!window) {
+    return with_hint(window.error(), {"geotherm render and geotherm view ", SettingHint{"replay"},
+                                      " draw without a display"});
+  }
   loop->window_ = *std::move(window);
   if (auto opened = loop->open_screen(); !opened) return opened.error();
   loop->window_->connect_panels();
@@ -198,14 +201,15 @@ Result<void> WindowLoop::draw_frame(bool fast) {
 }
 
 Result<void> WindowLoop::after_failure(const Error& error) {
-  session_->say(LogLine::Kind::kError, told(error));
+  session_->say(error);
   const Clock::time_point now = Clock::now();
   const bool again = last_loss_ && now - *last_loss_ < kLossPause;
   last_loss_ = now;
   if (again || error.code != ErrorCode::kNoDevice) return error;
   if (auto opened = open_screen(); !opened) {
     return Error{opened.error().code,
-                 told(error) + "; it did not come back: " + told(opened.error())};
+                 error.message + "; it did not come back: " + opened.error().message,
+                 opened.error().hint};
   }
   session_->say(LogLine::Kind::kNote, "the device came back");
   clock_.something_happened();

@@ -13,28 +13,30 @@
 
 namespace geotherm::engine {
 
+Hint less_memory() {
+  return {"try a smaller picture, ", SettingHint{"samples", {"1"}}, " or a mesh with fewer faces"};
+}
+
 Error error_of(vk::Result status, std::string_view what) {
   const std::string doing(what);
   switch (status) {
     case vk::Result::eErrorOutOfDeviceMemory:
-      return {ErrorCode::kOutOfMemory,
-              doing +
-                  ": the device is out of memory; try a smaller picture, --samples 1 or a mesh "
-                  "with fewer faces"};
+      return {ErrorCode::kOutOfMemory, doing + ": the device is out of memory", less_memory()};
     case vk::Result::eErrorOutOfHostMemory:
-      return {ErrorCode::kOutOfMemory, doing + ": out of memory; try a smaller picture or mesh"};
+      return {
+          ErrorCode::kOutOfMemory, doing + ": out of memory", {"try a smaller picture or mesh"}};
     case vk::Result::eErrorDeviceLost:
       return {ErrorCode::kNoDevice,
-              doing +
-                  ": the device was lost (its driver has given up); try again, or another "
-                  "device of geotherm devices"};
+              doing + ": the device was lost (its driver has given up)",
+              {"try again, or another device of geotherm devices"}};
     case vk::Result::eErrorIncompatibleDriver:
-      return {ErrorCode::kNoDevice, doing +
-                                        ": the Vulkan loader found no driver; install one (Debian: "
-                                        "mesa-vulkan-drivers, which also draws without a GPU)"};
+      return {ErrorCode::kNoDevice,
+              doing + ": the Vulkan loader found no driver",
+              {"install one (Debian: mesa-vulkan-drivers, which also draws without a GPU)"}};
     default:
-      return {ErrorCode::kNoDevice, doing + ": Vulkan answered " + vk::to_string(status) +
-                                        "; try another device of geotherm devices"};
+      return {ErrorCode::kNoDevice,
+              doing + ": Vulkan answered " + vk::to_string(status),
+              {"try another device of geotherm devices"}};
   }
 }
 
@@ -46,10 +48,10 @@ Loader::Loader() {
   }
   if (entry_ != nullptr) return;
   const char* const reason = ::dlerror();
-  throw Failure(
-      {ErrorCode::kNoDevice, "the Vulkan loader cannot be opened (" +
-                                 std::string(reason ? reason : "libvulkan.so.1 is no loader") +
-                                 "); install it (Debian: libvulkan1 mesa-vulkan-drivers)"});
+  throw Failure({ErrorCode::kNoDevice,
+                 "the Vulkan loader cannot be opened (" +
+                     std::string(reason ? reason : "libvulkan.so.1 is no loader") + ")",
+                 {"install it (Debian: libvulkan1 mesa-vulkan-drivers)"}});
 }
 
 Loader::Loader(Loader&& other) noexcept
@@ -82,8 +84,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool validati
   const vk::ApplicationInfo application("geotherm", 1, "geotherm", 1, VK_API_VERSION_1_3);
   if (context.enumerateInstanceVersion() < VK_API_VERSION_1_1) {
     throw Failure({ErrorCode::kNoDevice,
-                   "the Vulkan loader knows version 1.0 alone and 1.3 is needed; install a newer "
-                   "one"});
+                   "the Vulkan loader knows version 1.0 alone and 1.3 is needed",
+                   {"install a newer one"}});
   }
   std::vector<const char*> extensions;
   if (presentation != nullptr) extensions = presentation->instance_extensions();
@@ -285,8 +287,9 @@ std::vector<Candidate> examine_devices(const vk::raii::Instance& instance,
 std::size_t choose_device(const std::vector<Candidate>& candidates, const std::string& name) {
   if (candidates.empty()) {
     throw Failure({ErrorCode::kNoDevice,
-                   "there is no Vulkan device; install a driver (Debian: mesa-vulkan-drivers, "
-                   "which also draws without a GPU)"});
+                   "there is no Vulkan device",
+                   {"install a driver (Debian: mesa-vulkan-drivers, which also draws without a "
+                    "GPU)"}});
   }
   bool named = false;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -297,7 +300,8 @@ std::size_t choose_device(const std::vector<Candidate>& candidates, const std::s
   }
   if (!named) {
     throw Failure({ErrorCode::kNoDevice,
-                   "no device is called '" + name + "'; there are: " + in_words(candidates)});
+                   "no device is called '" + name + "'",
+                   {"there are: " + in_words(candidates)}});
   }
   throw Failure({ErrorCode::kNoDevice, (name.empty() ? "no device can draw: "
                                                      : "the device '" + name + "' cannot draw: ") +

@@ -57,9 +57,8 @@ void MemoryBudget::take(std::uint64_t bytes) {
     used_ -= bytes;
     throw Failure({ErrorCode::kOutOfMemory,
                    "the device's memory: " + megabytes(bytes) + " more than the " +
-                       megabytes(used - bytes) + " in use exceed the limit of " +
-                       megabytes(limit_) +
-                       "; try a smaller picture, --samples 1 or a mesh with fewer faces"});
+                       megabytes(used - bytes) + " in use exceed the limit of " + megabytes(limit_),
+                   less_memory()});
   }
   std::uint64_t peak = peak_;
   while (used > peak && !peak_.compare_exchange_weak(peak, used)) {
@@ -72,9 +71,10 @@ Memory::Memory(const MemorySource& source, const vk::MemoryRequirements& require
       memory_type(source.properties, requirements.memoryTypeBits, needed | wished);
   const std::uint32_t enough = memory_type(source.properties, requirements.memoryTypeBits, needed);
   if (enough == VK_MAX_MEMORY_TYPES) {
-    throw Failure({ErrorCode::kNoDevice, "the device has no memory of the kind that is needed (" +
-                                             vk::to_string(needed) +
-                                             "); try another one of geotherm devices"});
+    throw Failure(
+        {ErrorCode::kNoDevice,
+         "the device has no memory of the kind that is needed (" + vk::to_string(needed) + ")",
+         {"try another one of geotherm devices"}});
   }
   source.budget->take(requirements.size);
   try {

@@ -26,6 +26,9 @@ class Failure : public std::exception {
   Error error_;
 };
 
+/// What to do where the device's memory does not suffice.
+Hint less_memory();
+
 /// What a status of Vulkan means to people. `what`: what was being done ("drawing").
 Error error_of(vk::Result status, std::string_view what);
 
@@ -39,8 +42,7 @@ auto guarded(std::string_view what, Work&& work) -> decltype(work()) {
   } catch (const vk::SystemError& error) {
     return error_of(static_cast<vk::Result>(error.code().value()), what);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory,
-                 std::string(what) + ": out of memory; try a smaller picture or mesh"};
+    return error_of(vk::Result::eErrorOutOfHostMemory, what);
   }
 }
 

@@ -36,10 +36,8 @@ std::string complaint() {
   return text != nullptr ? text : "the window system gives no reason";
 }
 
-Error refusal(const std::string& what) {
-  return {ErrorCode::kNoDevice,
-          "no window can be opened (" + what +
-              "); geotherm render and geotherm view --replay draw without a display"};
+Error refusal(const std::string& what, Hint hint = {}) {
+  return {ErrorCode::kNoDevice, "no window can be opened (" + what + ")", std::move(hint)};
 }
 
 Window::State& state_of(GLFWwindow* window) {
@@ -126,14 +124,15 @@ Window::~Window() = default;
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
   const std::lock_guard lock(glfw().mutex);
   assert(!glfw().open);
-  const auto refuse = [](const std::string& what) {
+  const auto refuse = [](const std::string& what, Hint hint = {}) {
     glfwTerminate();
-    return refusal(what);
+    return refusal(what, std::move(hint));
   };
   if (glfwInit() != GLFW_TRUE) return refuse(complaint());
   std::uint32_t count = 0;
   if (glfwGetRequiredInstanceExtensions(&count) == nullptr) {
-    return refuse("no Vulkan that draws in windows; Debian: libvulkan1 mesa-vulkan-drivers");
+    return refuse("no Vulkan that draws in windows",
+                  {"install one (Debian: libvulkan1 mesa-vulkan-drivers)"});
   }
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);

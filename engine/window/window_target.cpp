@@ -109,8 +109,8 @@ vk::SurfaceFormatKHR choose_format(const vk::raii::PhysicalDevice& device, vk::S
     }
   }
   throw Failure({ErrorCode::kNoDevice,
-                 "the window takes no plain 8-bit colours from this device; try another device of "
-                 "geotherm devices"});
+                 "the window takes no plain 8-bit colours from this device",
+                 {"try another device of geotherm devices"}});
 }
 
 using Stage = vk::PipelineStageFlagBits2;
@@ -184,9 +184,9 @@ void WindowTarget::State::make_surface() {
   surface = vk::raii::SurfaceKHR(device->instance.instance,
                                  window.state().make_surface(*device->instance.instance));
   if (device->physical.getSurfaceSupportKHR(device->queue_family, *surface) == VK_FALSE) {
-    throw Failure({ErrorCode::kNoDevice, "the device '" + device->info.name +
-                                             "' cannot show pictures in this window; try another "
-                                             "device of geotherm devices"});
+    throw Failure({ErrorCode::kNoDevice,
+                   "the device '" + device->info.name + "' cannot show pictures in this window",
+                   {"try another device of geotherm devices"}});
   }
   format = choose_format(device->physical, *surface);
   stale = true;
@@ -258,8 +258,8 @@ bool WindowTarget::State::follow() {
     }
     if (renewed) {
       throw Failure({ErrorCode::kNoDevice,
-                     "drawing in the window: its surface was lost twice; start again, or draw "
-                     "with geotherm render"});
+                     "drawing in the window: its surface was lost twice",
+                     {"start again, or draw with geotherm render"}});
     }
   }
 }

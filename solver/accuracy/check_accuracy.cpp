@@ -33,9 +33,8 @@ double badness_of(const TriedSetting& tried) {
   return badness(error);
 }
 
-/// "BEFOREwith SETTING it is FIGURE".
-void add_gain(const AccuracyReport& report, const TriedSetting& tried, const std::string& before,
-              Hint& advice) {
+/// Appends ", with SETTING it is FIGURE".
+void add_gain(const AccuracyReport& report, const TriedSetting& tried, Hint& advice) {
   std::string gain = " it is ";
   if (tried.option == "method" && tried.value == to_text(tried.against)) {
     gain += tried.value;
@@ -43,10 +42,10 @@ void add_gain(const AccuracyReport& report, const TriedSetting& tried, const std
     gain += figure_text(report.figures, tried.mean_relative, tried.max_of_range);
     if (tried.against != report.reference) gain += " (against " + to_text(tried.against) + ')';
   }
-  advice.insert(advice.end(), {before + "with ", setting_of(tried), gain});
+  advice.insert(advice.end(), {advice.empty() ? "with " : ", with ", setting_of(tried), gain});
 }
 
-/// Why the answer is wrong and what was found to help, to follow the grade and its figures.
+/// What was found to help.
 Hint advice_of(const AccuracyReport& report) {
   const TriedSetting *best = nullptr, *cause = nullptr;
   for (const TriedSetting& tried : report.tried) {
@@ -55,19 +54,14 @@ Hint advice_of(const AccuracyReport& report) {
         report.cause && tried.option == report.cause->option && tried.value == report.cause->value;
     if (is_cause) cause = &tried;
   }
-  std::string before;
-  if (report.cause && !report.cause->because.empty()) before = " because " + report.cause->because;
-  before += "; ";
   if (best == nullptr || badness_of(*best) >= badness(report.figures)) {
-    return {before + "the " + to_text(report.reference) +
-            " method, which it was held against, is nearer"};
+    return {"the " + to_text(report.reference) + " method, which it was held against, is nearer"};
   }
   Hint advice;
   if (cause != nullptr && badness_of(*cause) > badness_of(*best)) {
-    add_gain(report, *cause, before, advice);
-    before = ", ";
+    add_gain(report, *cause, advice);
   }
-  add_gain(report, *best, before, advice);
+  add_gain(report, *best, advice);
   if (!report.remedy) advice.emplace_back(", the best of what was tried");
   return advice;
 }
@@ -155,7 +149,7 @@ AccuracyReport hold_against(std::span<const std::vector<double>> distances, Meth
   report.grade = grade_of(report.figures);
   report.verdict = to_text(report.grade);
   if (report.figures.differently_reached > 0) {
-    report.advice = {": " + reach_text(report.figures)};
+    report.reason = ": " + reach_text(report.figures);
   }
   if (distances.size() == 1) {
     report.values = signed_error(distances.front(), better.distances.front());
@@ -165,7 +159,7 @@ AccuracyReport hold_against(std::span<const std::vector<double>> distances, Meth
 }
 
 std::string sentence(const AccuracyReport& report, std::string_view before_name) {
-  return report.verdict + hint_text(report.advice, before_name);
+  return sentence(report.verdict + report.reason, report.advice, before_name);
 }
 
 AccuracyReport unmeasured(MethodKind method, std::string verdict) {
@@ -189,6 +183,9 @@ Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const Tri
   report.cause = std::move(found->cause);
   report.remedy = std::move(found->remedy);
   report.tried = std::move(found->tried);
+  if (report.cause && !report.cause->because.empty()) {
+    report.reason = " because " + report.cause->because;
+  }
   report.advice = advice_of(report);
   report.verdict =
       to_text(report.grade) + ": " +

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -16,11 +15,6 @@ namespace {
 
 /// So many pieces are looked at one after the other sooner than a tree is walked.
 constexpr std::size_t kFew = 8;
-
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
 
 float round_up(double x) { return -round_down(-x); }
 

@@ -121,11 +121,9 @@ Index count_sets(DisjointSets& sets, const std::vector<char>& marked) {
 /// Fills in what follows from the edges.
 void inspect_connections(const TriangleMesh& mesh, const CleanFaces& clean, MeshReport& report) {
   const auto n = static_cast<std::size_t>(mesh.vertex_count());
-  std::vector<char> used(n, 0), on_boundary(n, 0);
+  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), clean.faces);
+  std::vector<char> on_boundary(n, 0);
   DisjointSets borders(n), patches(clean.faces.size());
-  for (const Face& face : clean.faces) {
-    for (const Index corner : face) used[corner] = 1;
-  }
   const EdgeTable& edges = clean.edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     const auto sides = edges.sides(e);

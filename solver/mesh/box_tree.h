@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -11,6 +12,12 @@
 #include "geotherm/types.h"
 
 namespace geotherm {
+
+/// The largest float that is not above x.
+inline float round_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
 
 /// A box in single precision; empty as made.
 struct FloatBox {

@@ -15,6 +15,15 @@
 
 namespace geotherm {
 
+std::vector<char> vertices_in_faces(Index vertex_count, std::span<const Face> faces) {
+  std::vector<char> used(static_cast<std::size_t>(vertex_count), 0);
+  for (const Face& face : faces) {
+    if (repeats_corner(face)) continue;
+    for (const Index corner : face) used[corner] = 1;
+  }
+  return used;
+}
+
 CornerTable::CornerTable(Index vertex_count, std::span<const Face> faces, int threads) {
   const auto emit = [&faces](std::size_t f, const auto& put) {
     for (int k = 0; k < 3; ++k) put(faces[f][k], static_cast<Side>(3 * f + k));

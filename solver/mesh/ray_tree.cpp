@@ -53,11 +53,6 @@ Frame frame_of(const TriangleMesh& mesh) {
   return frame;
 }
 
-float round_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-
 FloatBox box_of(const std::array<Vec3, 3>& corners) {
   FloatBox box;
   for (int k = 0; k < 3; ++k) {

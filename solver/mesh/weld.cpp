@@ -146,11 +146,7 @@ namespace {
 
 /// Ascending.
 std::vector<Index> vertices_in_use(const TriangleMesh& mesh) {
-  std::vector<char> used(static_cast<std::size_t>(mesh.vertex_count()), 0);
-  for (const Face& face : mesh.faces()) {
-    if (repeats_corner(face)) continue;
-    for (const Index corner : face) used[corner] = 1;
-  }
+  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), mesh.faces());
   std::vector<Index> vertices;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (used[v]) vertices.push_back(v);

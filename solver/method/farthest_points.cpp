@@ -13,16 +13,6 @@
 namespace geotherm {
 namespace {
 
-/// V: whether a vertex can be a source.
-std::vector<char> vertices_in_faces(const TriangleMesh& mesh) {
-  std::vector<char> used(mesh.positions().size(), 0);
-  for (const Face& face : mesh.faces()) {
-    if (repeats_corner(face)) continue;
-    for (const Index corner : face) used[corner] = 1;
-  }
-  return used;
-}
-
 /// Whether some face has an edge of any length; without one no method can be set up.
 bool has_extent(const TriangleMesh& mesh) {
   const auto& at = mesh.positions();
@@ -34,7 +24,9 @@ bool has_extent(const TriangleMesh& mesh) {
 class Sampler {
  public:
   Sampler(const DistanceMethod& method, const TriangleMesh& mesh, const Progress& progress)
-      : method_(method), progress_(progress), open_(vertices_in_faces(mesh)) {
+      : method_(method),
+        progress_(progress),
+        open_(vertices_in_faces(mesh.vertex_count(), mesh.faces())) {
     out_.distances.assign(open_.size(), kUnreached);
     out_.nearest.assign(open_.size(), kNoIndex);
   }
@@ -128,7 +120,7 @@ Result<void> check_sampling(const TriangleMesh& mesh, Index count, const Farthes
                      ", each with a corner twice or all in one place)",
                  {"check how it was exported"}};
   }
-  const std::vector<char> used = vertices_in_faces(mesh);
+  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), mesh.faces());
   const auto vertices = static_cast<Index>(std::ranges::count(used, 1));
   if (count < 1 || count > vertices) {
     return Error{

@@ -198,9 +198,9 @@ Result<FoundPath> PathFinder::through(std::span<const SurfacePoint> points,
   if (!loop) return loop.error();
   out.path = *std::move(loop);
   if (out.path.points.size() == 1) {
-    out.warnings.emplace_back(
-        "the loop can be drawn together to a point, and was; lead it round a hole or a handle "
-        "with way-points, or hold it at its points");
+    out.warnings.push_back(
+        {"the loop can be drawn together to a point, and was",
+         {"lead it round a hole or a handle with way-points, or hold it at its points"}});
   }
   return out;
 }
@@ -245,10 +245,10 @@ Result<FoundPath> PathFinder::streamline(const SurfacePoint& from, const Surface
   if (!line) return line.error();
   FoundPath out{reversed(std::move(line->path)), {}};
   if (line->stuck) {
-    out.warnings.push_back("the streamline of " + to_text(field) + " from " +
-                           place_text(position_at(*surface_->mesh(), to)) +
-                           " stopped before its goal and went on along edges; the field geodesic "
-                           "has no such stops");
+    out.warnings.push_back({"the streamline of " + to_text(field) + " from " +
+                                place_text(position_at(*surface_->mesh(), to)) +
+                                " stopped before its goal and went on along edges",
+                            {"the field geodesic has no such stops"}});
   }
   return out;
 }

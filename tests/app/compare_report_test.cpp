@@ -31,7 +31,7 @@ std::vector<CompareRow> rows() {
   bad.query_ms_median = bad.query_ms_min = bad.query_ms_max = std::nullopt;
   bad.max_difference = std::nullopt;
   bad.status = "numerical failure";
-  bad.message = "pivot \"3\" is <= 0, give up";
+  bad.note.message = "pivot \"3\" is <= 0, give up";
   return {good, bad};
 }
 
@@ -56,7 +56,7 @@ TEST(CompareReports, HoldNoFormulasInCsv) {
   for (const char first : {'=', '+', '-', '@'}) {
     auto some = rows();
     some[0].model = std::string(1, first) + "cmd|' /C calc'!A0";
-    some[1].message = std::string(1, first) + "1+1\n=2";
+    some[1].note.message = std::string(1, first) + "1+1\n=2";
     some[1].mean_difference = -0.5;
     const std::string csv = compare_csv(some);
     EXPECT_NE(csv.find("\n\"'" + some[0].model + "\",10,"), std::string::npos) << csv;

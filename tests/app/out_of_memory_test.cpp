@@ -132,7 +132,7 @@ TEST_P(LittleMemory, IsARowOfTheComparison) {
     const CompareRow& row = rows->front();
     if (row.status == "ok") return kDone;
     const bool memory = row.status == "out of memory";
-    return ending_of(memory ? ErrorCode::kOutOfMemory : ErrorCode::kCancelled, row.message);
+    return ending_of(memory ? ErrorCode::kOutOfMemory : ErrorCode::kCancelled, sentence(row.note));
   });
 }
 

@@ -81,7 +81,7 @@ TEST(Sources, InSpaceAreTheClosestPointsAndFarOnesAreMentioned) {
   ASSERT_TRUE(far);
   EXPECT_EQ(vertices_of(far->set), std::vector<Index>{0});
   ASSERT_EQ(far->warnings.size(), 1U);
-  EXPECT_NE(far->warnings[0].find("5 away"), std::string::npos) << far->warnings[0];
+  EXPECT_NE(far->warnings[0].message.find("5 away"), std::string::npos) << far->warnings[0].message;
 }
 
 TEST(Sources, AlongACurveAreItsEdges) {
@@ -98,8 +98,9 @@ TEST(Sources, AlongACurveWithGapsAreJoinedAndThatIsSaid) {
   const ResolvedSources line = curve(grid(), {0, 1, 4});
   EXPECT_EQ(line.set.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
   ASSERT_EQ(line.warnings.size(), 1U);
-  EXPECT_NE(line.warnings[0].find("c.txt: 1 of 2 steps"), std::string::npos) << line.warnings[0];
-  EXPECT_NE(line.warnings[0].find("vertex 1 to 4, line 3"), std::string::npos);
+  EXPECT_NE(line.warnings[0].message.find("c.txt: 1 of 2 steps"), std::string::npos)
+      << line.warnings[0].message;
+  EXPECT_NE(line.warnings[0].message.find("vertex 1 to 4, line 3"), std::string::npos);
 }
 
 TEST(Sources, AlongACurveOfTextAreJoinedWithoutAWord) {

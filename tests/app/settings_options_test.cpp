@@ -57,7 +57,7 @@ TEST(SettingsOptions, OfASettingThatIsAddedToTheTableAreEverywhere) {
   ASSERT_TRUE(parsed) << parsed.error().message;
   EXPECT_EQ(app::to_text(*parsed), "test-dial 8.000000");
   const auto unknown = app::parse_command("no-such-command");
-  EXPECT_NE(unknown.error().message.find("test-dial"), std::string::npos) << "it is completed";
+  EXPECT_NE(sentence(unknown.error()).find("test-dial"), std::string::npos) << "it is completed";
 
   dial = 2.5;
   app::Model model;

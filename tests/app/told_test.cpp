@@ -21,7 +21,7 @@ TEST(Told, NamesSettingsAsOptionsOfTheCommandLine) {
             std::vector<std::string>{"it is wrong; use --method wavefront"});
   AccuracyReport report;
   report.verdict = "poor: 9 %";
-  report.advice = {"; with ", SettingHint{"time-factor", {"1"}}, " it is 1 %"};
+  report.advice = {"with ", SettingHint{"time-factor", {"1"}}, " it is 1 %"};
   EXPECT_EQ(told(report), "poor: 9 %; with --time-factor 1 it is 1 %");
 }
 

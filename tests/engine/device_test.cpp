@@ -55,8 +55,8 @@ TEST_F(Devices, OfAnUnknownNameAreAnErrorThatListsThem) {
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::kNoDevice);
   EXPECT_NE(opened.error().message.find("no such device"), std::string::npos);
-  EXPECT_NE(opened.error().message.find(device().info().name), std::string::npos)
-      << opened.error().message;
+  const std::string told = sentence(opened.error());
+  EXPECT_NE(told.find(device().info().name), std::string::npos) << told;
 }
 
 TEST_F(Devices, MayBeOpenSeveralAtATime) {
@@ -97,7 +97,7 @@ TEST_F(Devices, AreAnErrorWithTheCureWithoutADriver) {
   ASSERT_FALSE(opened);
   for (const Error& error : {devices.error(), opened.error()}) {
     EXPECT_EQ(error.code, ErrorCode::kNoDevice);
-    EXPECT_NE(error.message.find("mesa-vulkan-drivers"), std::string::npos) << error.message;
+    EXPECT_NE(sentence(error).find("mesa-vulkan-drivers"), std::string::npos) << sentence(error);
   }
 }
 

@@ -21,6 +21,7 @@ TEST_F(DeviceMemory, ThatEndsIsAnErrorWithFiguresAndLeavesTheModel) {
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().code, ErrorCode::kOutOfMemory);
     EXPECT_NE(failed.error().message.find("4 MB"), std::string::npos) << failed.error().message;
+    EXPECT_EQ(settings_of(failed.error().hint), (std::vector<SettingHint>{{"samples", {"1"}}}));
     EXPECT_EQ(stage.draw().pixels, before.pixels);
     // Values and arrows are still those of the earlier model.
     Stage other(device(), plane_model(10, 10));

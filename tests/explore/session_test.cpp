@@ -109,14 +109,16 @@ TEST_F(SessionTest, ABackendThatTakesOverIsNamedAndTheLogSaysWhy) {
   EXPECT_EQ(session.explored().a->result.backend, "cg");
   const auto said = [this](LogLine::Kind kind, const std::string& text) {
     return std::ranges::any_of(session.log(), [&](const LogLine& line) {
-      return line.kind == kind && line.text.find(text) != std::string::npos;
+      return line.kind == kind && sentence(line.text, line.hint).find(text) != std::string::npos;
     });
   };
   EXPECT_TRUE(said(LogLine::Kind::kNote, "solved with cg"));
   EXPECT_TRUE(said(LogLine::Kind::kWarning, "eigen-ldlt failed: needs about"));
   ASSERT_FALSE(session.submit(*parse_command("strict on")));
-  const std::vector<SettingHint>& settings = session.log().back().settings;
+  const std::vector<SettingHint> settings = settings_of(session.log().back().hint);
   EXPECT_EQ(std::ranges::count(settings, SettingHint{"backend", {"cg"}}), 1);
+  EXPECT_NE(session.failure().find("backend cg"), std::string::npos) << session.failure();
+  EXPECT_EQ(session.failure().find("--"), std::string::npos) << session.failure();
   run({"undo", "memory-limit free"});
   EXPECT_EQ(session.explored().a->result.backend, "eigen-ldlt");
 }
@@ -332,7 +334,7 @@ TEST_F(SessionTest, ComparesBackendsOnTheModelThatIsOpen) {
   const SessionCompare& compare = session.compare();
   ASSERT_GE(compare.rows.size(), 2U);
   for (const CompareRow& row : compare.rows) {
-    EXPECT_EQ(row.status, "ok") << row.message;
+    EXPECT_EQ(row.status, "ok") << row.note.message;
     EXPECT_LT(row.max_difference.value_or(1), 1e-3);
   }
 }

@@ -15,7 +15,7 @@ using namespace geotherm::app;
 
 /// Of an error as the program prints it, which may quote all of its input.
 std::string printed_fault(const Error& error, std::size_t input) {
-  return message_fault(one_line(error.message), 2 * input);
+  return message_fault(one_line(sentence(error)), 2 * input);
 }
 
 std::string source_fault(std::string_view text) {

@@ -335,7 +335,14 @@ std::vector<Violation> check_backend_conditions(const SourceFile& file) {
 
 std::vector<Violation> check_option_names(const SourceFile& file) {
   std::vector<Violation> found;
-  if (!is_code(file.path) || !starts_with_folder(file.path, "solver")) return found;
+  constexpr const char* kFolders[] = {"solver",      "engine",     "app/session", "app/picture",
+                                      "app/drawing", "app/window", "ui"};
+  const bool applies = std::ranges::any_of(
+      kFolders, [&](const char* folder) { return starts_with_folder(file.path, folder); });
+  // The table of settings has the spellings of their options.
+  const bool is_table = file.path == "app/session/method_settings.cpp" ||
+                        file.path == "app/session/picture_settings_table.cpp";
+  if (!is_code(file.path) || !applies || is_table) return found;
   for_each_line(file.text, [&](int number, const std::string& line) {
     if (!has_option_in_string(line)) return;
     found.push_back({file.path, number, "a string names an option; a hint names a setting"});

@@ -36,7 +36,8 @@ std::vector<Violation> check_length(const SourceFile& file);
 /// No #if on a backend outside solver/linear/backend_registry.cpp.
 std::vector<Violation> check_backend_conditions(const SourceFile& file);
 
-/// No string of `solver/` names an option of the command line: hints name settings.
+/// No string of the library, the engine, the session or the viewer names an option of the command
+/// line, but for the table of settings: hints name settings.
 std::vector<Violation> check_option_names(const SourceFile& file);
 
 /// Every paragraph of a ```cpp block of the page stands, but for its indentation, in one of the

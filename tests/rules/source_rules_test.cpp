@@ -168,10 +168,12 @@ TEST(Rules, AConditionOnABackendOutsideTheRegistryIsFound) {
   }
 }
 
-TEST(Rules, AnOptionInAStringOfTheSolverIsFound) {
+TEST(Rules, AnOptionInAStringOutsideTheCommandLineIsFound) {
   for (const char* line : {"f(\"use --method wavefront\");\n", "f('\"', \"a\\\"b\", \"--x\");\n"}) {
-    EXPECT_EQ(check_option_names({"solver/heat/a.cpp", line}).size(), 1U) << line;
-    EXPECT_TRUE(check_option_names({"app/a.cpp", line}).empty()) << line;
+    for (const char* file : {"solver/heat/a.cpp", "engine/a.cpp", "app/session/a.cpp"}) {
+      EXPECT_EQ(check_option_names({file, line}).size(), 1U) << file << ": " << line;
+    }
+    EXPECT_TRUE(check_option_names({"app/cli/a.cpp", line}).empty()) << line;
   }
   for (const char* line : {"--count;\n", "f(\"a\", --b, \"c\");\n", "f(\"-- 3\");\n",
                            "f();  // \"--method wavefront\"\n", "f('\"', --b, '\"');\n"}) {

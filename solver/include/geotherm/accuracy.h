@@ -176,7 +176,8 @@ struct AccuracyReport {
   std::vector<double> values;  ///< of one set, V: d - d_reference; infinite where either is
   ErrorHistogram histogram;    ///< of the values
   std::string verdict;         ///< the grade and the figure that decides it, or why there is none
-  Hint advice;                 ///< what follows it in a sentence: why, what helps
+  std::string reason;          ///< what follows grade or verdict: " because ...", ": ..."
+  Hint advice;                 ///< what helps
   double milliseconds = 0;     ///< that the reference took, set-up and queries
   std::optional<ErrorCause> cause;  ///< the one option to which most of the error is due
   std::optional<Remedy> remedy;     ///< a setting that was tried and is right
@@ -202,7 +203,7 @@ Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,
 AccuracyReport hold_against(std::span<const std::vector<double>> distances, MethodKind checked,
                             const ReferenceAnswers& better);
 
-/// The verdict and the advice, settings as in hint_text().
+/// Verdict, reason and advice, settings as in hint_text().
 std::string sentence(const AccuracyReport& report, std::string_view before_name = {});
 
 /// What is to be said where nothing better fits the mesh, or nothing was asked.

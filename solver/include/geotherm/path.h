@@ -67,7 +67,7 @@ struct PathOptions {
 
 struct FoundPath {
   SurfacePath path;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 /// Finds paths on one mesh. Immutable; several threads may ask at once.

@@ -22,7 +22,7 @@ double seconds_since(Clock::time_point begin) {
 
 class Windows : public DisplayTest {};
 
-TEST_F(Windows, WithoutADisplayAreAnErrorWithTheCure) {
+TEST_F(Windows, WithoutADisplayAreAnErrorThatSaysWhy) {
   for (const char* const name : {":987", ""}) {
     ::setenv("DISPLAY", name, 1);
     const auto window = Window::open();
@@ -30,8 +30,6 @@ TEST_F(Windows, WithoutADisplayAreAnErrorWithTheCure) {
     EXPECT_EQ(window.error().code, ErrorCode::kNoDevice);
     const std::string& message = window.error().message;
     EXPECT_NE(message.find("X11"), std::string::npos) << message;
-    EXPECT_NE(message.find("geotherm render"), std::string::npos) << message;
-    EXPECT_NE(message.find("geotherm view --replay"), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
   Window::wake();
