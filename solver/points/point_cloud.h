@@ -54,8 +54,9 @@ struct PointSurface {
   /// faces overlap here and there, and no edge of them need have two: methods that take the tufted
   /// cover (LaplacianKind::kAuto or kTufted) work on it as it is.
   TriangleMesh mesh;
-  Index duplicates = 0;            ///< points that an earlier one at the same place stands for
-  Index outliers = 0;              ///< points in no face, which no source reaches
+  Index duplicates = 0;  ///< points that an earlier one at the same place stands for
+  Index parts = 0;       ///< pieces that no triangle joins; sources in one do not reach the others
+  Index outliers = 0;    ///< points in no face, which no source reaches
   Index between_sheets = 0;        ///< points whose faces join two sheets that are near each other
   double spacing = 0;              ///< mean distance from a point to the nearest other, model units
   std::vector<std::string> notes;  ///< one sentence each, for people: what was done

@@ -205,6 +205,20 @@ Error no_surface(Index points, Index places) {
           {"give at least three points that are not on one line"}};
 }
 
+/// Pieces of the surface. `used`: for each point whether it is in a face.
+Index part_count(const TriangleMesh& mesh, const std::vector<char>& used) {
+  DisjointSets pieces(used.size());
+  for (const Face& face : mesh.faces()) {
+    pieces.join(face[0], face[1]);
+    pieces.join(face[1], face[2]);
+  }
+  Index count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    count += used[static_cast<std::size_t>(v)] != 0 && pieces.root(v) == v;
+  }
+  return count;
+}
+
 std::string share_text(Index part, Index whole) {
   return std::to_string(part) + " of " + std::to_string(whole) + " points";
 }
@@ -216,6 +230,10 @@ void describe(PointSurface& surface, Index opposed) {
       "the surface of " + counted_text(static_cast<std::size_t>(points), "point", "points") +
       " has " + counted_text(static_cast<std::size_t>(surface.mesh.face_count()), "face", "faces") +
       "; a point is " + rounded_text(surface.spacing) + " from the nearest other in the mean");
+  if (surface.parts > 1) {
+    surface.notes.push_back("it has " + std::to_string(surface.parts) +
+                            " parts: sources in one of them do not reach the others");
+  }
   if (surface.duplicates > 0) {
     surface.notes.push_back(share_text(surface.duplicates, points) +
                             " lie where an earlier one does, and have its distance");
@@ -266,13 +284,9 @@ Result<PointSurface> surface_of(const PointCloud& cloud, const PointOptions& opt
             ? TriangleMesh::build(std::move(positions), std::move(faces))
             : TriangleMesh::build(std::move(positions), std::move(faces), work.sorted().same_as);
     if (!mesh) return mesh.error();
-    PointSurface surface{*std::move(mesh),
-                         points - work.size(),
-                         outliers,
-                         work.points_between(),
-                         work.mean_spacing(),
-                         {},
-                         {}};
+    const Index parts = part_count(*mesh, used);
+    PointSurface surface{*std::move(mesh),      points - work.size(), parts, outliers,
+                         work.points_between(), work.mean_spacing(),  {},    {}};
     describe(surface, work.points_opposed());
     return surface;
   } catch (const Stopped&) {

@@ -61,7 +61,7 @@ PointSurface surface_from(const PointCloud& cloud, const PointOptions& options) 
   auto surface = surface_of(cloud, options);
   if (!surface) {
     ADD_FAILURE() << surface.error().message;
-    return {*TriangleMesh::build({Vec3::Zero()}, {{0, 0, 0}}), 0, 0, 0, 0, {}, {}};
+    return {*TriangleMesh::build({Vec3::Zero()}, {{0, 0, 0}}), 0, 0, 0, 0, 0, {}, {}};
   }
   return *std::move(surface);
 }

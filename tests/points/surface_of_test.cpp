@@ -65,6 +65,7 @@ TEST(PointSurfaces, RefusePointsThatMakeNone) {
 TEST(PointSurfaces, OfAnEvenSphereAreClosed) {
   const PointSurface surface = surface_from(cloud_of(sphere_points(1000).positions));
   EXPECT_EQ(surface.mesh.face_count(), 2 * 1000 - 4);  // Euler
+  EXPECT_EQ(surface.parts, 1);
   EXPECT_EQ(surface.outliers, 0);
   EXPECT_EQ(surface.duplicates, 0);
   EXPECT_TRUE(surface.warnings.empty());
@@ -132,6 +133,7 @@ TEST(PointSurfaces, JoinSheetsNearerThanTheirPointsAndSaySo) {
 
   const PointSurface apart = surface_from(cloud_of(sheets.positions, sheets.normals));
   EXPECT_EQ(faces_between(apart.mesh, 400), 0);
+  EXPECT_EQ(apart.parts, 2);
   EXPECT_TRUE(apart.warnings.empty());
 }
 
