@@ -15,35 +15,6 @@ constexpr std::uint64_t kSeed = 20251;
 
 std::size_t below(std::mt19937_64& random, std::size_t bound) { return random() % bound; }
 
-/// One small damage: bytes flipped, cut off, inserted, copied elsewhere, a number made extreme.
-void damage(std::string& bytes, std::mt19937_64& random) {
-  constexpr std::string_view kWords[] = {
-      "2147483647", "-1", "nan", "1e999", "99999999999999999999", "\n", "\\\n", "/", "#", "0"};
-  if (bytes.empty()) bytes.push_back('v');
-  const std::size_t at = below(random, bytes.size());
-  switch (below(random, 6)) {
-    case 0:
-      bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(random, 8)));
-      break;
-    case 1:
-      bytes[at] = static_cast<char>(random());
-      break;
-    case 2:
-      bytes.resize(at);
-      break;
-    case 3:
-      bytes.insert(at, kWords[below(random, std::size(kWords))]);
-      break;
-    case 4:
-      bytes.erase(at, 1 + below(random, 8));
-      break;
-    default: {
-      const std::string piece = bytes.substr(at, 1 + below(random, 64));
-      bytes.insert(below(random, bytes.size()), piece);
-    }
-  }
-}
-
 class FuzzedReader : public testing::TestWithParam<Sample> {};
 
 TEST_P(FuzzedReader, gives_a_mesh_or_one_line_of_why_not) {

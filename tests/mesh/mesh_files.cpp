@@ -130,6 +130,35 @@ Result<MeshFile> read_bytes(std::string_view name, std::string_view bytes) {
   return read_mesh(directory.write(name, bytes));
 }
 
+void damage(std::string& bytes, std::mt19937_64& random) {
+  constexpr std::string_view kWords[] = {
+      "2147483647", "-1", "nan", "1e999", "99999999999999999999", "\n", "\\\n", "/", "#", "0"};
+  const auto below = [&random](std::size_t bound) { return random() % bound; };
+  if (bytes.empty()) bytes.push_back('v');
+  const std::size_t at = below(bytes.size());
+  switch (below(6)) {
+    case 0:
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+      break;
+    case 1:
+      bytes[at] = static_cast<char>(random());
+      break;
+    case 2:
+      bytes.resize(at);
+      break;
+    case 3:
+      bytes.insert(at, kWords[below(std::size(kWords))]);
+      break;
+    case 4:
+      bytes.erase(at, 1 + below(8));
+      break;
+    default: {
+      const std::string piece = bytes.substr(at, 1 + below(64));
+      bytes.insert(below(bytes.size()), piece);
+    }
+  }
+}
+
 std::vector<Vec3> pyramid_positions() {
   return {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 1.5}};
 }

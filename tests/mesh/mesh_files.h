@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ std::string bytes_of(const std::string& path);
 
 /// Writes `bytes` into a file of this name and reads it as a mesh.
 Result<MeshFile> read_bytes(std::string_view name, std::string_view bytes);
+
+/// One small damage: bytes flipped, cut off, inserted, copied elsewhere, a number made extreme.
+void damage(std::string& bytes, std::mt19937_64& random);
 
 /// A pyramid over a square: 5 vertices, 4 triangles and a quad, in every format.
 struct Sample {

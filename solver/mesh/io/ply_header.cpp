@@ -162,8 +162,10 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
+PlyHeader parse_ply_header(std::string_view bytes) { return HeaderReader(bytes).read(); }
+
 PlyHeader read_ply_header(std::string_view bytes) {
-  PlyHeader header = HeaderReader(bytes).read();
+  PlyHeader header = parse_ply_header(bytes);
   const auto left = static_cast<std::uint64_t>(bytes.data() + bytes.size() - header.body);
   for (const PlyElement& element : header.elements) {
     const std::uint64_t row = least_row_bytes(element, header.format);

@@ -39,6 +39,10 @@ struct PlyHeader {
   const PlyElement* find(std::string_view element) const;
 };
 
+/// Reads the header alone, whether or not there is a body. `bytes` may end behind it. Throws
+/// ReadFailure.
+PlyHeader parse_ply_header(std::string_view bytes);
+
 /// Reads the header. Throws ReadFailure; so it does when the body is too short for the counts.
 PlyHeader read_ply_header(std::string_view bytes);
 
