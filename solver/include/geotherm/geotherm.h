@@ -10,6 +10,7 @@
 #include "geotherm/backend.h"
 #include "geotherm/build_method.h"
 #include "geotherm/distance_method.h"
+#include "geotherm/domains.h"
 #include "geotherm/error.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
