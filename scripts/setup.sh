@@ -18,7 +18,7 @@ TEXT
 }
 
 packages=(g++ cmake ninja-build
-  libeigen3-dev libnanoflann-dev                    # the library
+  libeigen3-dev libnanoflann-dev zlib1g-dev         # the library
   libcli11-dev nlohmann-json3-dev libpng-dev        # the program
   libvulkan-dev libglm-dev libstb-dev fonts-dejavu-core glslang-tools spirv-tools  # the renderer
   libvulkan1 mesa-vulkan-drivers)                   # drawing, without a GPU as well

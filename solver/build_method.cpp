@@ -10,6 +10,7 @@
 #include "solver/core/parallel.h"
 #include "solver/method/mapped_method.h"
 #include "solver/polyhedral/wave_surface.h"
+#include "solver/volume/tet_marching_method.h"
 
 namespace geotherm {
 namespace {
@@ -155,6 +156,30 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
   return mapped(outer->mapping(), beside(*heat, *inner, progress));
 } catch (const std::bad_alloc&) {
   return memory_ended(options);
+}
+
+Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& options,
+                   const Progress& progress) {
+  if (options.refine > 0) {
+    return Error{ErrorCode::kNotAvailable,
+                 "a volume cannot be refined",
+                 {"leave ", SettingHint{"refine"}, " out"}};
+  }
+  if (options.method == MethodKind::kFastMarching) {
+    return build_tet_marching(std::move(mesh), options.threads, progress);
+  }
+  if (options.method != MethodKind::kHeat) {
+    return Error{ErrorCode::kNotAvailable,
+                 "the method " + to_text(options.method) + " is of surfaces, and this is a volume",
+                 {"use ", SettingHint{"method", {"heat", "fast-marching"}}}};
+  }
+  auto made = cells_of(*mesh);
+  if (!made) return made.error();
+  auto built = HeatMethod::build(std::make_shared<const CellComplex>(std::move(made->cells)),
+                                 options, progress);
+  if (!built) return built.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(built)));
 }
 
 Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,

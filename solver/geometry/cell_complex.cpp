@@ -38,6 +38,10 @@ Result<void> check_sizes(const CellComplex& cells) {
   if (!cells.positions.empty() && cells.positions.size() != vertices) {
     return bad_size("positions", cells.positions.size(), vertices);
   }
+  if (!cells.numbers.empty() && cells.numbers.size() != count) {
+    return bad_size("numbers of cells", cells.numbers.size(), count);
+  }
+  if (!std::ranges::is_sorted(cells.numbers)) return bad_cells("the numbers do not ascend");
   if (!cells.on_boundary.empty() && cells.on_boundary.size() != vertices) {
     return bad_size("boundary flags", cells.on_boundary.size(), vertices);
   }

@@ -127,11 +127,15 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
     }
   }
   for (const CellPoint& point : sources.cell_points) {
-    if (point.cell < 0 || point.cell >= cells.cell_count()) {
+    const Index cell = domain.find_cell(point.cell);
+    if (cell == kNoIndex) {
+      const Index last = cells.numbers.empty() ? cells.cell_count() - 1 : cells.numbers.back();
       return bad_source("source " + cells.cell_name + " " + std::to_string(point.cell) +
-                        " is out of range (0 to " + std::to_string(cells.cell_count() - 1) + ")");
+                        (point.cell >= 0 && point.cell <= last
+                             ? " was left out"
+                             : " is out of range (0 to " + std::to_string(last) + ")"));
     }
-    const auto corners = cells.corners_of(point.cell);
+    const auto corners = cells.corners_of(cell);
     double sum = 0;
     bool valid = std::ssize(point.weights) == std::ssize(corners);
     for (const double weight : point.weights) {
@@ -169,7 +173,7 @@ class CellPlacer {
   }
 
   void add_point(const CellPoint& point) {
-    const Index cell = domain_.cell_of_given[point.cell];
+    const Index cell = domain_.cell_of_given[domain_.find_cell(point.cell)];
     const auto corners = mesh_.corners_of(cell);
     const auto d = static_cast<std::size_t>(mesh_.dimension);
     const std::vector<double> places = domain_.corner_places(cell);
@@ -279,6 +283,13 @@ void CellDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
   });
 }
 
+Index CellDomain::find_cell(Index number) const {
+  const std::vector<Index>& numbers = given->numbers;
+  if (numbers.empty()) return number >= 0 && number < given->cell_count() ? number : kNoIndex;
+  const auto at = std::ranges::lower_bound(numbers, number);
+  return at != numbers.end() && *at == number ? static_cast<Index>(at - numbers.begin()) : kNoIndex;
+}
+
 std::vector<double> CellDomain::corner_places(Index cell) const {
   const int d = mesh->dimension;
   const auto corners = static_cast<int>(mesh->corners_of(cell).size());
@@ -319,7 +330,7 @@ void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
     lines.push_back({at, at, 0.0});
   }
   for (const CellPoint& point : sources.cell_points) {
-    const auto corners = given->corners_of(point.cell);
+    const auto corners = given->corners_of(find_cell(point.cell));
     const Vec3 first = given->positions[corners.front()];
     Vec3 at = first;
     for (std::size_t k = 1; k < corners.size(); ++k) {

@@ -16,6 +16,9 @@ struct CellDomain final : Domain {
   std::shared_ptr<const CellMesh> mesh;
   std::vector<Index> cell_of_given;  ///< C: number of each given cell in `mesh`
 
+  /// The given cell that sources call by this number; kNoIndex: there is none.
+  Index find_cell(Index number) const;
+
   const Components& parts_of_rows() const override { return mesh->components; }
   std::span<const double> mass() const override { return mesh->mass; }
   std::shared_ptr<const DomainOperator> combine(double mass_factor,

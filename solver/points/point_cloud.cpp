@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/points/point_cloud.h"
+#include "geotherm/domains.h"
 
 #include <limits>
 

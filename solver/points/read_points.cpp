@@ -11,7 +11,7 @@
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/ply_header.h"
 #include "solver/points/io/raw_points.h"
-#include "solver/points/point_file.h"
+#include "geotherm/domains.h"
 
 namespace geotherm {
 namespace {

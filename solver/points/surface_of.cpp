@@ -9,7 +9,7 @@
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/core/text.h"
-#include "solver/points/point_cloud.h"
+#include "geotherm/domains.h"
 #include "solver/points/sorted_points.h"
 #include "solver/points/star.h"
 

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/points/point_cloud.h"
-#include "solver/points/point_file.h"
+#include "geotherm/domains.h"
+#include "geotherm/domains.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

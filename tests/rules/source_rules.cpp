@@ -50,6 +50,7 @@ const std::vector<Permission>& permissions() {
   const Names polyhedral =
       with(method, {"solver/polyhedral", "solver/accuracy/distance_bounds.h",
                     "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
+  const Names volume = with(method, {"solver/volume", "geotherm/domains.h"});
   const Names heat = with(polyhedral, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h",
                                        "geotherm/options.h"});
   static const std::vector<Permission> kPermissions = {
@@ -62,6 +63,7 @@ const std::vector<Permission>& permissions() {
       {"solver/points", with(mesh, {"solver/points"}), {"std", "eigen"}, {"nanoflann"}},
       {"solver/path", path, {"std", "eigen"}, {}},
       {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
+      {"solver/volume", volume, {"std", "eigen"}, {"zlib"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
       {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
       {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
@@ -90,7 +92,7 @@ const std::vector<Permission>& permissions() {
        {"std", "cli11", "json", "eigen"},
        {"posix"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},
-      {"bench/models", with(mesh, {"bench/models"}), {"std", "eigen"}, {}},
+      {"bench/models", with(mesh, {"bench/models", "geotherm/domains.h"}), {"std", "eigen"}, {}},
       {"bench", {"solver", "geotherm", "engine", "shaders", "app", "ui", "bench"}, {"any"}, {}},
       {"tests",
        {"solver", "geotherm", "engine", "shaders", "app", "ui", "tests", "bench"},
@@ -152,6 +154,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"CLI/", "cli11"},
     {"nlohmann/", "json"},
     {"png.h", "png"},
+    {"zlib.h", "zlib"},
     {"stb_", "stb"},
     {"stb/", "stb"},
     {"embedded/", "embedded"},  // made while building, from files that travel in the program

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "geotherm/distance_method.h"
+#include "geotherm/domains.h"
 #include "geotherm/mesh.h"
 #include "geotherm/options.h"
 #include "geotherm/progress.h"
@@ -34,6 +35,12 @@ bool same_method(const MethodOptions& a, const MethodOptions& b);
 Result<std::shared_ptr<const DistanceMethod>> build_method(
     std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options = {},
     const Progress& progress = {}, std::shared_ptr<const WaveSurface> waves = nullptr);
+
+/// Any method for a volume: heat and, as the near-exact one, fast marching. Errors: kNotAvailable
+/// (another method, MethodOptions::refine), those of cells_of() and HeatMethod::build().
+Result<std::shared_ptr<const DistanceMethod>> build_method(std::shared_ptr<const TetMesh> mesh,
+                                                           const MethodOptions& options = {},
+                                                           const Progress& progress = {});
 
 /// The same beside a method on the same mesh, null where there is none: a heat method shares with
 /// another one what stays the same (HeatMethod::with()).

@@ -5,14 +5,19 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
+#include "geotherm/io.h"
+#include "geotherm/mesh.h"
+#include "geotherm/progress.h"
 #include "geotherm/types.h"
 
 // Spaces other than triangle meshes. The heat method needs of a space a mass, a stiffness and the
 // gradient of a field on each cell (Crane, Weischedel, Wardetzky 2013, section 3.2): a CellComplex
-// states these. docs/adding_a_domain.md makes one.
+// states these, and cells_of() makes one of tetrahedra, polygons, grids and graphs. Points become a
+// triangle mesh, surface_of(). docs/adding_a_domain.md makes a space of one's own.
 namespace geotherm {
 
 /// A space cut into cells. A cell joins k vertices, which may be another number in each, and gives
@@ -31,6 +36,7 @@ struct CellComplex {
   /// Empty: nothing.
   std::vector<double> stabilizers;
   std::vector<char> on_boundary;  ///< V: what the boundary rules hold; empty: none
+  std::vector<Index> numbers;     ///< C, ascending: what sources call each cell; empty: 0 to C - 1
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
   /// No way is shorter than the straight line between `positions`: a query counts the distances
@@ -68,9 +74,9 @@ Result<CellComplex> cells_of(const Graph& graph);
 /// Faces with any number of corners, as modelling programs write them: V vertices, faces one after
 /// the other. They may be concave, and need not be planar; nothing cuts them into triangles.
 struct PolygonMesh {
-  std::vector<Vec3> positions;       ///< V, model units
-  std::vector<std::int64_t> start;   ///< faces + 1: face f has the corners start[f] to start[f + 1]
-  std::vector<Index> corners;        ///< round each face
+  std::vector<Vec3> positions;      ///< V, model units
+  std::vector<std::int64_t> start;  ///< faces + 1: face f has the corners start[f] to start[f + 1]
+  std::vector<Index> corners;       ///< round each face
 };
 
 /// Cells, and one sentence for each kind of thing that had to be left out.
@@ -99,10 +105,229 @@ struct Grid {
 
 /// A grid as a space: vertices are samples, numbered with x fastest, cells the squares or cubes
 /// between samples that pass, and the edges that lie in none of these, so that corridors one sample
-/// wide connect. Bilinear (trilinear) elements; their gradient is that at the middle. The speed of a
-/// cell is the harmonic mean of its corners'. Errors (kBadInput, with the numbers): sizes that are
-/// not positive or do not fit the speeds, a speed that is negative or not finite, nothing that
+/// wide connect. Bilinear (trilinear) elements; their gradient is that at the middle. The speed of
+/// a cell is the harmonic mean of its corners'. Errors (kBadInput, with the numbers): sizes that
+/// are not positive or do not fit the speeds, a speed that is negative or not finite, nothing that
 /// passes. Cost: one pass; 0.5 kB a cube.
 Result<CellComplex> cells_of(const Grid& grid);
+
+/// The four corners of a tetrahedron, as vertex numbers.
+using Tet = std::array<Index, 4>;
+
+/// An immutable volume of tetrahedra, exactly as its file or generator gave it.
+///
+/// Positions: V x 3, finite, model units. Tets: T x 4, every corner in [0, V), in either
+/// orientation. Nothing else is promised: tets may repeat a corner, have no volume, stand there
+/// twice or overlap; vertices may belong to no tet. What operators are made of is clean: tets that
+/// repeat a corner, repeat another or are flat are left out, and the rest is turned to be positive.
+class TetMesh {
+ public:
+  /// Takes the arrays. Errors: no tets, a corner out of range, a coordinate that is not finite
+  /// (each with its number). Cost: one pass over both arrays.
+  static Result<TetMesh> build(std::vector<Vec3> positions, std::vector<Tet> tets);
+
+  std::span<const Vec3> positions() const { return positions_; }
+  std::span<const Tet> tets() const { return tets_; }
+  Index vertex_count() const { return static_cast<Index>(positions_.size()); }
+  Index tet_count() const { return static_cast<Index>(tets_.size()); }
+
+ private:
+  TetMesh(std::vector<Vec3> positions, std::vector<Tet> tets)
+      : positions_(std::move(positions)), tets_(std::move(tets)) {}
+
+  std::vector<Vec3> positions_;
+  std::vector<Tet> tets_;
+};
+
+/// A point of the volume: a vertex, or barycentric weights in a tet (weights of 0 put it on a face,
+/// an edge or a corner). Weights are >= 0 and sum to 1.
+struct VolumePoint {
+  Index vertex = kNoIndex;  ///< set for a vertex; then `tet` and `weights` do not matter
+  Index tet = kNoIndex;
+  std::array<double, 4> weights{};
+
+  static VolumePoint at_vertex(Index v) { return {v, kNoIndex, {}}; }
+  static VolumePoint in_tet(Index t, std::array<double, 4> w) { return {kNoIndex, t, w}; }
+  bool is_vertex() const { return vertex != kNoIndex; }
+  bool operator==(const VolumePoint&) const = default;
+};
+
+/// The answer of closest_point() in a volume.
+struct ClosestVolumePoint {
+  VolumePoint point;    ///< a vertex where the closest point is one, else weights in a tet
+  double distance = 0;  ///< straight line, model units; 0 inside
+};
+
+/// The point of the volume nearest to `query` (model units); the first tet among equals. Tets that
+/// repeat a corner are left out; flat ones count as the faces they are. Errors: kBadInput (a
+/// coordinate that is not finite, no tet but such with a repeated corner). Cost: O(T), no index is
+/// built.
+Result<ClosestVolumePoint> closest_point(const TetMesh& mesh, const Vec3& query);
+
+/// The border of a volume: the faces that belong to exactly one tet, counted without tets that
+/// repeat a corner or another tet.
+struct TetBoundary {
+  std::vector<Face> faces;      ///< B; counter-clockwise as seen from outside
+  std::vector<Index> tets;      ///< B: the tet that each belongs to
+  std::vector<Index> vertices;  ///< those of these faces, ascending
+};
+
+/// In the order of the tets. A face of a tet without any volume has the orientation that the file
+/// gave it. Errors: kOutOfMemory. Cost: O(V + T).
+Result<TetBoundary> boundary(const TetMesh& mesh);
+
+/// A volume as read from a file: the mesh, and what the reader left out.
+struct TetFile {
+  TetMesh mesh;
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
+
+/// The tets as a space: linear functions on each. Those that repeat a corner, repeat another or are
+/// flat are left out and said (TetMesh); sources keep the numbers of the mesh. Errors: kBadInput
+/// (no tet with a volume), kOutOfMemory. Cost: O(V + T).
+Result<MadeCells> cells_of(const TetMesh& mesh);
+
+/// Reads the tetrahedra with four corners of Medit `.mesh` and `.meshb`, Gmsh `.msh` (2.x and 4.1,
+/// text and binary), VTK `.vtk` (unstructured grid, text and binary) and `.vtu` (text, base64 and
+/// appended, also compressed by zlib), TetGen `.node` with `.ele` (either is named, the other lies
+/// beside it); the extension decides, in any case. Vertices are numbered from 0 in the order of the
+/// file, whatever numbers it gives them. Elements that are no tets are left out with a note.
+/// Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause (kBadFile); an
+/// unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held
+/// against its size before memory is asked for. Independent of the locale. Cost: a copy of the file
+/// in memory, and one pass over it.
+Result<TetFile> read_tets(const std::string& path);
+
+/// The extensions without their point: mesh, meshb, msh, vtk, vtu, node, ele.
+std::vector<std::string> tet_formats();
+
+/// Whether read_tets() is the one to ask: the extension is one of those and, for `.msh`, `.vtk` and
+/// `.vtu`, which also hold other things, the file begins as one with elements does (Gmsh; an
+/// unstructured grid). Whether there are tets among these only reading tells. False for a file that
+/// cannot be read. Cost: the first 4 KiB.
+bool holds_tets(const std::string& path);
+
+/// True when write_tets() knows the extension of `path`; otherwise the error (kNotAvailable) says
+/// which there are.
+Result<void> check_tets_path(const std::string& path);
+
+/// Writes the volume alone: `.mesh` (Medit, text) or `.vtu`. Positions read back exactly. The file
+/// is there whole or not at all. `path` "-" writes .mesh to standard output. Errors: those of
+/// check_tets_path(); kBadFile, with the path and the system's reason; kOutOfMemory.
+Result<void> write_tets(const std::string& path, const TetMesh& mesh);
+
+/// The same for write_distances() of a volume.
+Result<void> check_tet_distances_path(const std::string& path);
+
+/// Writes one distance per vertex, in the order of the file, model units, infinite where unreached:
+/// `.csv` and `.npy` as for a triangle mesh, `.vtu` (ParaView; point data `distance`, binary).
+/// `nearest` and `fields` follow as there; a field of DataField::Place::kFaces has a value per tet,
+/// which .vtu alone holds. Preconditions: sizes that fit, names of letters, digits and _.
+/// Errors: those of check_tet_distances_path(), kBadInput (sizes), kBadFile, kOutOfMemory.
+Result<void> write_distances(const std::string& path, const TetMesh& mesh,
+                             std::span<const double> distances, std::span<const Index> nearest = {},
+                             std::span<const DataField> fields = {});
+
+/// An immutable set of points on some surface, exactly as a file or a program gave it.
+///
+/// Positions: P x 3, finite, model units. Normals: P x 3, or none at all; of any length, and those
+/// that are 0 or not finite say nothing about their point. Points may lie at one place.
+class PointCloud {
+ public:
+  /// Takes the arrays. Errors (kBadInput): no points, a coordinate that is not finite (with the
+  /// number of its point), normals of another number than the points. Cost: O(P).
+  static Result<PointCloud> build(std::vector<Vec3> positions, std::vector<Vec3> normals = {});
+
+  std::span<const Vec3> positions() const { return positions_; }
+  std::span<const Vec3> normals() const { return normals_; }  ///< P, or none
+  Index point_count() const { return static_cast<Index>(positions_.size()); }
+
+ private:
+  PointCloud(std::vector<Vec3> positions, std::vector<Vec3> normals)
+      : positions_(std::move(positions)), normals_(std::move(normals)) {}
+
+  std::vector<Vec3> positions_, normals_;
+};
+
+/// How points become a surface.
+struct PointOptions {
+  /// Nearest neighbours that each point is triangulated with, from 6 to 100. Fewer bridge narrower
+  /// gaps between sheets and along borders; more even out noise.
+  int neighbours = 30;
+  /// Points whose normals are more than 120 degrees apart are never joined. For normals that all
+  /// point to one side of their surface.
+  bool normals_separate = true;
+
+  bool operator==(const PointOptions&) const = default;
+};
+
+/// The surface of a point cloud.
+struct PointSurface {
+  /// Its vertices are the points, in their order; equal ones are one (TriangleMesh::same_as()). Its
+  /// faces overlap here and there, and no edge of them need have two: methods that take the tufted
+  /// cover (LaplacianKind::kAuto or kTufted) work on it as it is.
+  TriangleMesh mesh;
+  Index duplicates = 0;  ///< points that an earlier one at the same place stands for
+  Index parts = 0;       ///< pieces that no triangle joins; sources in one do not reach the others
+  Index outliers = 0;    ///< points in no face, which no source reaches
+  Index between_sheets = 0;        ///< points whose faces join two sheets that are near each other
+  double spacing = 0;              ///< mean distance from a point to the nearest other, model units
+  std::vector<std::string> notes;  ///< one sentence each, for people: what was done
+  std::vector<Warning> warnings;   ///< what may make distances wrong
+};
+
+/// Joins points by triangles where they sample a surface (Sharp, Crane 2020, section 5.7).
+///
+/// Each point is triangulated with its nearest neighbours in its tangent plane, which is that of
+/// its normal or, where there is none, of a weighted fit (principal components). Of that Delaunay
+/// triangulation the triangles at the point are kept: those whose corners share a vertex of the
+/// point's Voronoi cell. The cell is that of space, cut by the tangent plane (Boissonnat, Ghosh
+/// 2014), so that points far above the plane have no share. The surface is the union over all
+/// points, each triangle once: of every triangle that two of its corners found, and of those that
+/// one found while all three are among each other's neighbours. A lone point off the surface is
+/// therefore joined to nothing.
+///
+/// Two sheets nearer to each other than some three quarters of the spacing are joined, unless
+/// normals keep them apart; holes narrower than some three spacings may be closed.
+///
+/// `progress` is asked as stage "surface". `threads`: 0 means all cores; the answer has the same
+/// bits with any number. Errors: kBadInput (options, points on one line or fewer than three that
+/// differ), kOutOfMemory, kCancelled. Cost: O(P log P).
+Result<PointSurface> surface_of(const PointCloud& cloud, const PointOptions& options = {},
+                                const Progress& progress = {}, int threads = 0);
+
+/// Points as read from a file, and what the reader left out.
+struct PointFile {
+  PointCloud points;
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
+
+/// Reads points, numbered from 0 in the order of the file; the extension decides, in any case:
+///
+/// - `.ply` (ASCII, little and big endian): the element `vertex`, with normals where it has `nx`,
+///   `ny`, `nz`. Faces are left out.
+/// - `.xyz`: a point a line, x y z and what else there is, separated by blanks or commas. Columns 4
+///   to 6 are normals where they are vectors of length 1 (or 0) in all lines. `#` and `//` begin
+///   comments.
+/// - `.pts`: a line with the number of points and then as many, x y z and what else there is; and
+///   again.
+/// - `.pcd` (version 0.7: `ascii`, `binary`, `binary_compressed`): the fields x, y, z, and
+///   normal_x, normal_y, normal_z where there are such. Points whose coordinates are not finite
+///   stand for nothing in this format: they are left out and have no number.
+///
+/// Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause (kBadFile); an
+/// unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held
+/// against its size before memory is asked for. A file that others change while it is read is an
+/// error (kBadFile). Independent of the locale. Cost: a copy of the file in memory, and one pass
+/// over it.
+Result<PointFile> read_points(const std::string& path);
+
+/// The names of the formats: ply, xyz, pts, pcd.
+std::vector<std::string> point_formats();
+
+/// Whether the file holds points without faces: by its extension, of a `.ply` by its header. A
+/// `.ply` whose header cannot be read is none. Errors (kBadFile): a `.ply` that cannot be opened.
+/// Cost: the header.
+Result<bool> is_point_file(const std::string& path);
 
 }  // namespace geotherm

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "solver/volume/io/raw_tets.h"
+
+namespace geotherm::io {
+
+/// The types of numbers in files of VTK, which names them differently in its two formats.
+enum class VtkType {
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat32,
+  kFloat64
+};
+
+std::size_t size_of(VtkType type);
+
+/// The cells of a grid in either format of VTK: corners of cell c are connectivity[offsets[c]] to
+/// before connectivity[offsets[c + 1]].
+struct VtkCells {
+  std::vector<std::int64_t> offsets;  ///< one more than there are cells
+  std::vector<std::int64_t> connectivity;
+  std::vector<std::int64_t> types;
+};
+
+/// Adds the tets among the cells, whose corners count from the vertex `first` on. Throws
+/// ReadFailure with the cell's number, counted from 0, where offsets do not rise, a tet has not
+/// four corners, or a corner is no vertex.
+void add_vtk_tets(const VtkCells& cells, std::int64_t first, RawTets& raw);
+
+}  // namespace geotherm::io

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "bench/models/volumes.h"
+#include "solver/volume/fast_marching_tets.h"
+#include "solver/volume/tet_update.h"
+#include "tests/support/dice.h"
+
+namespace geotherm::test {
+namespace {
+
+TetFastMarching marching_on(TetMesh mesh) {
+  return *TetFastMarching::build(std::make_shared<const TetMesh>(std::move(mesh)));
+}
+
+/// Mean of the error over the mean distance, both from vertex 0 in a convex volume.
+double error_from_first(const TetMesh& mesh, double straight_reach) {
+  const std::vector<VolumePoint> source = {VolumePoint::at_vertex(0)};
+  const TetMarchingOptions options{straight_reach};
+  const TetDistances d = *marching_on(mesh).solve(source, {}, options);
+  double error = 0, all = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double line = (mesh.positions()[v] - mesh.positions()[0]).norm();
+    EXPECT_GE(d.distances[v], line * (1 - 1e-12));
+    error += std::abs(d.distances[v] - line);
+    all += line;
+  }
+  return error / all;
+}
+
+TEST(TetUpdate, IsExactForPlaneFrontsThroughTheFace) {
+  Dice dice(11);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::array<KnownCorner, 3> known;
+    std::array<Vec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = known[k].offset = dice.in_cube();
+    const Vec3 direction = -dice.in_cube().normalized();
+    for (KnownCorner& each : known) each.value = 5 + each.offset.dot(direction);
+    const bool through = cross_face(corners, -100 * direction).crosses;
+    const double u = updated_distance(known);
+    if (through) {
+      EXPECT_NEAR(u, 5, 1e-9);
+    }
+    EXPECT_GE(u, 5 - 1e-9);  // never in front of the plane
+    inside += through;
+  }
+  EXPECT_GT(inside, 100);
+}
+
+/// The least over a fine grid of points of the face.
+double least_by_trial(const std::array<KnownCorner, 3>& known) {
+  constexpr int kParts = 200;
+  double least = kUnreached;
+  for (int i = 0; i <= kParts; ++i) {
+    for (int j = 0; i + j <= kParts; ++j) {
+      const double a = double(i) / kParts, b = double(j) / kParts, c = 1 - a - b;
+      const Vec3 x = a * known[0].offset + b * known[1].offset + c * known[2].offset;
+      least =
+          std::min(least, a * known[0].value + b * known[1].value + c * known[2].value + x.norm());
+    }
+  }
+  return least;
+}
+
+TEST(TetUpdate, IsTheLeastOverTheFaceForAnyValues) {
+  Dice dice(12);
+  for (int i = 0; i < 60; ++i) {
+    std::array<KnownCorner, 3> known;
+    for (KnownCorner& each : known) each = {dice.in_cube(), dice.between(0, 1.5)};
+    const double least = least_by_trial(known), u = updated_distance(known);
+    EXPECT_LE(u, least + 1e-12);
+    EXPECT_GE(u, least - 1e-3);
+  }
+  // What is not known is left out.
+  std::array<KnownCorner, 3> one = {
+      {{{1, 0, 0}, kUnreached}, {{0, 2, 0}, 1}, {{0, 0, 1}, kUnreached}}};
+  EXPECT_EQ(updated_distance(one), 3);
+  one[1].value = kUnreached;
+  EXPECT_EQ(updated_distance(one), kUnreached);
+}
+
+TEST(TetMarching, IsExactWhereEveryVertexSeesItsSource) {
+  EXPECT_LT(error_from_first(make_ball_tets(6), kUnreached), 1e-13);
+  EXPECT_LT(error_from_first(make_box_tets(8, 6, 4, Vec3(2, 1.5, 1)), kUnreached), 1e-13);
+}
+
+TEST(TetMarching, ErrorOfPlanesFallsWithTheEdgeLength) {
+  double before_ball = 1, before_box = 1;
+  for (const Index n : {5, 10, 20}) {
+    const double ball = error_from_first(make_ball_tets(n), 0.25);
+    const double box = error_from_first(make_box_tets(n, n, n, Vec3(1, 1, 1)), 0.25);
+    EXPECT_LT(ball, 0.75 * before_ball);
+    EXPECT_LT(box, 0.75 * before_box);
+    before_ball = ball;
+    before_box = box;
+  }
+  EXPECT_LT(before_ball, 0.02);
+  EXPECT_LT(before_box, 0.02);
+}
+
+/// A slab of cubes without those that `hole` holds, by their middle.
+template <class Hole>
+TetMesh slab(Index n, const Hole& hole) {
+  const TetMesh box = make_box_tets(2 * n, 2 * n, 2, Vec3(2, 2, 2.0 / n));
+  std::vector<Tet> tets;
+  for (const Tet& t : box.tets()) {
+    Vec3 middle = Vec3::Zero();
+    for (const Index v : t) middle += box.positions()[v] / 4;
+    if (!hole(middle)) tets.push_back(t);
+  }
+  return *TetMesh::build({box.positions().begin(), box.positions().end()}, tets);
+}
+
+TEST(TetMarching, BendsRoundACorner) {
+  double before = 1;
+  for (const Index n : {4, 8, 16}) {
+    const TetMesh mesh =
+        slab(n, [](const Vec3& p) { return p.x() > 1 && p.y() < 1; });  // an L in the plane
+    const std::vector<VolumePoint> source = {closest_point(mesh, {0, 0, 0})->point};
+    const TetDistances d = *marching_on(mesh).solve(source);
+    double error = 0;
+    int reached = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Vec3& p = mesh.positions()[v];
+      if (p.x() > 1 && p.y() < 1) continue;
+      // Straight, or over the edge x = y = 1: both parts unfold into one plane.
+      const double bent = std::sqrt(2.0) + std::hypot(p.x() - 1, p.y() - 1);
+      const double way = p.y() >= p.x() || p.x() <= 1 ? std::hypot(p.x(), p.y()) : bent;
+      error += std::abs(d.distances[v] - std::hypot(way, p.z()));
+      ++reached;
+    }
+    error /= reached;
+    EXPECT_LT(error, 0.8 * before);
+    before = error;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(TetMarching, ObtuseAndUnevenTetsDoNotMatter) {
+  TetMesh box = make_box_tets(8, 8, 8, Vec3(1, 1, 1));
+  Dice dice(5);
+  std::vector<Vec3> positions(box.positions().begin(), box.positions().end());
+  for (Vec3& p : positions) {
+    const bool inside = p.minCoeff() > 0 && p.maxCoeff() < 1;
+    if (inside) p += 0.02 * dice.in_cube();
+  }
+  const TetMesh rough = *TetMesh::build(positions, {box.tets().begin(), box.tets().end()});
+  EXPECT_LT(error_from_first(rough, kUnreached), 1e-12);
+  EXPECT_LT(error_from_first(rough, 0.25), 0.05);
+  std::vector<Vec3> flat = positions;
+  for (Vec3& p : flat) p.z() *= 0.05;
+  const TetMesh plate = *TetMesh::build(flat, {box.tets().begin(), box.tets().end()});
+  EXPECT_LT(error_from_first(plate, 0.25), 0.1);
+}
+
+TEST(TetMarching, KnowsSeveralSourcesOffsetsAndPointsInside) {
+  const TetMesh box = make_box_tets(6, 6, 6, Vec3(1, 1, 1));
+  const TetFastMarching marching = marching_on(box);
+  const Vec3 a(0.31, 0.42, 0.17), b(0.8, 0.9, 0.7);
+  const std::vector<VolumePoint> points = {closest_point(box, a)->point,
+                                           closest_point(box, b)->point};
+  const std::vector<double> offsets = {0.25, 0};
+  const TetDistances d = *marching.solve(points, offsets);
+  for (Index v = 0; v < box.vertex_count(); ++v) {
+    const double from_a = 0.25 + (box.positions()[v] - a).norm();
+    const double from_b = (box.positions()[v] - b).norm();
+    EXPECT_NEAR(d.distances[v], std::min(from_a, from_b), 1e-13);
+    if (std::abs(from_a - from_b) > 1e-9) {
+      EXPECT_EQ(d.nearest[v], from_a < from_b ? 0 : 1);
+    }
+  }
+}
+
+TEST(TetMarching, DoesNotReachOtherComponents) {
+  const TetMesh mesh = slab(4, [](const Vec3& p) { return p.x() > 0.5 && p.x() < 1; });
+  const TetDistances d =
+      *marching_on(mesh).solve(std::vector<VolumePoint>{VolumePoint::at_vertex(0)});
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_EQ(d.distances[v] < kUnreached, mesh.positions()[v].x() <= 0.5);
+    EXPECT_EQ(d.nearest[v], mesh.positions()[v].x() <= 0.5 ? 0 : kNoIndex);
+  }
+}
+
+TEST(TetMarching, SaysWhatIsWrongWithItsSources) {
+  const TetFastMarching marching = marching_on(make_box_tets(1, 1, 1, Vec3(1, 1, 1)));
+  const auto said = [&marching](const std::vector<VolumePoint>& points,
+                                const std::vector<double>& offsets = {}) {
+    const auto d = marching.solve(points, offsets);
+    return d ? "" : sentence(d.error());
+  };
+  EXPECT_EQ(said({}), "there is no source");
+  EXPECT_EQ(said({VolumePoint::at_vertex(8)}), "source vertex 8 is not one of 8 vertices");
+  EXPECT_EQ(said({VolumePoint::in_tet(6, {1, 0, 0, 0})}),
+            "source tetrahedron 6 is not there, or was left out");
+  EXPECT_EQ(said({VolumePoint::in_tet(2, {1, 1, 0, 0})}),
+            "the weights of a source in tetrahedron 2 are negative or do not sum to 1");
+  EXPECT_EQ(said({VolumePoint::at_vertex(0)}, {-1}),
+            "the offset of source 0 is negative or not finite");
+  EXPECT_EQ(said({VolumePoint::at_vertex(0)}, {0, 0}), "2 offsets for 1 sources");
+  const auto flat = TetFastMarching::build(std::make_shared<const TetMesh>(
+      *TetMesh::build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2, 3}})));
+  EXPECT_EQ(sentence(flat.error()), "none of the 1 tetrahedra has a volume");
+}
+
+}  // namespace
+}  // namespace geotherm::test
