@@ -175,7 +175,7 @@ Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& opt
   }
   auto made = cells_of(*mesh);
   if (!made) return made.error();
-  auto built = HeatMethod::build(std::make_shared<const CellComplex>(std::move(made->cells)),
+  auto built = HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)),
                                  options, progress);
   if (!built) return built.error();
   return std::shared_ptr<const DistanceMethod>(

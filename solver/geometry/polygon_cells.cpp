@@ -83,9 +83,8 @@ std::vector<char> polygon_boundary(const CellComplex& cells) {
 
 }  // namespace
 
-Result<MadeCells> cells_of(const PolygonMesh& mesh) {
-  MadeCells out;
-  CellComplex& cells = out.cells;
+Result<CellComplex> cells_of(const PolygonMesh& mesh) {
+  CellComplex cells;
   cells.cell_name = "polygon";
   cells.cells_name = "polygons";
   cells.vertices = static_cast<Index>(mesh.positions.size());
@@ -135,11 +134,11 @@ Result<MadeCells> cells_of(const PolygonMesh& mesh) {
     return Error{ErrorCode::kBadInput, "the mesh has no face with an area"};
   }
   if (left_out > 0) {
-    out.notes.push_back({counted_text(left_out, "face was", "faces were") +
-                         " left out: no area, or a corner twice"});
+    cells.notes.push_back({counted_text(left_out, "face was", "faces were") +
+                           " left out: no area, or a corner twice"});
   }
   cells.on_boundary = polygon_boundary(cells);
-  return out;
+  return cells;
 }
 
 }  // namespace geotherm

@@ -56,6 +56,7 @@ class CellInput final : public Domain::Input {
     if (const auto valid = check_cells(*cells_); !valid) return valid.error();
     auto out = std::make_shared<CellDomain>();
     out->given = cells_;
+    out->findings = cells_->notes;
     out->input = std::make_shared<const CellInput>(cells_);
     const CellPattern pattern = pattern_of_cells(*cells_, threads);
     out->timing.operators = watch.lap();

@@ -6,14 +6,13 @@
 
 namespace geotherm {
 
-Result<MadeCells> cells_of(const TetMesh& mesh) try {
-  MadeCells out;
+Result<CellComplex> cells_of(const TetMesh& mesh) try {
   CleanTets clean = clean_tets(mesh);
-  for (std::string& note : clean.notes()) out.notes.push_back({std::move(note)});
+  CellComplex cells;
+  for (std::string& note : clean.notes()) cells.notes.push_back({std::move(note)});
   if (clean.tets.empty()) {
     return Error{ErrorCode::kBadInput, "the mesh has no tetrahedron with a volume"};
   }
-  CellComplex& cells = out.cells;
   cells.cell_name = "tet";
   cells.cells_name = "tets";
   cells.vertices = mesh.vertex_count();
@@ -40,7 +39,7 @@ Result<MadeCells> cells_of(const TetMesh& mesh) try {
   const auto border = boundary(mesh);
   if (!border) return border.error();
   for (const Index v : border->vertices) cells.on_boundary[v] = 1;
-  return out;
+  return cells;
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of " +
                                             std::to_string(mesh.tet_count()) + " tets"};

@@ -42,6 +42,7 @@ struct CellComplex {
   /// No way is shorter than the straight line between `positions`: a query counts the distances
   /// below it.
   bool lengths_are_straight = true;
+  std::vector<Warning> notes;  ///< about what was left out: HeatMethod::warnings() begins with them
   std::string cell_name = "cell", cells_name = "cells";  ///< in messages
 
   Index cell_count() const { return static_cast<Index>(measures.size()); }
@@ -79,19 +80,13 @@ struct PolygonMesh {
   std::vector<Index> corners;       ///< round each face
 };
 
-/// Cells, and one sentence for each kind of thing that had to be left out.
-struct MadeCells {
-  CellComplex cells;
-  std::vector<Warning> notes;
-};
-
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of
 /// de Goes, Butts, Desbrun 2020 (equation 20, lambda = 1). Cells are the faces that were not left
 /// out, in order: those without area, with fewer than three corners or with one twice. Errors
 /// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, no face
 /// that can be used. Cost: one pass.
-Result<MadeCells> cells_of(const PolygonMesh& mesh);
+Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan.
 struct Grid {
@@ -185,7 +180,7 @@ struct TetFile {
 /// The tets as a space: linear functions on each. Those that repeat a corner, repeat another or are
 /// flat are left out and said (TetMesh); sources keep the numbers of the mesh. Errors: kBadInput
 /// (no tet with a volume), kOutOfMemory. Cost: O(V + T).
-Result<MadeCells> cells_of(const TetMesh& mesh);
+Result<CellComplex> cells_of(const TetMesh& mesh);
 
 /// Reads the tetrahedra with four corners of Medit `.mesh` and `.meshb`, Gmsh `.msh` (2.x and 4.1,
 /// text and binary), VTK `.vtk` (unstructured grid, text and binary) and `.vtu` (text, base64 and
