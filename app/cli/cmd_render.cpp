@@ -116,7 +116,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   QueryOptions query;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
-  if (view == View::kExactError) check.mode = CheckMode::kThorough;
+  if (view == View::kExactError) check.against = Check::kAuto;
   const auto placed = resolve_sources(sources, *mesh);
   if (!placed) return placed.error();
   ModelSolver solver(*std::move(model));

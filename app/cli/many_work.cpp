@@ -94,7 +94,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
   add_warnings(figures.warnings, work.model.notes);
-  if (work.check.mode != CheckMode::kNone) {
+  if (work.check.against != Check::kOff) {
     auto checked = solver.check_method(*ready, work.sources.sets, work.check,
                                        part_of(progress, kMethodShare, kSetupShare));
     if (!checked) return checked.error();

@@ -227,8 +227,8 @@ Result<CheckSettings> check_settings(const CheckArguments& arguments) {
     return Error{ErrorCode::kBadInput,
                  "--on-poor " + arguments.on_poor + " needs the check; leave --no-check out"};
   }
-  if (arguments.check) settings.mode = CheckMode::kThorough;
-  if (arguments.no_check) settings.mode = CheckMode::kNone;
+  if (arguments.check) settings.against = Check::kAuto;
+  if (arguments.no_check) settings.against = Check::kOff;
   return settings;
 }
 

@@ -2,7 +2,6 @@
 #include "app/session/check.h"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 #include <vector>
 
@@ -18,22 +17,10 @@ std::string figures_in_words(const DistanceError& e) {
 }
 
 /// Why a method is not held against another one.
-std::string not_asked(MethodKind kind, CheckMode mode) {
+std::string not_asked(MethodKind kind, Check check) {
   if (kind == MethodKind::kExact) return "this is the most accurate method there is";
-  if (mode == CheckMode::kThorough) return "nothing more accurate fits a mesh of this size";
+  if (is_thorough(check)) return "nothing more accurate fits a mesh of this size";
   return to_text(kind) + " is near exact; --check measures how near";
-}
-
-RemedySearch search_of(CheckMode mode) {
-  switch (mode) {
-    case CheckMode::kThorough:
-      return RemedySearch::kWhereNotGood;
-    case CheckMode::kUsual:
-      return RemedySearch::kWherePoor;
-    case CheckMode::kNone:
-      break;
-  }
-  return RemedySearch::kNever;
 }
 
 }  // namespace
@@ -44,14 +31,26 @@ Result<void> refuse_better(const CheckSettings& settings, const std::string& wha
                                          " is about the heat u; leave one of them out"};
 }
 
-AccuracyReport unchecked(MethodKind method, CheckMode mode) {
-  return unmeasured(method, not_asked(method, mode));
+AccuracyReport unchecked(MethodKind method, Check check) {
+  return unmeasured(method, not_asked(method, check));
 }
 
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces) {
-  if (settings.against) return *settings.against;
-  return settings.mode == CheckMode::kThorough ? reference_for(checked, faces)
-                                               : usual_reference(checked, faces);
+  // While a source is dragged exact distances must take no longer than a frame or two.
+  constexpr Index kMaxFacesDragged = 10'000;
+  switch (settings.against) {
+    case Check::kOff:
+    case Check::kOn:
+      return usual_reference(checked, faces);
+    case Check::kAuto:
+      if (settings.quick && faces > kMaxFacesDragged) return MethodKind::kWavefrontFine;
+      return reference_for(checked, faces);
+    case Check::kWavefrontFine:
+      return MethodKind::kWavefrontFine;
+    case Check::kExact:
+      break;
+  }
+  return MethodKind::kExact;
 }
 
 AccuracyReport failed_check(MethodKind method, const Error& error) {
@@ -60,23 +59,15 @@ AccuracyReport failed_check(MethodKind method, const Error& error) {
   return report;
 }
 
-Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                         const CheckedAnswers& answers, const ReferenceAnswers& better,
-                         CheckMode mode, const Progress& progress) try {
-  return geotherm::find_remedy(report, mesh, answers, better, search_of(mode), progress);
-} catch (const std::bad_alloc&) {
-  return {};  // the figures stand without it
-}
-
-MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces) {
+MethodKind reference_of_better(MethodKind kind, Check check, Index faces) {
   if (faces <= kMaxFacesExact) return MethodKind::kExact;
-  if (mode == CheckMode::kThorough) return reference_for(kind, faces);
+  if (is_thorough(check)) return reference_for(kind, faces);
   return kind == MethodKind::kWavefront ? MethodKind::kWavefrontFine : kind;
 }
 
-std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces) {
+std::vector<MethodKind> better_methods(MethodKind poor, Check check, Index faces) {
   std::vector<MethodKind> kinds = {MethodKind::kWavefront, MethodKind::kWavefrontFine};
-  const MethodKind reference = reference_of_better(MethodKind::kWavefrontFine, mode, faces);
+  const MethodKind reference = reference_of_better(MethodKind::kWavefrontFine, check, faces);
   if (reference == MethodKind::kExact) kinds.push_back(reference);
   std::erase_if(kinds, [poor](MethodKind kind) { return !is_better(kind, poor); });
   return kinds;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,11 +13,17 @@
 // say and do when these are wrong.
 namespace geotherm::app {
 
-enum class CheckMode {
-  kNone,
-  kUsual,     ///< heat and fast marching against the method wavefront; a remedy where they are poor
-  kThorough,  ///< any method against the best one that fits; a remedy where it is not good
+/// What distances are held against.
+enum class Check {
+  kOff,
+  kOn,    ///< usual_reference(), for heat and fast marching; a session shows them before
+  kAuto,  ///< the best method that fits the mesh (reference_for()), for any method
+  kWavefrontFine,
+  kExact,
 };
+
+/// Whether any method is checked, the near-exact ones, too.
+inline bool is_thorough(Check check) { return check > Check::kOn; }
 
 /// What becomes of poor distances.
 enum class OnPoor {
@@ -28,9 +33,8 @@ enum class OnPoor {
 };
 
 struct CheckSettings {
-  CheckMode mode = CheckMode::kUsual;
+  Check against = Check::kOn;
   OnPoor on_poor = OnPoor::kKeep;
-  std::optional<MethodKind> against = {};  ///< named by the user; none: what `mode` takes
   bool quick = false;  ///< while something moves: figures alone, no search, no warning
 };
 
@@ -38,26 +42,20 @@ struct CheckSettings {
 /// the option that needs it, with its value. Errors: kBadInput.
 Result<void> refuse_better(const CheckSettings& settings, const std::string& what);
 
-/// The reference method: the one that was named, else that of the mode; the method itself, or none
-/// better, where answers are not checked.
+/// The reference method; the method itself, or none better, where answers are not checked.
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces);
 
-/// The report on a method that is not held against another one in this mode.
-AccuracyReport unchecked(MethodKind method, CheckMode mode);
+/// The report on a method that this check holds against no other one.
+AccuracyReport unchecked(MethodKind method, Check check);
 
 /// The report on a check that failed.
 AccuracyReport failed_check(MethodKind method, const Error& error);
 
-/// Looks for a remedy as far as the mode asks for one. Errors: kCancelled.
-Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                         const CheckedAnswers& answers, const ReferenceAnswers& better,
-                         CheckMode mode, const Progress& progress);
-
 /// The methods that answer instead of `poor`, the next where one is poor as well: wavefront,
 /// wavefront-fine and, where these are held against it, exact.
-std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces);
+std::vector<MethodKind> better_methods(MethodKind poor, Check check, Index faces);
 /// What such a method is held against; `kind` itself, where nothing better fits.
-MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces);
+MethodKind reference_of_better(MethodKind kind, Check check, Index faces);
 /// Options of such a method.
 MethodOptions better_options(const MethodOptions& options, MethodKind kind);
 
