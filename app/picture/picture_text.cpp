@@ -67,8 +67,6 @@ Result<Value> value_of(const Named<Value> (&all)[N], std::string_view text, cons
                                          joined(names_of(all))};
 }
 
-std::string yes_or_no(bool value) { return value ? "yes" : "no"; }
-
 }  // namespace
 
 std::string to_text(View view) { return name_of(kViews, view); }
@@ -99,29 +97,6 @@ std::string centre_text(const CameraSettings& camera) {
   if (!camera.centre) return "auto";
   const auto& [x, y, z] = *camera.centre;
   return number_text(x) + ":" + number_text(y) + ":" + number_text(z);
-}
-
-std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& s) {
-  const CameraSettings& camera = s.camera;
-  return {{"view", to_text(s.view)},
-          {"size", std::to_string(s.width) + "x" + std::to_string(s.height)},
-          {"samples", std::to_string(s.samples)},
-          {"colour-map", s.colour_map},
-          {"reverse", yes_or_no(s.reverse)},
-          {"range", range_text(s)},
-          {"spacing", s.line_spacing ? number_text(*s.line_spacing) : "auto"},
-          {"light", to_text(s.light)},
-          {"background", to_text(s.background)},
-          {"bar", yes_or_no(s.bar)},
-          {"caption", yes_or_no(s.caption)},
-          {"markers", yes_or_no(s.markers)},
-          {"azimuth", number_text(camera.azimuth)},
-          {"elevation", number_text(camera.elevation)},
-          {"zoom", number_text(camera.zoom)},
-          {"pan", number_text(camera.pan_right) + ":" + number_text(camera.pan_up)},
-          {"centre", centre_text(camera)},
-          {"fit", to_text(camera.fit)},
-          {"projection", camera.orthographic ? "orthographic" : "perspective"}};
 }
 
 namespace {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/picture/picture_settings.h"
@@ -37,10 +36,6 @@ std::string range_text(const PictureSettings& settings);
 
 /// "0:1.5:-2", or "auto" where the middle of the model is the centre.
 std::string centre_text(const CameraSettings& camera);
-
-/// Every setting as name and text, named as its option: ("view", "contours"), ("size", "1280x720").
-/// What is chosen by the data ("auto") and flags ("yes", "no") are said as well.
-std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& settings);
 
 struct Size {
   int width = 0, height = 0;

@@ -11,7 +11,7 @@
 #include "geotherm/error.h"
 
 // The one table of settings. An entry makes the command-line option, its line of help, the command
-// of scripts and its completion, the row of the panel, and the JSON.
+// of scripts and its completion, the row of the panel, the JSON and the texts of pictures.
 namespace geotherm::app {
 
 /// What a setting is about; the heading of its options in the help.
@@ -43,6 +43,9 @@ struct Setting {
 
   /// Whether it changes the answer, not only the picture.
   bool of_method() const { return group == SettingGroup::kMethod || group == SettingGroup::kModel; }
+  bool of_picture() const {
+    return group == SettingGroup::kPicture || group == SettingGroup::kCamera;
+  }
 };
 
 /// All of them, in the order of panels and help.

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/picture_report.h"
 #include "app/session/command.h"
 #include "app/session/model_solver.h"
 #include "app/session/report.h"
@@ -68,6 +70,20 @@ TEST(SettingsOptions, OfASettingThatIsAddedToTheTableAreEverywhere) {
       solver.solve(app::usual_settings().options, {SourceSet::of_vertices({0}), {}}, {});
   ASSERT_TRUE(solved) << solved.error().message;
   EXPECT_EQ(app::solve_json(*solved)["options"]["test_dial"], 2.5);
+}
+
+TEST(SettingsOptions, OfAPictureStandInItsFileAndItsJson) {
+  const app::ExtraSetting extra({.name = "test-glow",
+                                 .group = SettingGroup::kPicture,
+                                 .kind = SettingKind::kSwitch,
+                                 .get = [](const ViewerState&) { return std::string("on"); }});
+  app::PictureFigures figures;
+  figures.model = "square";
+  const std::vector<app::PngText> texts = app::picture_texts(figures, 0);
+  const auto glow = std::ranges::find(texts, "geotherm:test-glow", &app::PngText::keyword);
+  ASSERT_NE(glow, texts.end());
+  EXPECT_EQ(glow->text, "yes");
+  EXPECT_EQ(app::picture_json(figures)["picture"]["test_glow"], true);
 }
 
 TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
