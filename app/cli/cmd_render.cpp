@@ -12,8 +12,8 @@
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 

@@ -11,7 +11,7 @@
 #include "app/session/check.h"
 #include "app/session/outputs.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
 

@@ -8,8 +8,8 @@
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/state.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/picture/picture_settings.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

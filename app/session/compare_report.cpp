@@ -3,7 +3,7 @@
 #include "app/session/check.h"
 #include "app/session/compare.h"
 #include "app/session/report.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/picture/picture_text.h"
 #include "app/session/settings.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {

@@ -9,8 +9,8 @@
 #include "app/session/explored.h"
 #include "app/session/session_state.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {
