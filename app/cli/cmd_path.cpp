@@ -169,7 +169,7 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   PathTask task{asked->reading, asked->picture, {}, {}, {}};
-  const auto field = parse_path_field(arguments.field);
+  const auto field = parse<PathField>(arguments.field);
   if (!field) return about("--field", field.error());
   task.options.field = *field;
   task.options.closed = arguments.closed;

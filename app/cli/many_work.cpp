@@ -34,7 +34,7 @@ Result<NpyType> number_type(const SolveArguments& arguments) {
   if (arguments.dtype.empty()) {
     return arguments.float32 ? NpyType::kFloat32 : NpyType::kFloat64;
   }
-  const auto type = parse_npy_type(arguments.dtype);
+  const auto type = parse<NpyType>(arguments.dtype);
   if (!type) return about("--dtype", type.error());
   if (arguments.float32 && *type != NpyType::kFloat32) {
     return Error{ErrorCode::kBadInput,

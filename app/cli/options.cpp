@@ -285,7 +285,7 @@ void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
 void complete_bare_fit(std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] != "--fit") continue;
-    if (i + 1 == words.size() || !parse_fit(words[i + 1])) words[i] = "--fit=tight";
+    if (i + 1 == words.size() || !parse<PictureFit>(words[i + 1])) words[i] = "--fit=tight";
   }
 }
 

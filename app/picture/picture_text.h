@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/picture/picture_settings.h"
@@ -13,23 +12,6 @@
 // A picture's settings as text and back, the same on the command line, in scripts and in panels.
 // Errors: kBadInput, with the text and what is expected.
 namespace geotherm::app {
-
-/// Each choice: parse(to_text(x)) == x.
-std::string to_text(View view);                     // wireframe | ... | gradient-error | contours
-std::string to_text(PictureLight light);            // three-point | headlight | none
-std::string to_text(PictureBackground background);  // light | dark | transparent
-std::string to_text(PictureFit fit);                // tight | sphere
-
-Result<View> parse_view(std::string_view text);
-Result<PictureLight> parse_light(std::string_view text);
-Result<PictureBackground> parse_background(std::string_view text);
-Result<PictureFit> parse_fit(std::string_view text);
-
-/// The names of all values, the default first.
-std::vector<std::string> view_names();
-std::vector<std::string> light_names();
-std::vector<std::string> background_names();
-std::vector<std::string> fit_names();
 
 /// "0:2.5", one end left out where the data decide it, or "auto" where they decide both.
 std::string range_text(const PictureSettings& settings);

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "geotherm/accuracy.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
 
 // How commands and the viewer hold distances against those of a more accurate method, and what they
 // say and do when these are wrong.
 namespace geotherm::app {
+
+using geotherm::to_text;  // of an enum with names
 
 /// What distances are held against.
 enum class Check {
@@ -21,6 +24,15 @@ enum class Check {
   kWavefrontFine,
   kExact,
 };
+inline NamedValues<Check> named_values(Check) {
+  using enum Check;
+  return {"'*' is no check",
+          {{kOn, "on"},
+           {kOff, "off"},
+           {kAuto, "auto"},
+           {kWavefrontFine, "wavefront-fine"},
+           {kExact, "exact"}}};
+}
 
 /// Whether any method is checked, the near-exact ones, too.
 inline bool is_thorough(Check check) { return check > Check::kOn; }

@@ -95,6 +95,14 @@ TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
                            "auto (default), cotan, intrinsic-delaunay", "--strict"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part << help;
   }
+  for (const char* name : {"time-step", "constraint"}) {  // their forms are written by hand
+    const Setting& setting = *app::find_setting(name);
+    for (const std::string& value : setting.values()) {
+      const std::string what = value.substr(0, value.find(':'));
+      EXPECT_NE(setting.forms.find(what), std::string::npos) << value;
+      EXPECT_NE(setting.detail.find(what), std::string::npos) << value;
+    }
+  }
 }
 
 TEST(SettingsOptions, AreBlamedByTheirName) {

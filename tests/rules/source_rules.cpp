@@ -39,7 +39,8 @@ const std::vector<Permission>& permissions() {
     names.insert(more.begin(), more.end());
     return names;
   };
-  const Names base = {"solver/core", "geotherm/types.h", "geotherm/error.h", "geotherm/progress.h"};
+  const Names base = {"solver/core", "geotherm/types.h", "geotherm/error.h", "geotherm/names.h",
+                      "geotherm/progress.h"};
   const Names mesh =
       with(base, {"solver/mesh", "geotherm/mesh.h", "geotherm/io.h", "geotherm/sources.h"});
   const Names linear = with(base, {"solver/linear", "geotherm/backend.h"});
