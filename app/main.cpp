@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "app/cli/command_line.h"
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "solver/mesh/output_file.h"
 
 namespace {

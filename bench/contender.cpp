@@ -11,7 +11,7 @@ namespace {
 class BackendContender final : public Contender {
  public:
   BackendContender(std::string name, int threads) : name_(std::move(name)) {
-    const auto method = parse_method(name_);
+    const auto method = parse<MethodKind>(name_);
     if (method && *method != MethodKind::kHeat) {
       options_.method = *method;
     } else {

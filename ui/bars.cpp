@@ -7,8 +7,8 @@
 
 #include "app/picture/picture_text.h"
 #include "app/session/check.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
 

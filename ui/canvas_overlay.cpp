@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "app/session/model.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "ui/action.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"

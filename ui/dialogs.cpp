@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/session/script.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/frame.h"
 #include "ui/key_map.h"
 #include "ui/widgets.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/session/progress.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/dialogs.h"
 #include "ui/file_dialog.h"
 #include "ui/key_map.h"

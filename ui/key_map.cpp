@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 namespace geotherm::ui {
 namespace {

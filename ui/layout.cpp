@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {

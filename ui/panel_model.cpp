@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 #include <cmath>
 

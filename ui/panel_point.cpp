@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/frame.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"

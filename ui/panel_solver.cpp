@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "app/session/machine.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "ui/frame.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"

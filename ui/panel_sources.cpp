@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "ui/action.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"

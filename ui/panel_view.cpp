@@ -2,7 +2,7 @@
 #include <imgui.h>
 
 #include "app/picture/picture_text.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/action.h"
 #include "ui/frame.h"
 #include "ui/panels.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {

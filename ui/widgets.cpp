@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {

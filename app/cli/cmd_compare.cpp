@@ -10,8 +10,8 @@
 #include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/backend.h"
 
 namespace geotherm::app {

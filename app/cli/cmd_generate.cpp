@@ -5,7 +5,7 @@
 #include "app/cli/options.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "bench/models/generate.h"
 #include "geotherm/io.h"
 #include "solver/mesh/io/format_writers.h"

@@ -7,8 +7,8 @@
 #include "app/session/model_solver.h"
 #include "app/session/report.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/isolines.h"
 
 namespace geotherm::app {

@@ -6,8 +6,8 @@
 #include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "app/session/report.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/backend.h"
 #include "solver/geometry/clean_faces.h"
 

@@ -11,8 +11,8 @@
 #include "app/session/progress.h"
 #include "app/session/report.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/build_method.h"
 #include "geotherm/path.h"
 #include "solver/core/stopwatch.h"
@@ -169,7 +169,7 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   PathTask task{asked->reading, asked->picture, {}, {}, {}};
-  const auto field = parse_path_field(arguments.field);
+  const auto field = parse<PathField>(arguments.field);
   if (!field) return about("--field", field.error());
   task.options.field = *field;
   task.options.closed = arguments.closed;
@@ -212,11 +212,11 @@ Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const
 
 /// Holds the distances from the start, which lead the way, against better ones. Errors: kCancelled.
 Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, ModelSolver& solver,
-                       CheckMode mode, const Progress& progress, PathFigures& figures) {
-  if (mode == CheckMode::kNone) return {};
+                       Check check, const Progress& progress, PathFigures& figures) {
+  if (check == Check::kOff) return {};
   SourceSet from;
   from.points.push_back(start);
-  auto checked = solver.check_method(ready, {&from, 1}, {mode}, part_of(progress, 0.9, 1.0));
+  auto checked = solver.check_method(ready, {&from, 1}, {check}, part_of(progress, 0.9, 1.0));
   if (!checked) return checked.error();
   AccuracyReport& report = checked->error.report;
   if (auto warning = accuracy_warning(report, accuracy_line(report))) {
@@ -227,7 +227,7 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
 }
 
 /// One path for each target: they share the start and the way-points.
-Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mode,
+Result<void> find_paths(const PathTask& task, std::size_t targets, Check check,
                         const Progress& progress, PathFigures& figures) {
   auto points = place(task.points, *figures.model.mesh, figures.warnings);
   if (!points) return points.error();
@@ -257,7 +257,7 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, CheckMode mod
     figures.paths.push_back({std::move(stops), std::move(found->path)});
   }
   figures.path_ms = finding.milliseconds();
-  return check_way(points->front(), *ready, solver, mode, progress, figures);
+  return check_way(points->front(), *ready, solver, check, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
@@ -337,7 +337,8 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!model) return model.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
-  if (auto found = find_paths(*task, arguments.to.size(), check->mode, progress, figures); !found) {
+  if (auto found = find_paths(*task, arguments.to.size(), check->against, progress, figures);
+      !found) {
     return found.error();
   }
   note_unused_settings(arguments.settings, task->method, figures.warnings);

@@ -12,8 +12,8 @@
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 
@@ -116,7 +116,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   QueryOptions query;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
-  if (view == View::kExactError) check.mode = CheckMode::kThorough;
+  if (view == View::kExactError) check.against = Check::kAuto;
   const auto placed = resolve_sources(sources, *mesh);
   if (!placed) return placed.error();
   ModelSolver solver(*std::move(model));

@@ -15,8 +15,8 @@
 #include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "app/session/report.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/build_method.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
@@ -249,7 +249,7 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   const auto ready = solver.prepare(task.options, part_of(progress, 0.0, kSetupShare));
   if (!ready) return ready.error();
   const Stopwatch watch;
-  const bool checks = task.check.mode != CheckMode::kNone;
+  const bool checks = task.check.against != Check::kOff;
   auto points = take_samples(*ready->method, *model.mesh, task,
                              part_of(progress, kSetupShare, checks ? kSampled : 1.0), announce);
   if (!points) return about_model(model.name, points.error());

@@ -12,8 +12,8 @@
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
 #include "app/session/report.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/error.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
@@ -222,8 +222,8 @@ Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodO
                                   const WantedFields& wanted) {
   auto settings = check_settings(arguments.check);
   if (!settings) return settings;
-  if (wanted.has_error() && settings->mode == CheckMode::kUsual) {
-    settings->mode = CheckMode::kThorough;
+  if (wanted.has_error() && settings->against == Check::kOn) {
+    settings->against = Check::kAuto;
   }
   if (wanted.has_heat() && options.method == MethodKind::kHeat) {
     if (auto fits = refuse_better(*settings, "--fields " + one_line(arguments.fields)); !fits) {

@@ -10,7 +10,7 @@
 #include "app/session/answer.h"
 #include "app/session/outputs.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"

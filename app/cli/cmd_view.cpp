@@ -3,7 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "app/picture/png_file.h"
 #include "app/session/command.h"
 #include "app/session/compare.h"
@@ -12,8 +12,8 @@
 #include "app/session/model.h"
 #include "app/session/outputs.h"
 #include "app/session/session.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
 

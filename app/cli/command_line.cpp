@@ -16,8 +16,8 @@
 #include "app/cli/commands.h"
 #include "app/session/model.h"
 #include "app/session/progress.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "geotherm/error.h"
 
 namespace geotherm::app {

@@ -9,7 +9,7 @@
 #include "app/cli/cli_app.h"
 #include "app/cli/line_files.h"
 #include "app/cli/options.h"
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
 #include "geotherm/error.h"

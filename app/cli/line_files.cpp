@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/cli/options.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {

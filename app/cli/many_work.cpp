@@ -8,8 +8,8 @@
 #include "app/session/answer.h"
 #include "app/session/machine.h"
 #include "app/session/progress.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/heat_method.h"
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
@@ -34,7 +34,7 @@ Result<NpyType> number_type(const SolveArguments& arguments) {
   if (arguments.dtype.empty()) {
     return arguments.float32 ? NpyType::kFloat32 : NpyType::kFloat64;
   }
-  const auto type = parse_npy_type(arguments.dtype);
+  const auto type = parse<NpyType>(arguments.dtype);
   if (!type) return about("--dtype", type.error());
   if (arguments.float32 && *type != NpyType::kFloat32) {
     return Error{ErrorCode::kBadInput,
@@ -94,7 +94,7 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   keep_freed_memory();  // from here on answers come and go
   ManyFigures figures;
   add_warnings(figures.warnings, work.model.notes);
-  if (work.check.mode != CheckMode::kNone) {
+  if (work.check.against != Check::kOff) {
     auto checked = solver.check_method(*ready, work.sources.sets, work.check,
                                        part_of(progress, kMethodShare, kSetupShare));
     if (!checked) return checked.error();

@@ -8,8 +8,8 @@
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/state.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 
@@ -226,8 +226,8 @@ Result<CheckSettings> check_settings(const CheckArguments& arguments) {
     return Error{ErrorCode::kBadInput,
                  "--on-poor " + arguments.on_poor + " needs the check; leave --no-check out"};
   }
-  if (arguments.check) settings.mode = CheckMode::kThorough;
-  if (arguments.no_check) settings.mode = CheckMode::kNone;
+  if (arguments.check) settings.against = Check::kAuto;
+  if (arguments.no_check) settings.against = Check::kOff;
   return settings;
 }
 
@@ -290,7 +290,7 @@ void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
 void complete_bare_fit(std::vector<std::string>& words) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] != "--fit") continue;
-    if (i + 1 == words.size() || !parse_fit(words[i + 1])) words[i] = "--fit=tight";
+    if (i + 1 == words.size() || !parse<PictureFit>(words[i + 1])) words[i] = "--fit=tight";
   }
 }
 

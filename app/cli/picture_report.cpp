@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "app/cli/picture_report.h"
 
-#include <cmath>
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
@@ -16,17 +19,17 @@
 namespace geotherm::app {
 namespace {
 
-std::string range_of(const PictureScale& scale) {
-  return number_text(scale.min) + ":" + number_text(scale.max);
-}
-
 bool has_colours(const PictureFigures& f) {
   return face_field(f.settings.view) || (f.solve && maps_values(f.settings.view));
 }
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
-void add(std::vector<PngText>& texts, const std::string& name, const std::string& value) {
-  if (!value.empty()) texts.push_back({"geotherm:" + name, value});
+void add(std::vector<PngText>& texts, std::string_view name, const std::string& value) {
+  if (!value.empty()) texts.push_back({"geotherm:" + std::string(name), value});
+}
+
+bool is_one_of(std::initializer_list<std::string_view> names, const Setting& setting) {
+  return std::ranges::count(names, setting.name) > 0;
 }
 
 void add_solve_texts(const Answer& solve, std::vector<PngText>& texts) {
@@ -34,40 +37,53 @@ void add_solve_texts(const Answer& solve, std::vector<PngText>& texts) {
   add(texts, "largest-distance", number_text(solve.distance.max));
   const HeatMethod* heat = solve.method->heat();
   if (heat == nullptr) return;
-  const HeatOptions& options = heat->options();
-  add(texts, "backend", solve.result.backend);
-  add(texts, "time-step", to_text(options.time_step));
-  if (options.time_step.rule != TimeRule::kAbsolute) {
-    add(texts, "time-factor", number_text(options.time_step.factor));
+  ViewerState state;
+  static_cast<HeatOptions&>(state.options) = heat->options();
+  state.options.backend = solve.result.backend;
+  state.options.laplacian = heat->laplacian();
+  const bool absolute = state.options.time_step.rule == TimeRule::kAbsolute;
+  for (const Setting& setting : settings()) {
+    // The last two say what may fail, not what is computed.
+    if (!setting.of_heat || is_one_of({"memory-limit", "strict"}, setting)) continue;
+    const bool is_factor = setting.name == "time-factor";
+    if (!is_factor || !absolute) add(texts, setting.name, setting.get(state));
+    if (is_factor) add(texts, "t", number_text(heat->t()));
   }
-  add(texts, "t", number_text(heat->t()));
-  add(texts, "constraint", to_text(options.constraint));
-  add(texts, "heat", to_text(options.heat));
-  add(texts, "boundary", to_text(options.boundary));
-  add(texts, "laplacian", to_text(heat->laplacian()));
-  add(texts, "variant", to_text(options.variant));
-  add(texts, "precision", to_text(options.precision));
+}
+
+/// The settings of a frame, and what the data decided where they leave it open.
+ViewerState settings_of(const PictureFigures& f, int frame) {
+  ViewerState state;
+  PictureSettings& picture = state.picture;
+  picture = f.settings;
+  picture.camera = frame_camera(f.settings, frame);
+  if (!has_colours(f)) return state;
+  picture.colour_map = f.scale.colour_map;
+  picture.range_min = f.scale.min;
+  picture.range_max = f.scale.max;
+  picture.line_spacing = f.scale.spacing;
+  return state;
 }
 
 Json settings_json(const PictureFigures& f) {
   const PictureSettings& s = f.settings;
-  Json json = {{"view", to_text(s.view)},
-               {"width", s.width},
-               {"height", s.height},
-               {"samples", s.samples},
-               {"light", to_text(s.light)},
-               {"background", to_text(s.background)},
-               {"bar", f.scale.bar},
-               {"caption", s.caption},
-               {"markers", s.markers},
-               {"camera",
-                {{"azimuth", s.camera.azimuth},
-                 {"elevation", s.camera.elevation},
-                 {"zoom", s.camera.zoom},
-                 {"pan", {s.camera.pan_right, s.camera.pan_up}},
-                 {"fit", to_text(s.camera.fit)},
-                 {"projection", s.camera.orthographic ? "orthographic" : "perspective"}}},
-               {"turntable", s.turntable}};
+  ViewerState state;
+  state.picture = s;
+  Json json, camera;
+  for (const Setting& setting : settings()) {
+    if (!setting.of_picture()) continue;
+    if (setting.name == "size") {
+      json.update({{"width", s.width}, {"height", s.height}});
+    } else if (setting.name == "pan") {
+      camera["pan"] = {s.camera.pan_right, s.camera.pan_up};
+    } else if (setting.group == SettingGroup::kCamera && setting.kind == SettingKind::kNumber) {
+      camera[key_of(setting)] = *number_in<double>(setting.get(state));
+    } else if (!is_one_of({"colour-map", "reverse", "range", "spacing", "centre"}, setting)) {
+      Json& group = setting.group == SettingGroup::kCamera ? camera : json;
+      group[key_of(setting)] = setting_json(setting, state);
+    }
+  }
+  json.update({{"bar", f.scale.bar}, {"camera", std::move(camera)}, {"turntable", s.turntable}});
   if (has_colours(f)) {
     json.update({{"colour_map", f.scale.colour_map},
                  {"reverse", s.reverse},
@@ -105,13 +121,12 @@ std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
   add(texts, "model", f.model_argument);
   add(texts, "sources", joined(f.sources, " "));
   if (f.solve) add_solve_texts(*f.solve, texts);
-  PictureSettings settings = f.settings;
-  settings.camera = frame_camera(f.settings, frame);
-  for (auto& [name, value] : settings_in_words(settings)) {
-    if (name == "colour-map" && has_colours(f)) value = f.scale.colour_map;
-    if (name == "range" && has_colours(f)) value = range_of(f.scale);
-    if (name == "spacing" && has_colours(f)) value = number_text(f.scale.spacing);
-    add(texts, name, value);
+  const ViewerState state = settings_of(f, frame);
+  for (const Setting& setting : settings()) {
+    if (!setting.of_picture()) continue;
+    const std::string value = setting.get(state);
+    const bool is_switch = setting.kind == SettingKind::kSwitch;
+    add(texts, setting.name, !is_switch ? value : value == "on" ? "yes" : "no");
   }
   if (f.settings.turntable > 0) {
     add(texts, "frame", std::to_string(frame + 1) + " of " + std::to_string(f.settings.turntable));

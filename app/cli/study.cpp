@@ -7,8 +7,8 @@
 
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "app/picture/picture_scale.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "engine/scene/colours.h"
 
 namespace geotherm::app {

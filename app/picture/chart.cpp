@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 namespace geotherm::app::chart {
 namespace {

@@ -8,8 +8,6 @@
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_settings.h"
-#include "app/session/command.h"
-#include "app/session/session.h"
 #include "geotherm/error.h"
 #include "geotherm/progress.h"
 
@@ -56,46 +54,5 @@ class Drawing {
 /// What this build draws with: the engine, or a stand-in that says that there is none. Opens
 /// nothing yet.
 std::unique_ptr<Drawing> make_drawing();
-
-/// What a window begins with.
-struct ViewerStart {
-  std::vector<Command> commands;  ///< at once: those that the command line stands for
-  std::string script;             ///< a file of commands that follow; empty: none
-  std::string device;             ///< part of its name; empty: the best
-  int width = 0, height = 0;      ///< of the window; 0: the usual
-  double scale = 0;               ///< of letters and panels; 0: the monitor's
-  bool validation = false;        ///< reports what Vulkan's validation says as errors
-  std::string command;            ///< the command line, for the files of pictures
-};
-
-/// The program's link to the window, which this folder does not know. main() hands in the real one.
-class ViewerWindow {
- public:
-  virtual ~ViewerWindow() = default;
-
-  /// Opens the window and returns when it is closed. Errors: kNoDevice (no display, no device, a
-  /// device that was lost and did not come back), kBadFile (a model or script that cannot be read
-  /// at the start), kNumericalFailure (validation spoke).
-  virtual Result<void> run(const ViewerStart& start) = 0;
-};
-
-/// The window of this build, or a stand-in that says that there is none. Opens nothing yet.
-std::unique_ptr<ViewerWindow> make_window();
-
-/// Who draws the picture of a session, and what its file says about that.
-struct ViewPainter {
-  /// `settings` has the picture's size; `panels`: with what lies over it in the window.
-  std::function<Result<DrawnPicture>(const PictureData& data, const PictureSettings& settings,
-                                     bool panels)>
-      draw;
-  std::function<DrawingDevice()> device;
-  std::string command;        ///< the command line
-  int width = 0, height = 0;  ///< where the command names no size; 0: the settings'
-};
-
-/// Draws and writes what a session shows, as a .png that says of itself what `render`'s do.
-/// Errors: those of drawing and writing; kBadInput: no model is open.
-Result<void> save_view_picture(const command::SavePicture& save, const Session& session,
-                               const ViewPainter& painter);
 
 }  // namespace geotherm::app

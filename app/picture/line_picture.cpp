@@ -14,7 +14,7 @@
 
 #include "app/picture/line_sight.h"
 #include "app/picture/picture_scale.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "geotherm/error.h"
 #include "geotherm/isolines.h"
 #include "geotherm/progress.h"

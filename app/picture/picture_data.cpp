@@ -5,8 +5,6 @@
 #include <cmath>
 #include <set>
 
-#include "app/session/text.h"
-#include "app/session/wording.h"
 #include "geotherm/quality_fields.h"
 #include "solver/geometry/face_gradient.h"
 
@@ -168,11 +166,6 @@ void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResul
     data.heat_directions.push_back(to_float(heat[f]));
     data.distance_gradients.push_back(to_float(distance[f].stableNormalized() * length));
   }
-}
-
-std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method) {
-  const std::string text = one_line(model) + ", " + counted(faces, "face", "faces");
-  return method == nullptr ? text : text + ", " + method_caption(*method);
 }
 
 }  // namespace geotherm::app

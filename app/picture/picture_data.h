@@ -95,7 +95,4 @@ void add_difference(PictureData& data, std::span<const double> difference);
 /// a is the angle between both in degrees. 0 where either is missing. Cost: O(F).
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result);
 
-/// "bunny, 4,000 faces, t = 0.0123, cholmod"; `method`: null without a solve.
-std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method);
-
 }  // namespace geotherm::app

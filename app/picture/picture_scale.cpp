@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -6,9 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/names.h"
+
 // A turntable is a turn of the camera about the vertical axis in equal steps; one picture is a turn
 // of one frame.
 namespace geotherm::app {
+
+using geotherm::to_text;  // of an enum with names
 
 /// Views 1 to 7, in the order of their keys, then further ones.
 enum class View {
@@ -27,10 +31,43 @@ enum class View {
   kTriangleQuality,  ///< 1: equilateral
   kNonDelaunay,      ///< edges with a negative cotangent weight, 0 to 3
 };
+inline NamedValues<View> named_values(View) {
+  using enum View;
+  return {"there is no view '*'",
+          {{kContours, "contours"},
+           {kWireframe, "wireframe"},
+           {kFlat, "flat"},
+           {kSmooth, "smooth"},
+           {kSources, "sources"},
+           {kHeatGradient, "heat-gradient"},
+           {kGradientError, "gradient-error"},
+           {kExactError, "exact-error"},
+           {kRegions, "regions"},
+           {kEikonalError, "eikonal-error"},
+           {kLostGradients, "lost-gradients"},
+           {kTriangleQuality, "triangle-quality"},
+           {kNonDelaunay, "non-delaunay"}}};
+}
 
 enum class PictureLight { kThreePoint, kHeadlight, kNone };
+inline NamedValues<PictureLight> named_values(PictureLight) {
+  using enum PictureLight;
+  return {"there is no light '*'",
+          {{kThreePoint, "three-point"}, {kHeadlight, "headlight"}, {kNone, "none"}}};
+}
+
 enum class PictureBackground { kLight, kDark, kTransparent };
+inline NamedValues<PictureBackground> named_values(PictureBackground) {
+  using enum PictureBackground;
+  return {"there is no background '*'",
+          {{kLight, "light"}, {kDark, "dark"}, {kTransparent, "transparent"}}};
+}
+
 enum class PictureFit { kTight, kSphere };
+inline NamedValues<PictureFit> named_values(PictureFit) {
+  using enum PictureFit;
+  return {"there is no fit '*'", {{kTight, "tight"}, {kSphere, "sphere"}}};
+}
 
 struct CameraSettings {
   double azimuth = 30, elevation = 20;  ///< degrees

@@ -4,8 +4,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "app/picture/picture_settings.h"
@@ -15,32 +13,11 @@
 // Errors: kBadInput, with the text and what is expected.
 namespace geotherm::app {
 
-/// Each choice: parse(to_text(x)) == x.
-std::string to_text(View view);                     // wireframe | ... | gradient-error | contours
-std::string to_text(PictureLight light);            // three-point | headlight | none
-std::string to_text(PictureBackground background);  // light | dark | transparent
-std::string to_text(PictureFit fit);                // tight | sphere
-
-Result<View> parse_view(std::string_view text);
-Result<PictureLight> parse_light(std::string_view text);
-Result<PictureBackground> parse_background(std::string_view text);
-Result<PictureFit> parse_fit(std::string_view text);
-
-/// The names of all values, the default first.
-std::vector<std::string> view_names();
-std::vector<std::string> light_names();
-std::vector<std::string> background_names();
-std::vector<std::string> fit_names();
-
 /// "0:2.5", one end left out where the data decide it, or "auto" where they decide both.
 std::string range_text(const PictureSettings& settings);
 
 /// "0:1.5:-2", or "auto" where the middle of the model is the centre.
 std::string centre_text(const CameraSettings& camera);
-
-/// Every setting as name and text, named as its option: ("view", "contours"), ("size", "1280x720").
-/// What is chosen by the data ("auto") and flags ("yes", "no") are said as well.
-std::vector<std::pair<std::string, std::string>> settings_in_words(const PictureSettings& settings);
 
 struct Size {
   int width = 0, height = 0;

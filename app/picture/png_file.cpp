@@ -8,7 +8,7 @@
 #include <new>
 #include <vector>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

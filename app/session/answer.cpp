@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 

@@ -8,8 +8,8 @@
 #include "app/session/command.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/backend.h"
 
 namespace geotherm::app {

@@ -2,12 +2,11 @@
 #include "app/session/check.h"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 #include <vector>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -22,25 +21,13 @@ std::string graded(const AccuracyReport& report) {
   return ", against " + to_text(report.reference) + ": " + to_text(report.grade) + report.reason;
 }
 
-RemedySearch search_of(CheckMode mode) {
-  switch (mode) {
-    case CheckMode::kThorough:
-      return RemedySearch::kWhereNotGood;
-    case CheckMode::kUsual:
-      return RemedySearch::kWherePoor;
-    case CheckMode::kNone:
-      break;
-  }
-  return RemedySearch::kNever;
-}
-
 }  // namespace
 
-AccuracyReport unchecked(MethodKind method, CheckMode mode) {
+AccuracyReport unchecked(MethodKind method, Check check) {
   if (method == MethodKind::kExact) {
     return unmeasured(method, "this is the most accurate method there is");
   }
-  if (mode == CheckMode::kThorough) {
+  if (is_thorough(check)) {
     return unmeasured(method, "nothing more accurate fits a mesh of this size");
   }
   AccuracyReport report = unmeasured(method, to_text(method) + " is near exact");
@@ -49,9 +36,21 @@ AccuracyReport unchecked(MethodKind method, CheckMode mode) {
 }
 
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces) {
-  if (settings.against) return *settings.against;
-  return settings.mode == CheckMode::kThorough ? reference_for(checked, faces)
-                                               : usual_reference(checked, faces);
+  // While a source is dragged exact distances must take no longer than a frame or two.
+  constexpr Index kMaxFacesDragged = 10'000;
+  switch (settings.against) {
+    case Check::kOff:
+    case Check::kOn:
+      return usual_reference(checked, faces);
+    case Check::kAuto:
+      if (settings.quick && faces > kMaxFacesDragged) return MethodKind::kWavefrontFine;
+      return reference_for(checked, faces);
+    case Check::kWavefrontFine:
+      return MethodKind::kWavefrontFine;
+    case Check::kExact:
+      break;
+  }
+  return MethodKind::kExact;
 }
 
 AccuracyReport failed_check(MethodKind method, const Error& error) {
@@ -62,23 +61,15 @@ AccuracyReport failed_check(MethodKind method, const Error& error) {
   return report;
 }
 
-Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                         const CheckedAnswers& answers, const ReferenceAnswers& better,
-                         CheckMode mode, const Progress& progress) try {
-  return geotherm::find_remedy(report, mesh, answers, better, search_of(mode), progress);
-} catch (const std::bad_alloc&) {
-  return {};  // the figures stand without it
-}
-
-MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces) {
+MethodKind reference_of_better(MethodKind kind, Check check, Index faces) {
   if (faces <= kMaxFacesExact) return MethodKind::kExact;
-  if (mode == CheckMode::kThorough) return reference_for(kind, faces);
+  if (is_thorough(check)) return reference_for(kind, faces);
   return kind == MethodKind::kWavefront ? MethodKind::kWavefrontFine : kind;
 }
 
-std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces) {
+std::vector<MethodKind> better_methods(MethodKind poor, Check check, Index faces) {
   std::vector<MethodKind> kinds = {MethodKind::kWavefront, MethodKind::kWavefrontFine};
-  const MethodKind reference = reference_of_better(MethodKind::kWavefrontFine, mode, faces);
+  const MethodKind reference = reference_of_better(MethodKind::kWavefrontFine, check, faces);
   if (reference == MethodKind::kExact) kinds.push_back(reference);
   std::erase_if(kinds, [poor](MethodKind kind) { return !is_better(kind, poor); });
   return kinds;

@@ -2,23 +2,40 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "geotherm/accuracy.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
 
 // How commands and the viewer hold distances against those of a more accurate method, and what they
 // say and do when these are wrong.
 namespace geotherm::app {
 
-enum class CheckMode {
-  kNone,
-  kUsual,     ///< heat and fast marching against the method wavefront; a remedy where they are poor
-  kThorough,  ///< any method against the best one that fits; a remedy where it is not good
+using geotherm::to_text;  // of an enum with names
+
+/// What distances are held against.
+enum class Check {
+  kOff,
+  kOn,    ///< usual_reference(), for heat and fast marching; a session shows them before
+  kAuto,  ///< the best method that fits the mesh (reference_for()), for any method
+  kWavefrontFine,
+  kExact,
 };
+inline NamedValues<Check> named_values(Check) {
+  using enum Check;
+  return {"'*' is no check",
+          {{kOn, "on"},
+           {kOff, "off"},
+           {kAuto, "auto"},
+           {kWavefrontFine, "wavefront-fine"},
+           {kExact, "exact"}}};
+}
+
+/// Whether any method is checked, the near-exact ones, too.
+inline bool is_thorough(Check check) { return check > Check::kOn; }
 
 /// What becomes of poor distances.
 enum class OnPoor {
@@ -28,32 +45,25 @@ enum class OnPoor {
 };
 
 struct CheckSettings {
-  CheckMode mode = CheckMode::kUsual;
+  Check against = Check::kOn;
   OnPoor on_poor = OnPoor::kKeep;
-  std::optional<MethodKind> against = {};  ///< named by the user; none: what `mode` takes
   bool quick = false;  ///< while something moves: figures alone, no search, no warning
 };
 
-/// The reference method: the one that was named, else that of the mode; the method itself, or none
-/// better, where answers are not checked.
+/// The reference method; the method itself, or none better, where answers are not checked.
 MethodKind reference_in(const CheckSettings& settings, MethodKind checked, Index faces);
 
-/// The report on a method that is not held against another one in this mode.
-AccuracyReport unchecked(MethodKind method, CheckMode mode);
+/// The report on a method that this check holds against no other one.
+AccuracyReport unchecked(MethodKind method, Check check);
 
 /// The report on a check that failed.
 AccuracyReport failed_check(MethodKind method, const Error& error);
 
-/// Looks for a remedy as far as the mode asks for one. Errors: kCancelled.
-Result<void> find_remedy(AccuracyReport& report, const std::shared_ptr<const TriangleMesh>& mesh,
-                         const CheckedAnswers& answers, const ReferenceAnswers& better,
-                         CheckMode mode, const Progress& progress);
-
 /// The methods that answer instead of `poor`, the next where one is poor as well: wavefront,
 /// wavefront-fine and, where these are held against it, exact.
-std::vector<MethodKind> better_methods(MethodKind poor, CheckMode mode, Index faces);
+std::vector<MethodKind> better_methods(MethodKind poor, Check check, Index faces);
 /// What such a method is held against; `kind` itself, where nothing better fits.
-MethodKind reference_of_better(MethodKind kind, CheckMode mode, Index faces);
+MethodKind reference_of_better(MethodKind kind, Check check, Index faces);
 /// Options of such a method.
 MethodOptions better_options(const MethodOptions& options, MethodKind kind);
 

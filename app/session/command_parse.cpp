@@ -7,7 +7,8 @@
 #include "app/session/command.h"
 #include "app/session/command_words.h"
 #include "app/session/settings.h"
-#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

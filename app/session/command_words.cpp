@@ -6,7 +6,8 @@
 
 #include "app/session/command.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {

@@ -9,8 +9,8 @@
 #include "app/session/machine.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
 #include "solver/core/stopwatch.h"
@@ -256,14 +256,14 @@ namespace {
 
 Result<MethodOptions> solver_named(const std::string& name, const MethodOptions& base) {
   MethodOptions options = base;
-  const auto method = parse_method(name);
+  const auto method = parse<MethodKind>(name);
   if (method && *method != MethodKind::kHeat) {
     options.method = *method;
     return options;
   }
   const auto backend = find_backend(name);
   if (!backend) {
-    std::vector<std::string> methods = method_names();
+    std::vector<std::string> methods = all_names<MethodKind>();
     std::erase(methods, to_text(MethodKind::kHeat));
     Error error = backend.error();
     error.hint.emplace_back("; other methods: " + joined(methods));

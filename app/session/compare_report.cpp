@@ -2,8 +2,8 @@
 #include "app/picture/chart.h"
 #include "app/session/compare.h"
 #include "app/session/report.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 
 namespace geotherm::app {

@@ -6,8 +6,8 @@
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_scale.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

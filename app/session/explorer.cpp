@@ -7,8 +7,8 @@
 
 #include "app/session/progress.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -43,27 +43,6 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
       places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
     }
   }
-}
-
-/// What an answer is held against in a session.
-CheckSettings check_settings(const ExploreRequest& request, const Answer& answer) {
-  CheckSettings settings;
-  settings.quick = !request.quality;
-  if (request.check == Check::kOn) return settings;
-  settings.mode = CheckMode::kThorough;
-  if (request.check == Check::kExact) {
-    settings.against = MethodKind::kExact;
-  } else if (request.check == Check::kWavefrontFine) {
-    settings.against = MethodKind::kWavefrontFine;
-  } else {
-    // While a source is dragged exact distances must take no longer than a frame or two.
-    constexpr Index kMaxFacesDragged = 10'000;
-    const Index faces = answer.model.mesh->face_count();
-    settings.against = settings.quick && faces > kMaxFacesDragged
-                           ? MethodKind::kWavefrontFine
-                           : reference_for(answer.options.method, faces);
-  }
-  return settings;
 }
 
 }  // namespace
@@ -149,8 +128,10 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& req
       .quality = request.quality, .fields = request.fields, .nearest = request.nearest && !is_b};
   auto answer = solver_->solve(options, sources, {query}, progress);
   if (!answer) return answer.error();
-  if (request.check != Check::kOff && request.check != Check::kOn) {
-    if (auto done = solver_->check(*answer, check_settings(request, *answer), progress); !done) {
+  if (is_thorough(request.check)) {
+    if (auto done = solver_->check(*answer, {.against = request.check, .quick = !request.quality},
+                                   progress);
+        !done) {
       return done.error();
     }
   }
@@ -182,7 +163,7 @@ Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored&
   for (auto* const answer : {&explored.a, &explored.b}) {
     if (!*answer) continue;
     auto checked = std::make_shared<Answer>(**answer);
-    auto done = solver_->check(*checked, check_settings(request, *checked),
+    auto done = solver_->check(*checked, {.against = request.check, .quick = !request.quality},
                                with_prefix(progress, "checking: "));
     if (!done) return done;
     *answer = std::move(checked);

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/parallel.h"
 #include "solver/linear/blas_threads.h"
 

@@ -8,8 +8,8 @@
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/settings.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/backend.h"
 #include "geotherm/io.h"
 #include "geotherm/options.h"
@@ -112,46 +112,35 @@ Result<TimeStep> parse_time_step_option(const Text& text, double factor) {
                    {"write absolute:T with a positive number, such as absolute:0.01"});
 }
 
-constexpr std::pair<Check, std::string_view> kChecks[] = {{Check::kOn, "on"},
-                                                          {Check::kOff, "off"},
-                                                          {Check::kAuto, "auto"},
-                                                          {Check::kWavefrontFine, "wavefront-fine"},
-                                                          {Check::kExact, "exact"}};
-
-Names check_names() {
-  Names names;
-  for (const auto& [value, name] : kChecks) names.emplace_back(name);
-  return names;
+/// One of each rule.
+Names time_steps() {
+  constexpr double kTime = 0.01;
+  Names texts;
+  for (const auto& [rule, name] : named_values(TimeRule{}).all) {
+    texts.push_back(to_text(TimeStep{rule, 1, kTime}));
+  }
+  return texts;
 }
 
-Text check_text(const State& s) {
-  for (const auto& [value, name] : kChecks) {
-    if (value == s.check) return Text(name);
+/// One of each mode.
+Names constraints() {
+  Names texts;
+  for (const auto& [mode, name] : named_values(ConstraintMode{}).all) {
+    texts.push_back(to_text(Constraint{mode}));
   }
-  return {};
-}
-
-Result<void> set_check(State& s, const Text& text) {
-  for (const auto& [value, name] : kChecks) {
-    if (name != text) continue;
-    s.check = value;
-    return {};
-  }
-  return bad_value(text, "is no check", "there are " + joined(check_names()));
+  return texts;
 }
 
 }  // namespace
 
 std::vector<Setting> method_settings() {
   return {
-      {.name = "method",
-       .value_name = "NAME",
-       .help = "how distance is computed",
-       .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
-                 "first order; exact: exact polyhedral distance, the slowest.",
-       .get = [](const State& s) { return to_text(s.options.method); },
-       .set = [](State& s, const Text& t) { return store(parse_method(t), s.options.method); },
-       .values = method_names},
+      choice<&MethodOptions::method>(
+          {.name = "method",
+           .value_name = "NAME",
+           .help = "how distance is computed",
+           .detail = "heat: the heat method; wavefront, wavefront-fine: near exact; fast-marching: "
+                     "first order; exact: exact polyhedral distance, the slowest."}),
       {.name = "backend",
        .of_heat = true,
        .value_name = "NAME",
@@ -171,10 +160,7 @@ std::vector<Setting> method_settings() {
              return store(parse_time_step_option(t, s.options.time_step.factor),
                           s.options.time_step);
            },
-       .values =
-           [] {
-             return Names{"mean-edge", "mean-face-area", "absolute:0.01"};
-           }},
+       .values = time_steps},
       {.name = "time-factor",
        .kind = kNumber,
        .of_heat = true,
@@ -200,60 +186,46 @@ std::vector<Setting> method_settings() {
        .get = [](const State& s) { return to_text(s.options.constraint); },
        .set = [](State& s,
                  const Text& t) { return store(parse_constraint_option(t), s.options.constraint); },
-       .values =
-           [] {
-             return Names{"pin-sources", "pin-vertex", "penalty:10", "conserve-energy",
-                          "pseudo-inverse"};
-           }},
-      {.name = "heat",
-       .of_heat = true,
-       .value_name = "MODE",
-       .help = "what the heat step diffuses",
-       .detail = "unit: 1 on every source; diffuse: weighted with the source's area; hold: u = 1 "
-                 "held on the sources.",
-       .get = [](const State& s) { return to_text(s.options.heat); },
-       .set = [](State& s, const Text& t) { return store(parse_heat_mode(t), s.options.heat); },
-       .values = heat_mode_names},
-      {.name = "boundary",
-       .of_heat = true,
-       .value_name = "RULE",
-       .help = "the condition on u along the border",
-       .detail = "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
-                 "both.",
-       .get = [](const State& s) { return to_text(s.options.boundary); },
-       .set = [](State& s,
-                 const Text& t) { return store(parse_boundary_rule(t), s.options.boundary); },
-       .values = boundary_rule_names},
-      {.name = "laplacian",
-       .of_heat = true,
-       .value_name = "KIND",
-       .help = "which triangulation carries the operators",
-       .detail =
-           "auto flips edges where weights would be negative, on the tufted cover where edges "
-           "have three faces, and inserts vertices (refined) where faces are too large or the "
-           "border is obtuse; cotan takes the mesh as it is.",
-       .get = [](const State& s) { return to_text(s.options.laplacian); },
-       .set = [](State& s,
-                 const Text& t) { return store(parse_laplacian(t), s.options.laplacian); },
-       .values = laplacian_names},
-      {.name = "variant",
-       .of_heat = true,
-       .value_name = "NAME",
-       .help = "how the method is discretised",
-       .detail = "corrected: this program's; classic: as first published.",
-       .get = [](const State& s) { return to_text(s.options.variant); },
-       .set = [](State& s, const Text& t) { return store(parse_variant(t), s.options.variant); },
-       .values = variant_names},
-      {.name = "precision",
-       .of_heat = true,
-       .value_name = "NAME",
-       .help = "how accurately systems are solved",
-       .detail = "compact: factors at half the size where the backend can; refined: the same, and "
-                 "each solve made accurate by another; full: factors in double.",
-       .get = [](const State& s) { return to_text(s.options.precision); },
-       .set = [](State& s,
-                 const Text& t) { return store(parse_precision(t), s.options.precision); },
-       .values = precision_names},
+       .values = constraints},
+      choice<&HeatOptions::heat>(
+          {.name = "heat",
+           .of_heat = true,
+           .value_name = "MODE",
+           .help = "what the heat step diffuses",
+           .detail =
+               "unit: 1 on every source; diffuse: weighted with the source's area; hold: u = 1 "
+               "held on the sources."}),
+      choice<&HeatOptions::boundary>(
+          {.name = "boundary",
+           .of_heat = true,
+           .value_name = "RULE",
+           .help = "the condition on u along the border",
+           .detail =
+               "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
+               "both."}),
+      choice<&HeatOptions::laplacian>(
+          {.name = "laplacian",
+           .of_heat = true,
+           .value_name = "KIND",
+           .help = "which triangulation carries the operators",
+           .detail =
+               "auto flips edges where weights would be negative, on the tufted cover where edges "
+               "have three faces, and inserts vertices (refined) where faces are too large or the "
+               "border is obtuse; cotan takes the mesh as it is."}),
+      choice<&HeatOptions::variant>(
+          {.name = "variant",
+           .of_heat = true,
+           .value_name = "NAME",
+           .help = "how the method is discretised",
+           .detail = "corrected: this program's; classic: as first published."}),
+      choice<&HeatOptions::precision>(
+          {.name = "precision",
+           .of_heat = true,
+           .value_name = "NAME",
+           .help = "how accurately systems are solved",
+           .detail =
+               "compact: factors at half the size where the backend can; refined: the same, and "
+               "each solve made accurate by another; full: factors in double."}),
       {.name = "memory-limit",
        .of_heat = true,
        .value_name = "SIZE",
@@ -323,12 +295,8 @@ std::vector<Setting> method_settings() {
              names.insert(names.begin(), "auto");
              return names;
            }},
-      {.name = "check",
-       .group = kCheck,
-       .help = "what the distances are held against",
-       .get = check_text,
-       .set = set_check,
-       .values = check_names},
+      choice<&ViewerState::check>(
+          {.name = "check", .group = kCheck, .help = "what the distances are held against"}),
   };
 }
 

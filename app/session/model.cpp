@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "app/session/progress.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/io.h"
 #include "geotherm/mesh.h"
 #include "solver/core/stopwatch.h"

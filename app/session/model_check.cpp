@@ -31,14 +31,14 @@ bool is_poor(const CheckedMethod& checked) { return checked.error.report.is_poor
 /// where there is no better method. `ask`: takes MethodOptions, the method of the reference and a
 /// progress. Errors: those of the first one, kCancelled.
 template <class Asked, class Ask>
-Result<std::optional<Asked>> ask_better(const MethodOptions& poor, CheckMode mode, Index faces,
+Result<std::optional<Asked>> ask_better(const MethodOptions& poor, Check check, Index faces,
                                         const Progress& progress, Ask&& ask) {
-  const std::vector<MethodKind> kinds = better_methods(poor.method, mode, faces);
+  const std::vector<MethodKind> kinds = better_methods(poor.method, check, faces);
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
   std::optional<Asked> best;
   double done = 0;
   for (const MethodKind kind : kinds) {
-    auto next = ask(better_options(poor, kind), reference_of_better(kind, mode, faces),
+    auto next = ask(better_options(poor, kind), reference_of_better(kind, check, faces),
                     part_of(progress, done, done + share));
     if (!next && (!best || next.error().code == ErrorCode::kCancelled)) return next.error();
     if (!next) break;  // what was poor, too, is better than nothing
@@ -78,10 +78,10 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
 
 /// The report on answers, without a search for a remedy. Errors: kCancelled.
 Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKind kind,
-                                         CheckMode mode, const DistanceMethod& beside,
+                                         Check check, const DistanceMethod& beside,
                                          const Progress& progress) {
   const MethodKind checked = answers.method.kind();
-  if (!is_better(kind, checked)) return unchecked(checked, mode);
+  if (!is_better(kind, checked)) return unchecked(checked, check);
   const auto solved = solve_reference(kind, answers, beside, progress);
   if (!solved && solved.error().code == ErrorCode::kCancelled) return solved.error();
   if (!solved) return failed_check(checked, solved.error());
@@ -92,17 +92,27 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
   }
 }
 
+/// Looks for a remedy: in a thorough check also where the distances are fair, but not in a session,
+/// where the next answer waits. Errors: kCancelled.
+Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswers& answers,
+                                      Check check, const Progress& progress) try {
+  if (!report.measured) return {};
+  const bool further = is_thorough(check) && use_ == Use::kOneAnswer;
+  return geotherm::find_remedy(report, model_.mesh, answers, reference_->answers,
+                               further ? RemedySearch::kWhereNotGood : RemedySearch::kWherePoor,
+                               progress);
+} catch (const std::bad_alloc&) {
+  return {};  // the figures stand without it
+}
+
 /// Searches a remedy, applies OnPoor, and stores the report in the answer. Errors:
 /// kNumericalFailure (OnPoor::kFail), kCancelled.
 Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
                                  const CheckSettings& settings, const Progress& progress) {
   if (!settings.quick) {
-    const CheckMode search = settings.against ? CheckMode::kUsual : settings.mode;
-    if (report.measured) {
-      auto found = find_remedy(report, model_.mesh, checked_answers(answer), reference_->answers,
-                               search, with_prefix(progress, "finding the cause: "));
-      if (!found) return found;
-    }
+    auto found = find_remedy(report, checked_answers(answer), settings.against,
+                             with_prefix(progress, "finding the cause: "));
+    if (!found) return found;
     const Warning line = accuracy_line(report);
     if (settings.on_poor == OnPoor::kFail) {
       if (auto right = refuse_poor(report, line); !right) {
@@ -121,7 +131,7 @@ Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
                                 const Progress& progress) {
   const MethodKind kind = reference_in(settings, answer.method->kind(), model_.mesh->face_count());
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
-  auto report = hold(checked_answers(answer), kind, settings.mode, *answer.method,
+  auto report = hold(checked_answers(answer), kind, settings.against, *answer.method,
                      part_of(progress, 0.0, 0.6));
   if (!report) return report.error();
   return settle(answer, *std::move(report), settings, part_of(progress, 0.6, 1.0));
@@ -130,20 +140,20 @@ Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
 /// Answers by a better method in place of a poor one. Errors: those of its solve.
 Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources,
                                   const Wanted& wanted, const Progress& progress) {
-  const CheckMode mode = wanted.check.mode;
+  const Check check = wanted.check.against;
   QueryOptions query = wanted.query;
   query.fields = false;
   const auto ask = [&](const MethodOptions& options, MethodKind against,
                        const Progress& part) -> Result<Answer> {
     auto next = distances(options, sources, query, part_of(part, 0.0, 0.5));
     if (!next) return next;
-    auto report = hold(checked_answers(*next), against, CheckMode::kUsual, *answer.method,
-                       part_of(part, 0.5, 1.0));
+    auto report =
+        hold(checked_answers(*next), against, Check::kOn, *answer.method, part_of(part, 0.5, 1.0));
     if (!report) return report.error();
     next->error = std::make_shared<const AccuracyReport>(*std::move(report));
     return next;
   };
-  auto better = ask_better<Answer>(answer.options, mode, model_.mesh->face_count(), progress, ask);
+  auto better = ask_better<Answer>(answer.options, check, model_.mesh->face_count(), progress, ask);
   if (!better) return better.error();
   if (!*better) {
     describe_mesh(answer);
@@ -174,18 +184,17 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
   const auto checked = [&](const ReadyMethod& by, MethodKind against, bool searches,
                            const Progress& part) -> Result<SampleCheck> {
     if (!is_better(MethodKind::kWavefront, by.options.method) && searches) {
-      return SampleCheck{unchecked(by.options.method, settings.mode), all.size(), 0};
+      return SampleCheck{unchecked(by.options.method, settings.against), all.size(), 0};
     }
     auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
     if (!results) return about_model(model_.name, results.error());
     std::vector<std::vector<double>> distances;
     for (DistanceResult& result : *results) distances.push_back(std::move(result.distances));
     const CheckedAnswers answers{*by.method, by.options, sets, distances};
-    auto report = hold(answers, against, settings.mode, *ready.method, part_of(part, 0.2, 0.5));
+    auto report = hold(answers, against, settings.against, *ready.method, part_of(part, 0.2, 0.5));
     if (!report) return report.error();
-    if (searches && settings.on_poor != OnPoor::kBetter && report->measured) {
-      auto found = find_remedy(*report, model_.mesh, answers, reference_->answers, settings.mode,
-                               part_of(part, 0.5, 1.0));
+    if (searches && settings.on_poor != OnPoor::kBetter) {
+      auto found = find_remedy(*report, answers, settings.against, part_of(part, 0.5, 1.0));
       if (!found) return found.error();
     }
     reference_.reset();
@@ -216,7 +225,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     if (!error) return error.error();
     return CheckedMethod{*by, *std::move(error), {}, {}};
   };
-  auto better = ask_better<CheckedMethod>(ready.options, settings.mode, faces,
+  auto better = ask_better<CheckedMethod>(ready.options, settings.against, faces,
                                           part_of(checking, 0.5, 1.0), ask);
   if (!better) return better.error();
   if (!*better) {

@@ -144,7 +144,7 @@ void ModelSolver::describe_mesh(Answer& answer) const {
 
 Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSources& sources,
                                   const Wanted& wanted, const Progress& progress) {
-  const bool checks = wanted.check.mode != CheckMode::kNone;
+  const bool checks = wanted.check.against != Check::kOff;
   const double solved = checks ? 0.8 : 1.0;  // share of the whole
   auto answer = distances(options, sources, wanted.query, part_of(progress, 0.0, solved));
   if (!answer) return answer;
@@ -158,7 +158,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
         const MethodKind kind = answer->method->kind();
         report = hold(checked_answers(*answer),
                       reference_in(wanted.check, kind, model_.mesh->face_count()),
-                      wanted.check.mode, *answer->method, with_prefix(checking, "checking: "));
+                      wanted.check.against, *answer->method, with_prefix(checking, "checking: "));
       },
       [&] {
         if (summary_) return;

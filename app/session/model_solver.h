@@ -20,7 +20,7 @@ namespace geotherm::app {
 /// What is wanted of an answer beside its distances.
 struct Wanted {
   QueryOptions query = {};  ///< with `nearest`: the nearest sources whatever the method
-  CheckSettings check = {CheckMode::kNone};
+  CheckSettings check = {Check::kOff};
 };
 
 /// A method that is ready.
@@ -76,7 +76,7 @@ class ModelSolver {
   Result<void> check(Answer& answer, const CheckSettings& settings, const Progress& progress = {});
 
   /// Checks a method of prepare() on some of the sets, and does what is to be done where it is
-  /// poor. Precondition: settings.mode is not kNone. Errors: those of solve().
+  /// poor. Precondition: settings.against is not kOff. Errors: those of solve().
   Result<CheckedMethod> check_method(const ReadyMethod& ready, std::span<const SourceSet> sets,
                                      const CheckSettings& settings, const Progress& progress = {});
 
@@ -103,8 +103,10 @@ class ModelSolver {
   // model_check.cpp
   Result<void> solve_reference(MethodKind kind, const CheckedAnswers& answers,
                                const DistanceMethod& beside, const Progress& progress);
-  Result<AccuracyReport> hold(const CheckedAnswers& answers, MethodKind kind, CheckMode mode,
+  Result<AccuracyReport> hold(const CheckedAnswers& answers, MethodKind kind, Check check,
                               const DistanceMethod& beside, const Progress& progress);
+  Result<void> find_remedy(AccuracyReport& report, const CheckedAnswers& answers, Check check,
+                           const Progress& progress);
   Result<void> settle(Answer& answer, AccuracyReport report, const CheckSettings& settings,
                       const Progress& progress);
   Result<void> replace(Answer& answer, const ResolvedSources& sources, const Wanted& wanted,

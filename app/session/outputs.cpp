@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 #include "solver/mesh/output_file.h"
 

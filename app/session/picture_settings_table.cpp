@@ -5,7 +5,7 @@
 
 #include "app/picture/picture_text.h"
 #include "app/session/settings.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 
 namespace geotherm::app {
@@ -70,13 +70,8 @@ Setting picture_switch(std::string_view name, std::string_view option, std::stri
 
 std::vector<Setting> picture_settings_table() {
   return {
-      {.name = "view",
-       .group = kPicture,
-       .value_name = "VIEW",
-       .help = "what is shown",
-       .get = [](const State& s) { return to_text(s.picture.view); },
-       .set = [](State& s, const Text& t) { return store(parse_view(t), s.picture.view); },
-       .values = view_names},
+      choice<&PictureSettings::view>(
+          {.name = "view", .group = kPicture, .value_name = "VIEW", .help = "what is shown"}),
       {.name = "size",
        .group = kPicture,
        .value_name = "WxH",
@@ -123,21 +118,12 @@ std::vector<Setting> picture_settings_table() {
            },
        .set = [](State& s,
                  const Text& t) { return store(parse_spacing(t), s.picture.line_spacing); }},
-      {.name = "light",
-       .group = kPicture,
-       .value_name = "NAME",
-       .help = "on the surface",
-       .get = [](const State& s) { return to_text(s.picture.light); },
-       .set = [](State& s, const Text& t) { return store(parse_light(t), s.picture.light); },
-       .values = light_names},
-      {.name = "background",
-       .group = kPicture,
-       .value_name = "NAME",
-       .help = "of the picture",
-       .get = [](const State& s) { return to_text(s.picture.background); },
-       .set = [](State& s,
-                 const Text& t) { return store(parse_background(t), s.picture.background); },
-       .values = background_names},
+      choice<&PictureSettings::light>(
+          {.name = "light", .group = kPicture, .value_name = "NAME", .help = "on the surface"}),
+      choice<&PictureSettings::background>({.name = "background",
+                                            .group = kPicture,
+                                            .value_name = "NAME",
+                                            .help = "of the picture"}),
       picture_switch<&PictureSettings::bar>("bar", "--no-bar", "off", "the colour bar"),
       picture_switch<&PictureSettings::caption>("caption", "--no-caption", "off",
                                                 "the line about model, t and backend"),
@@ -185,14 +171,13 @@ std::vector<Setting> picture_settings_table() {
        .get = [](const State& s) { return centre_text(s.picture.camera); },
        .set = [](State& s,
                  const Text& t) { return store(parse_centre(t), s.picture.camera.centre); }},
-      {.name = "fit",
-       .group = kCamera,
-       .value_name = "HOW",
-       .help = "how the model fills the picture",
-       .detail = "tight: as large as it can be from here; sphere: the same size from everywhere.",
-       .get = [](const State& s) { return to_text(s.picture.camera.fit); },
-       .set = [](State& s, const Text& t) { return store(parse_fit(t), s.picture.camera.fit); },
-       .values = fit_names},
+      choice<&CameraSettings::fit>(
+          {.name = "fit",
+           .group = kCamera,
+           .value_name = "HOW",
+           .help = "how the model fills the picture",
+           .detail =
+               "tight: as large as it can be from here; sphere: the same size from everywhere."}),
       {.name = "projection",
        .group = kCamera,
        .value_name = "NAME",

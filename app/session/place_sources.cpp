@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/mesh.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/mesh/connectivity.h"

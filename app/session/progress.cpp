@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {

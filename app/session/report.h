@@ -6,11 +6,16 @@
 #include <string>
 
 #include "app/session/answer.h"
+#include "app/session/settings.h"
 
 namespace geotherm::app {
 
 /// Keeps the keys in the order in which they are written.
 using Json = nlohmann::ordered_json;
+
+/// A setting as its kind is written, and its key.
+Json setting_json(const Setting& setting, const ViewerState& state);
+std::string key_of(const Setting& setting);
 
 /// The keys of `model` that every report has.
 Json model_json(const std::string& name, const MeshSummary& mesh);

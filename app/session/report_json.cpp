@@ -6,10 +6,9 @@
 #include "app/session/answer.h"
 #include "app/session/machine.h"
 #include "app/session/report.h"
-#include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/parallel.h"
@@ -132,6 +131,20 @@ Json tried_json(const TriedSetting& tried) {
 
 }  // namespace
 
+Json setting_json(const Setting& setting, const ViewerState& state) {
+  const std::string text = setting.get(state);
+  if (setting.kind == SettingKind::kSwitch) return text == "on";
+  if (setting.kind == SettingKind::kWord) return text;
+  if (const auto whole = number_in<std::int64_t>(text)) return *whole;
+  return *number_in<double>(text);
+}
+
+std::string key_of(const Setting& setting) {
+  std::string key(setting.name);
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
 Json model_json(const std::string& name, const MeshSummary& mesh) {
   return {{"name", name},
           {"vertices", mesh.vertices},
@@ -215,21 +228,6 @@ Json refinement_json(const HeatMethod& heat) {
 Json times_json(const HeatMethod& heat) {
   const auto [least, most] = heat.t_range();
   return least < most ? Json{least, most} : Json::array({least});
-}
-
-/// What the setting is, as its kind is written in JSON.
-Json setting_json(const Setting& setting, const ViewerState& state) {
-  const std::string text = setting.get(state);
-  if (setting.kind == SettingKind::kSwitch) return text == "on";
-  if (setting.kind == SettingKind::kWord) return text;
-  if (const auto whole = number_in<std::int64_t>(text)) return *whole;
-  return *number_in<double>(text);
-}
-
-std::string key_of(const Setting& setting) {
-  std::string key(setting.name);
-  std::ranges::replace(key, '-', '_');
-  return key;
 }
 
 /// The settings as they were used, then what the method made of them.

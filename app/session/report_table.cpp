@@ -3,8 +3,8 @@
 
 #include "app/session/report.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/parallel.h"

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "app/session/command.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/io.h"
 #include "solver/core/text.h"
 

@@ -7,8 +7,8 @@
 
 #include "app/session/script.h"
 #include "app/session/session_state.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/session/report.h"
 #include "app/session/script.h"
 #include "app/session/session_state.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "geotherm/io.h"
 
 namespace geotherm::app {

@@ -9,8 +9,8 @@
 #include "app/session/explored.h"
 #include "app/session/session_state.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -53,8 +53,8 @@ ExploreRequest Session::State::wanted() const {
   request.fields = needs_fields(state.picture.view) || state.picked.has_value();
   request.quality = !dragging;
   const View view = state.picture.view;
-  const bool usual = state.check == Check::kOff || state.check == Check::kOn;
-  request.check = usual && view == View::kExactError ? Check::kAuto : state.check;
+  request.check = state.check;
+  if (view == View::kExactError) request.check = std::max(request.check, Check::kAuto);
   // What moves is not checked: it comes to rest first.
   if (dragging && request.check == Check::kOn) request.check = Check::kOff;
   request.target = state.target;

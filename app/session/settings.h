@@ -4,14 +4,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "app/session/state.h"
 #include "geotherm/error.h"
+#include "geotherm/names.h"
 
 // The one table of settings. An entry makes the command-line option, its line of help, the command
-// of scripts and its completion, the row of the panel, and the JSON.
+// of scripts and its completion, the row of the panel, the JSON and the texts of pictures.
 namespace geotherm::app {
 
 /// What a setting is about; the heading of its options in the help.
@@ -43,6 +45,9 @@ struct Setting {
 
   /// Whether it changes the answer, not only the picture.
   bool of_method() const { return group == SettingGroup::kMethod || group == SettingGroup::kModel; }
+  bool of_picture() const {
+    return group == SettingGroup::kPicture || group == SettingGroup::kCamera;
+  }
 };
 
 /// All of them, in the order of panels and help.
@@ -65,6 +70,32 @@ Result<void> store(Result<Value> parsed, Into& into) {
   if (!parsed) return parsed.error();
   into = *std::move(parsed);
   return {};
+}
+
+/// A member of the state, of its options, its picture or its camera.
+template <class Value, class Part>
+auto& member_of(auto& state, Value Part::*member) {
+  if constexpr (std::is_base_of_v<Part, MethodOptions>) {
+    return state.options.*member;
+  } else if constexpr (std::is_same_v<Part, PictureSettings>) {
+    return state.picture.*member;
+  } else if constexpr (std::is_same_v<Part, CameraSettings>) {
+    return state.picture.camera.*member;
+  } else {
+    return state.*member;
+  }
+}
+
+/// A setting that is one of the names of an enum (geotherm/names.h).
+template <auto kMember>
+Setting choice(Setting setting) {
+  using Value = std::remove_cvref_t<decltype(member_of(std::declval<ViewerState&>(), kMember))>;
+  setting.get = [](const ViewerState& s) { return to_text(member_of(s, kMember)); };
+  setting.set = [](ViewerState& s, const std::string& text) {
+    return store(parse<Value>(text), member_of(s, kMember));
+  };
+  setting.values = all_names<Value>;
+  return setting;
 }
 
 /// The groups of the table; settings() joins them.

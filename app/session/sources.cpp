@@ -7,8 +7,8 @@
 #include <span>
 #include <system_error>
 
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/picture/picture_settings.h"
+#include "app/session/check.h"
 #include "app/session/model.h"
 #include "app/session/sources.h"
 #include "geotherm/build_method.h"
@@ -18,15 +19,6 @@ enum class Shown {
   kA,           ///< the present settings
   kB,           ///< the kept ones
   kDifference,  ///< d_A - d_B
-};
-
-/// What distances are held against.
-enum class Check {
-  kOff,
-  kOn,    ///< usual_reference(), for answers that rest: they are shown before they are checked
-  kAuto,  ///< the best method that fits the mesh (reference_for())
-  kWavefrontFine,
-  kExact,
 };
 
 /// All that decides what the program shows; a plain value. What commands change and session files

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
@@ -28,11 +28,6 @@ std::vector<std::string> told(const std::vector<Warning>& warnings) {
 }
 
 std::string told(const AccuracyReport& report) { return sentence(report, kBeforeOption); }
-
-Error bad_value(const std::string& text, const std::string& why, const std::string& hint) {
-  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why,
-          hint.empty() ? Hint() : Hint{hint}};
-}
 
 Warning warning_of(Error error) {
   Hint hint = std::exchange(error.hint, {});
@@ -68,6 +63,11 @@ std::string method_caption(const DistanceMethod& method) {
   const double t = heat->t();
   const bool is_double = std::isnormal(t);  // a model of size 1e200 or 1e-200 has another t
   return (is_double ? "t = " + significant(t) + ", " : "") + heat->options().backend;
+}
+
+std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method) {
+  const std::string text = one_line(model) + ", " + counted(faces, "face", "faces");
+  return method == nullptr ? text : text + ", " + method_caption(*method);
 }
 
 std::string laplacian_name(const HeatMethod& method) { return to_text(method.laplacian()); }

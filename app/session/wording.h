@@ -22,9 +22,6 @@ std::string told(const Warning& warning);
 std::vector<std::string> told(const std::vector<Warning>& warnings);
 std::string told(const AccuracyReport& report);
 
-/// kBadInput: "'TEXT' WHY", and what to do in its hint.
-Error bad_value(const std::string& text, const std::string& why, const std::string& hint = {});
-
 /// What the error says, where the work goes on all the same.
 Warning warning_of(Error error);
 
@@ -43,6 +40,9 @@ std::string solver_at_work(const DistanceMethod& method, const DistanceResult& r
 
 /// "t = 0.0123, cholmod", or the name of another method.
 std::string method_caption(const DistanceMethod& method);
+
+/// "bunny, 4,000 faces, t = 0.0123, cholmod"; `method`: null without a solve.
+std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method);
 
 /// "cotan", or what else the Laplacian of a method is that was built.
 std::string laplacian_name(const HeatMethod& method);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In builds without the viewer, instead of the real one.
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 
 namespace geotherm::app {
 namespace {

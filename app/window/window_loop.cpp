@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "app/cli/picture_report.h"
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "app/session/machine.h"
-#include "app/session/text.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "app/window/view_canvas.h"
 #include "engine/overlay/overlay.h"
 #include "engine/scene/colours.h"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "app/window/scene_screen.h"
 #include "engine/window/window.h"
 #include "ui/interface.h"

@@ -2,8 +2,9 @@
 #include "solver/core/text.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "geotherm/error.h"
+#include "geotherm/names.h"
 
 namespace geotherm {
 namespace {
@@ -89,6 +90,15 @@ std::string sentence(const std::string& message, const Hint& hint, std::string_v
 
 std::string sentence(const Warning& warning, std::string_view before_name) {
   return sentence(warning.message, warning.hint, before_name);
+}
+
+Error unknown_name(ErrorCode code, std::string_view unknown, std::string_view text,
+                   const std::vector<std::string>& names) {
+  std::string message(unknown);
+  message.replace(message.find('*'), 1, printable(text));
+  std::string known;
+  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+  return {code, std::move(message), {"there are " + known}};
 }
 
 std::string sentence(const Error& error, std::string_view before_name) {

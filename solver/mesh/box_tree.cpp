@@ -24,12 +24,12 @@ float area(const FloatBox& box) {
   return x < 0 ? 0.0F : x * y + y * z + z * x;
 }
 
-struct Extent {
+struct BoxExtent {
   FloatBox boxes, centres;
 };
 
-Extent extent_of(std::span<const BoxItem> items) {
-  Extent out;
+BoxExtent extent_of(std::span<const BoxItem> items) {
+  BoxExtent out;
   for (const BoxItem& item : items) {
     out.boxes.add(item.box);
     FloatBox point;
@@ -40,11 +40,11 @@ Extent extent_of(std::span<const BoxItem> items) {
 }
 
 /// Maps centres along an axis to bins.
-struct Bins {
+struct BoxBins {
   std::size_t axis = 0;
   float low = 0, scale = 0;
 
-  explicit Bins(const FloatBox& centres) {
+  explicit BoxBins(const FloatBox& centres) {
     float length = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (!(centres.high[k] - centres.low[k] > length)) continue;
@@ -64,7 +64,7 @@ struct Cut {
   float cost = std::numeric_limits<float>::infinity();  // area times items
 };
 
-Cut best_cut(std::span<const BoxItem> items, const Bins& bins) {
+Cut best_cut(std::span<const BoxItem> items, const BoxBins& bins) {
   std::array<FloatBox, kSplitBins> boxes;
   std::array<std::size_t, kSplitBins> counts{};
   for (const BoxItem& item : items) {
@@ -94,9 +94,9 @@ Cut best_cut(std::span<const BoxItem> items, const Bins& bins) {
 }
 
 /// The size of the left part after `items` are put in order; 0: they should be a leaf.
-std::size_t split(std::span<BoxItem> items, const Extent& extent, int depth) {
+std::size_t split(std::span<BoxItem> items, const BoxExtent& extent, int depth) {
   if (items.size() <= 1) return 0;
-  const Bins bins(extent.centres);
+  const BoxBins bins(extent.centres);
   const Cut cut = depth < kHalvesFrom && bins.scale > 0 ? best_cut(items, bins) : Cut{};
   if (items.size() <= kBoxLeaf) {
     const float whole = area(extent.boxes);
@@ -140,7 +140,7 @@ Result<BoxTree> build_box_tree(std::vector<BoxItem> items, const Progress& progr
       return cancelled_error();
     }
     const std::span<BoxItem> part(items.data() + begin, end - begin);
-    const Extent extent = extent_of(part);
+    const BoxExtent extent = extent_of(part);
     const std::size_t left = split(part, extent, depth);
     const std::size_t first = left == 0 ? begin : tree.nodes.size();
     tree.nodes[node] = {extent.boxes, static_cast<std::uint32_t>(first),

@@ -37,17 +37,6 @@ bool fits_float(std::span<const double> row) {
 
 }  // namespace
 
-std::string to_text(NpyType type) { return type == NpyType::kFloat64 ? "float64" : "float32"; }
-
-Result<NpyType> parse_npy_type(std::string_view text) {
-  for (const NpyType type : {NpyType::kFloat64, NpyType::kFloat32}) {
-    if (to_text(type) == text) return type;
-  }
-  return Error{ErrorCode::kNotAvailable,
-               "there is no type of numbers '" + io::printable(std::string(text)) + "'",
-               {"there are float64, float32"}};
-}
-
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
   return header_of(rows, columns, type).size() + rows * columns * size_of(type);
 }

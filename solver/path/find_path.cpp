@@ -148,19 +148,6 @@ std::string place_text(const Vec3& p) {
 
 }  // namespace
 
-std::vector<std::string> path_field_names() { return {"geodesic", "distance", "heat"}; }
-
-std::string to_text(PathField field) { return path_field_names()[static_cast<std::size_t>(field)]; }
-
-Result<PathField> parse_path_field(std::string_view text) {
-  for (const PathField field : {PathField::kGeodesic, PathField::kDistance, PathField::kHeat}) {
-    if (to_text(field) == text) return field;
-  }
-  return Error{ErrorCode::kNotAvailable,
-               "there is no field '" + std::string(text) + "' to follow",
-               {"there are geodesic, distance, heat"}};
-}
-
 PathFinder::PathFinder(std::shared_ptr<const TriangleMesh> mesh,
                        std::shared_ptr<const DistanceMethod> method)
     : surface_(std::make_shared<const PathSurface>(std::move(mesh))), method_(std::move(method)) {}

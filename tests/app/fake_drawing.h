@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/picture/drawing.h"
+#include "app/cli/viewer_window.h"
 #include "app/picture/picture_settings.h"
 
 namespace geotherm::test {

@@ -8,7 +8,6 @@
 namespace geotherm::test {
 namespace {
 
-using app::parse_view;
 using app::PictureArguments;
 using app::PictureFit;
 using app::PictureSettings;
@@ -99,19 +98,18 @@ TEST(PictureOptions, OfABareFitAreTight) {
   EXPECT_EQ(completed({"--fit=sphere"}), (Words{"--fit=sphere"}));
 }
 
+template <class Enum>
+void expect_read_back() {
+  for (const std::string& name : all_names<Enum>()) EXPECT_EQ(to_text(*parse<Enum>(name)), name);
+}
+
 TEST(PictureText, ReadsBack) {
-  for (const std::string& name : app::view_names()) EXPECT_EQ(to_text(*parse_view(name)), name);
-  for (const std::string& name : app::light_names()) {
-    EXPECT_EQ(to_text(*app::parse_light(name)), name);
-  }
-  for (const std::string& name : app::background_names()) {
-    EXPECT_EQ(to_text(*app::parse_background(name)), name);
-  }
-  for (const std::string& name : app::fit_names()) {
-    EXPECT_EQ(to_text(*app::parse_fit(name)), name);
-  }
-  EXPECT_EQ(app::view_names().front(), "contours");
-  EXPECT_EQ(app::view_names().size(), 13U);
+  expect_read_back<app::View>();
+  expect_read_back<app::PictureLight>();
+  expect_read_back<app::PictureBackground>();
+  expect_read_back<PictureFit>();
+  EXPECT_EQ(all_names<app::View>().front(), "contours");
+  EXPECT_EQ(all_names<app::View>().size(), 13U);
 }
 
 struct Wrong {

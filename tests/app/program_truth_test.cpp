@@ -21,7 +21,7 @@ class ProgramTruth : public Program {
 };
 
 TEST_F(ProgramTruth, EveryMethodHasAllKeysOfSolve) {
-  for (const std::string& name : method_names()) {
+  for (const std::string& name : all_names<MethodKind>()) {
     const Json solved = json({"solve", "small.ply", "-s", "3", "--method", name, "--json", "-"});
     expect_keys(solved["options"],
                 keys({"method", "backend", "time_step", "time_factor", "t", "constraint", "heat",

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/cli/picture_report.h"
 #include "app/session/command.h"
 #include "app/session/model_solver.h"
 #include "app/session/report.h"
@@ -70,6 +72,20 @@ TEST(SettingsOptions, OfASettingThatIsAddedToTheTableAreEverywhere) {
   EXPECT_EQ(app::solve_json(*solved)["options"]["test_dial"], 2.5);
 }
 
+TEST(SettingsOptions, OfAPictureStandInItsFileAndItsJson) {
+  const app::ExtraSetting extra({.name = "test-glow",
+                                 .group = SettingGroup::kPicture,
+                                 .kind = SettingKind::kSwitch,
+                                 .get = [](const ViewerState&) { return std::string("on"); }});
+  app::PictureFigures figures;
+  figures.model = "square";
+  const std::vector<app::PngText> texts = app::picture_texts(figures, 0);
+  const auto glow = std::ranges::find(texts, "geotherm:test-glow", &app::PngText::keyword);
+  ASSERT_NE(glow, texts.end());
+  EXPECT_EQ(glow->text, "yes");
+  EXPECT_EQ(app::picture_json(figures)["picture"]["test_glow"], true);
+}
+
 TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
   CLI::App command;
   SettingArguments arguments;
@@ -78,6 +94,14 @@ TEST(SettingsOptions, HelpNamesTheValuesAndTheDefault) {
   for (const char* part : {"-m,--time-factor M", "m of the time step, default 1",
                            "auto (default), cotan, intrinsic-delaunay", "--strict"}) {
     EXPECT_NE(help.find(part), std::string::npos) << part << help;
+  }
+  for (const char* name : {"time-step", "constraint"}) {  // their forms are written by hand
+    const Setting& setting = *app::find_setting(name);
+    for (const std::string& value : setting.values()) {
+      const std::string what = value.substr(0, value.find(':'));
+      EXPECT_NE(setting.forms.find(what), std::string::npos) << value;
+      EXPECT_NE(setting.detail.find(what), std::string::npos) << value;
+    }
   }
 }
 

@@ -33,7 +33,7 @@ class SessionTruth : public SessionFixture {
 
 TEST_F(SessionTruth, MethodsAreSwitchedLiveAndShareTheModel) {
   run({"open " + small_model(), "source set 5"});
-  for (const std::string& name : method_names()) {
+  for (const std::string& name : all_names<MethodKind>()) {
     run({"method " + name});
     ASSERT_TRUE(session.explored().a);
     EXPECT_EQ(to_text(session.explored().a->method->kind()), name);

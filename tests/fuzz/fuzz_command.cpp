@@ -5,7 +5,7 @@
 #include "app/session/command.h"
 #include "app/session/settings.h"
 #include "app/session/sources.h"
-#include "app/session/text.h"
+#include "app/text/text.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace geotherm::test {

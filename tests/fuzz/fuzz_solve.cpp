@@ -171,8 +171,8 @@ std::string fuzz_solve(Bytes bytes) {
   if (const std::string fault = report_fault(*given.mesh); !fault.empty()) return fault;
   if (const std::string fault = welding_fault(given); !fault.empty()) return "weld: " + fault;
   std::vector<double> heat;
-  for (const std::string& name : method_names()) {
-    const MethodKind kind = *parse_method(name);
+  for (const std::string& name : all_names<MethodKind>()) {
+    const MethodKind kind = *parse<MethodKind>(name);
     std::vector<double> distances;
     const std::string fault = method_fault(given, kind, distances);
     if (!fault.empty()) return name + ": " + fault;

@@ -33,21 +33,21 @@ TEST(OptionText, OfConstraintsReadsBack) {
 
 TEST(OptionText, OfModesReadsBack) {
   for (const auto mode : {HeatMode::kUnit, HeatMode::kDiffuse, HeatMode::kHold}) {
-    EXPECT_EQ(*parse_heat_mode(to_text(mode)), mode);
+    EXPECT_EQ(*parse<HeatMode>(to_text(mode)), mode);
   }
   for (const auto rule :
        {BoundaryRule::kNeumann, BoundaryRule::kDirichlet, BoundaryRule::kAverage}) {
-    EXPECT_EQ(*parse_boundary_rule(to_text(rule)), rule);
+    EXPECT_EQ(*parse<BoundaryRule>(to_text(rule)), rule);
   }
   for (const auto kind : {LaplacianKind::kAuto, LaplacianKind::kCotan,
                           LaplacianKind::kIntrinsicDelaunay, LaplacianKind::kTufted}) {
-    EXPECT_EQ(*parse_laplacian(to_text(kind)), kind);
+    EXPECT_EQ(*parse<LaplacianKind>(to_text(kind)), kind);
   }
   for (const auto variant : {Variant::kCorrected, Variant::kClassic}) {
-    EXPECT_EQ(*parse_variant(to_text(variant)), variant);
+    EXPECT_EQ(*parse<Variant>(to_text(variant)), variant);
   }
   for (const auto precision : {Precision::kCompact, Precision::kRefined, Precision::kFull}) {
-    EXPECT_EQ(*parse_precision(to_text(precision)), precision);
+    EXPECT_EQ(*parse<Precision>(to_text(precision)), precision);
   }
 }
 
@@ -59,11 +59,11 @@ void expect_refused(const Result<T>& parsed, const std::string& says) {
 }
 
 TEST(OptionText, ThatIsUnknownIsRefusedWithTheNamesThereAre) {
-  expect_refused(parse_heat_mode("warm"), "diffuse");
-  expect_refused(parse_boundary_rule("robin"), "average");
-  expect_refused(parse_laplacian(""), "intrinsic-delaunay");
-  expect_refused(parse_variant("Classic"), "classic");
-  expect_refused(parse_precision("double"), "refined");
+  expect_refused(parse<HeatMode>("warm"), "diffuse");
+  expect_refused(parse<BoundaryRule>("robin"), "average");
+  expect_refused(parse<LaplacianKind>(""), "intrinsic-delaunay");
+  expect_refused(parse<Variant>("Classic"), "classic");
+  expect_refused(parse<Precision>("double"), "refined");
   expect_refused(parse_constraint("pin"), "pseudo-inverse");
   expect_refused(parse_time_step("mean"), "mean-edge");
 }

@@ -97,9 +97,9 @@ TEST(RoomFor, IsKnownOfFoldersAlone) {
 
 TEST(NpyType, ReadsBackFromItsText) {
   for (const NpyType type : {NpyType::kFloat64, NpyType::kFloat32}) {
-    EXPECT_EQ(*parse_npy_type(to_text(type)), type);
+    EXPECT_EQ(*parse<NpyType>(to_text(type)), type);
   }
-  EXPECT_NE(sentence(parse_npy_type("int").error()).find("float64, float32"), std::string::npos);
+  EXPECT_NE(sentence(parse<NpyType>("int").error()).find("float64, float32"), std::string::npos);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class EveryMethod : public testing::TestWithParam<std::string> {
 
   std::shared_ptr<const DistanceMethod> built() const {
     MethodOptions options;
-    options.method = *parse_method(GetParam());
+    options.method = *parse<MethodKind>(GetParam());
     auto method = build_method(mesh_, options);
     EXPECT_TRUE(method) << method.error().message;
     return *method;
@@ -87,7 +87,7 @@ TEST_P(EveryMethod, KnowsOffsetsOrSaysThatItDoesNot) {
   EXPECT_FALSE(method->solve(sources)) << "a negative offset";
 }
 
-INSTANTIATE_TEST_SUITE_P(Names, EveryMethod, testing::ValuesIn(method_names()),
+INSTANTIATE_TEST_SUITE_P(Names, EveryMethod, testing::ValuesIn(all_names<MethodKind>()),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::erase(name, '-');
@@ -95,9 +95,9 @@ INSTANTIATE_TEST_SUITE_P(Names, EveryMethod, testing::ValuesIn(method_names()),
                          });
 
 TEST(MethodKindTest, ListsTheNamesWhereThereIsNone) {
-  const auto none = parse_method("geodesic");
+  const auto none = parse<MethodKind>("geodesic");
   ASSERT_FALSE(none);
-  for (const std::string& name : method_names()) {
+  for (const std::string& name : all_names<MethodKind>()) {
     EXPECT_NE(sentence(none.error()).find(name), std::string::npos) << name;
   }
 }

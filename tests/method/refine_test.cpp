@@ -197,8 +197,8 @@ TEST_P(WeldedMethod, GivesMergedVerticesTheDistanceOfTheWholeSurface) {
   const auto mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
   const Index merged = mesh->vertex_count() - 1;  // the last corner is no first one
   ASSERT_NE(mesh->standing_for(merged), merged);
-  for (const std::string& name : method_names()) {
-    MethodOptions options = options_of(*parse_method(name), GetParam());
+  for (const std::string& name : all_names<MethodKind>()) {
+    MethodOptions options = options_of(*parse<MethodKind>(name), GetParam());
     options.constraint = {ConstraintMode::kPinVertex, merged, 0};
     const auto d = answer(mesh, SourceSet::of_vertices({merged}), options).distances;
     options.constraint.pin_vertex = of_whole[static_cast<std::size_t>(merged)];

@@ -163,7 +163,7 @@ TEST(Geodesic, BetweenComponentsIsRefused) {
   const PathFinder finder = finder_on(finish(draft));
   for (const char* field : {"geodesic", "distance"}) {
     const std::vector<SurfacePoint> ends = {vertex(0), vertex(60)};
-    const auto path = finder.find(ends, {*parse_path_field(field), false, false});
+    const auto path = finder.find(ends, {*parse<PathField>(field), false, false});
     ASSERT_FALSE(path);
     EXPECT_EQ(path.error().code, ErrorCode::kBadInput);
   }

@@ -39,7 +39,8 @@ const std::vector<Permission>& permissions() {
     names.insert(more.begin(), more.end());
     return names;
   };
-  const Names base = {"solver/core", "geotherm/types.h", "geotherm/error.h", "geotherm/progress.h"};
+  const Names base = {"solver/core", "geotherm/types.h", "geotherm/error.h", "geotherm/names.h",
+                      "geotherm/progress.h"};
   const Names mesh =
       with(base, {"solver/mesh", "geotherm/mesh.h", "geotherm/io.h", "geotherm/sources.h"});
   const Names linear = with(base, {"solver/linear", "geotherm/backend.h"});
@@ -79,16 +80,14 @@ const std::vector<Permission>& permissions() {
        {"app", "solver", "geotherm", "bench/models"},
        {"std", "cli11"},
        {}},
+      {"app/text", with(base, {"app/text"}), {"std"}, {}},
+      {"app/picture", {"app/picture", "app/text", "solver", "geotherm"}, {"std", "eigen"}, {"png"}},
       {"app/session",
-       {"app/session", "app/picture", "solver", "geotherm"},
+       {"app/session", "app/picture", "app/text", "solver", "geotherm"},
        {"std", "json", "eigen"},
        {"posix"}},
-      {"app/picture",
-       {"app/session", "app/picture", "solver", "geotherm"},
-       {"std", "json", "eigen"},
-       {"png"}},
       {"app/cli",
-       {"app/session", "app/picture", "app/cli", "solver", "geotherm"},
+       {"app/cli", "app/session", "app/picture", "app/text", "solver", "geotherm"},
        {"std", "cli11", "json", "eigen"},
        {"posix"}},
       {"ui", {"ui", "app"}, {"std", "imgui"}, {}},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geotherm/error.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
 #include "geotherm/sources.h"
 #include "geotherm/types.h"
@@ -23,15 +24,16 @@ enum class MethodKind {
   kFastMarching,   ///< first-order fast marching (Kimmel, Sethian 1998)
   kExact,          ///< exact polyhedral distance by window propagation
 };
-
-/// heat | wavefront | wavefront-fine | fast-marching | exact
-std::string to_text(MethodKind kind);
-
-/// Inverse of to_text(). Errors: kNotAvailable, with the names there are.
-Result<MethodKind> parse_method(std::string_view text);
-
-/// The names of all methods, the default first.
-std::vector<std::string> method_names();
+inline NamedValues<MethodKind> named_values(MethodKind) {
+  using enum MethodKind;
+  return {"there is no method '*'",
+          {{kHeat, "heat"},
+           {kWavefront, "wavefront"},
+           {kWavefrontFine, "wavefront-fine"},
+           {kFastMarching, "fast-marching"},
+           {kExact, "exact"}},
+          ErrorCode::kNotAvailable};
+}
 
 /// How good an answer is, computed from the answer itself.
 struct Quality {

@@ -18,6 +18,7 @@
 #include "geotherm/many.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
+#include "geotherm/names.h"
 #include "geotherm/options.h"
 #include "geotherm/path.h"
 #include "geotherm/polyhedral_methods.h"

@@ -10,6 +10,7 @@
 
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
+#include "geotherm/names.h"
 
 // Models from files, and distances, meshes and arrays to files.
 namespace geotherm {
@@ -100,12 +101,12 @@ Result<void> write_mesh(const std::string& path, const TriangleMesh& mesh);
 
 /// The numbers of a .npy array, little endian.
 enum class NpyType { kFloat64, kFloat32 };
-
-/// float64 | float32
-std::string to_text(NpyType type);
-
-/// Inverse of to_text(). Errors: kNotAvailable, with the names there are.
-Result<NpyType> parse_npy_type(std::string_view text);
+inline NamedValues<NpyType> named_values(NpyType) {
+  using enum NpyType;
+  return {"there is no type of numbers '*'",
+          {{kFloat64, "float64"}, {kFloat32, "float32"}},
+          ErrorCode::kNotAvailable};
+}
 
 /// Bytes of a file of rows x columns numbers, header included.
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type);

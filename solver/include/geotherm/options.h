@@ -3,9 +3,9 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "geotherm/error.h"
+#include "geotherm/names.h"
 #include "geotherm/types.h"
 
 // The options of the heat method, and their text. docs/numerics.md says what each does and what it
@@ -18,6 +18,11 @@ enum class TimeRule {
   kMeanFaceArea,  ///< t = m A / F, total area over number of faces
   kAbsolute,      ///< t = the given number
 };
+inline NamedValues<TimeRule> named_values(TimeRule) {
+  using enum TimeRule;
+  return {"'*' is no time step",
+          {{kMeanEdge, "mean-edge"}, {kMeanFaceArea, "mean-face-area"}, {kAbsolute, "absolute"}}};
+}
 
 struct TimeStep {
   TimeRule rule = TimeRule::kMeanEdge;
@@ -35,6 +40,15 @@ enum class ConstraintMode {
   kConserveEnergy,  ///< bordered with the masses: the total of phi is fixed
   kPseudoInverse,   ///< the minimum-norm solution
 };
+inline NamedValues<ConstraintMode> named_values(ConstraintMode) {
+  using enum ConstraintMode;
+  return {"'*' is no constraint mode",
+          {{kPinSources, "pin-sources"},
+           {kPinVertex, "pin-vertex"},
+           {kPenalty, "penalty"},
+           {kConserveEnergy, "conserve-energy"},
+           {kPseudoInverse, "pseudo-inverse"}}};
+}
 
 struct Constraint {
   ConstraintMode mode = ConstraintMode::kPinSources;
@@ -50,6 +64,10 @@ enum class HeatMode {
   kDiffuse,  ///< right side A u0: the source's mass (Crane et al. 2013, equation 3)
   kHold,     ///< u = 1 held on the sources
 };
+inline NamedValues<HeatMode> named_values(HeatMode) {
+  using enum HeatMode;
+  return {"'*' is no heat mode", {{kUnit, "unit"}, {kDiffuse, "diffuse"}, {kHold, "hold"}}};
+}
 
 /// The condition on u along the boundary; phi's is always Neumann.
 enum class BoundaryRule {
@@ -57,6 +75,11 @@ enum class BoundaryRule {
   kDirichlet,  ///< u = 0 on the boundary
   kAverage,    ///< the mean of both solutions
 };
+inline NamedValues<BoundaryRule> named_values(BoundaryRule) {
+  using enum BoundaryRule;
+  return {"'*' is no boundary rule",
+          {{kNeumann, "neumann"}, {kDirichlet, "dirichlet"}, {kAverage, "average"}}};
+}
 
 /// How the method is discretised (docs/numerics.md, "What is corrected").
 enum class Variant {
@@ -64,6 +87,10 @@ enum class Variant {
                ///< faces; where vertices were inserted, near-exact distances around sources
   kClassic,    ///< as published: lumped mass, |X| = 1 on every face
 };
+inline NamedValues<Variant> named_values(Variant) {
+  using enum Variant;
+  return {"'*' is no variant", {{kCorrected, "corrected"}, {kClassic, "classic"}}};
+}
 
 /// Which triangulation of the surface carries the operators.
 enum class LaplacianKind {
@@ -76,6 +103,15 @@ enum class LaplacianKind {
   kRefined,            ///< Delaunay flips, on the cover where needed, and inserted vertices where
                        ///< faces are too large for t or the boundary is obtuse
 };
+inline NamedValues<LaplacianKind> named_values(LaplacianKind) {
+  using enum LaplacianKind;
+  return {"'*' is no Laplacian",
+          {{kAuto, "auto"},
+           {kCotan, "cotan"},
+           {kIntrinsicDelaunay, "intrinsic-delaunay"},
+           {kTufted, "tufted"},
+           {kRefined, "refined"}}};
+}
 
 /// How accurately systems are solved (docs/numerics.md, "Precision"). Iterative backends, which
 /// hold no factor and have a tolerance of their own, ignore it.
@@ -84,6 +120,10 @@ enum class Precision {
   kRefined,  ///< the same factors, and a step of iterative refinement in double a solve
   kFull,     ///< factors in double
 };
+inline NamedValues<Precision> named_values(Precision) {
+  using enum Precision;
+  return {"'*' is no precision", {{kCompact, "compact"}, {kRefined, "refined"}, {kFull, "full"}}};
+}
 
 /// All options of the heat method. The defaults are the recommended ones.
 struct HeatOptions {
@@ -103,30 +143,13 @@ struct HeatOptions {
   bool operator==(const HeatOptions&) const = default;
 };
 
-/// The text form of each option, as programs read and show it.
-/// parse(to_text(x)) == x for every x. Errors list the values there are.
+/// The text form of the options that are more than an enum, as programs read and show it.
+/// parse_...(to_text(x)) == x for every x. Errors list the values there are.
 std::string to_text(const TimeStep& step);          // mean-edge | mean-face-area | absolute:T
 std::string to_text(const Constraint& constraint);  // pin-sources | pin-vertex[:V] | penalty:C ...
-std::string to_text(HeatMode mode);
-std::string to_text(BoundaryRule rule);
-std::string to_text(LaplacianKind kind);
-std::string to_text(Variant variant);
-std::string to_text(Precision precision);
-
-/// Every name of a kind, the default first.
-std::vector<std::string> heat_mode_names();
-std::vector<std::string> boundary_rule_names();
-std::vector<std::string> laplacian_names();
-std::vector<std::string> variant_names();
-std::vector<std::string> precision_names();
 
 /// `factor` (m) is no part of the time step's text; it is kept from the argument.
 Result<TimeStep> parse_time_step(std::string_view text, double factor = 1.0);
 Result<Constraint> parse_constraint(std::string_view text);
-Result<HeatMode> parse_heat_mode(std::string_view text);
-Result<BoundaryRule> parse_boundary_rule(std::string_view text);
-Result<LaplacianKind> parse_laplacian(std::string_view text);
-Result<Variant> parse_variant(std::string_view text);
-Result<Precision> parse_precision(std::string_view text);
 
 }  // namespace geotherm

@@ -10,6 +10,7 @@
 
 #include "geotherm/distance_method.h"
 #include "geotherm/mesh.h"
+#include "geotherm/names.h"
 
 // Paths on the surface: polylines, the shortest ones, and files of them.
 namespace geotherm {
@@ -51,11 +52,12 @@ enum class PathField {
   kDistance,  ///< -grad phi, the distance from its start, backwards from its end
   kHeat,      ///< X = -grad u / |grad u| of the heat method, likewise
 };
-
-/// geodesic | distance | heat. Errors: kNotAvailable, with the names there are.
-std::string to_text(PathField field);
-Result<PathField> parse_path_field(std::string_view text);
-std::vector<std::string> path_field_names();
+inline NamedValues<PathField> named_values(PathField) {
+  using enum PathField;
+  return {"there is no field '*' to follow",
+          {{kGeodesic, "geodesic"}, {kDistance, "distance"}, {kHeat, "heat"}},
+          ErrorCode::kNotAvailable};
+}
 
 struct PathOptions {
   PathField field = PathField::kGeodesic;

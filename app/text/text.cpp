@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/session/text.h"
+#include "app/text/text.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,11 @@
 #include "solver/core/text.h"
 
 namespace geotherm::app {
+
+Error bad_value(const std::string& text, const std::string& why, const std::string& hint) {
+  return {ErrorCode::kBadInput, "'" + one_line(text) + "' " + why,
+          hint.empty() ? Hint() : Hint{hint}};
+}
 
 std::string fixed(double value, int decimals) {
   std::array<char, 400> buffer{};

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <vector>
 
+#include "geotherm/error.h"
+
 // Numbers to text and back, the same in every locale.
 namespace geotherm::app {
 
@@ -88,5 +90,8 @@ class TextTable {
 /// A command on one line of UTF-8 as it can be given to a shell (bash, zsh) again: words quoted
 /// where they need it, control characters and bytes that are no UTF-8 as $'\012'.
 std::string shell_command(std::string program, const std::vector<std::string>& words);
+
+/// kBadInput: "'TEXT' WHY", and what to do in its hint.
+Error bad_value(const std::string& text, const std::string& why, const std::string& hint = {});
 
 }  // namespace geotherm::app
