@@ -53,6 +53,7 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
 struct GenerateArguments {
   std::string name;
   std::string faces;  ///< empty: the model's usual size
+  std::string tets;   ///< of a volume; empty: some
   std::string output;
   bool quiet = false;
 };
