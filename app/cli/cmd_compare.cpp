@@ -100,7 +100,7 @@ Result<void> expect_outputs(const CompareArguments& arguments, Outputs& outputs)
 Result<void> choose_sources(const Model& model, const Plan& plan, CompareTask& task,
                             std::vector<Warning>& warnings) {
   if (!plan.sources.empty()) {
-    auto resolved = resolve_sources(plan.sources, *model.mesh);
+    auto resolved = resolve_sources(plan.sources, model);
     if (!resolved) return resolved.error();
     warnings.insert(warnings.end(), resolved->warnings.begin(), resolved->warnings.end());
     task.queries.assign(static_cast<std::size_t>(plan.queries), resolved->set);
@@ -109,7 +109,7 @@ Result<void> choose_sources(const Model& model, const Plan& plan, CompareTask& t
   }
   const auto pool = random_vertices(
       *model.mesh, std::min(std::max(plan.queries, kBatch), model.mesh->vertex_count()), kSeed);
-  const auto vertices = pool ? pool : random_vertices(*model.mesh, 1, kSeed);
+  const auto vertices = pool ? pool : random_vertices(model, 1, kSeed);
   if (!vertices) {
     return Error{ErrorCode::kBadFile,
                  one_line(model.name) + ": no vertex belongs to a usable face"};

@@ -9,7 +9,7 @@
 #include "app/session/sources.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
-#include "geotherm/isolines.h"
+#include "geotherm/path.h"
 
 namespace geotherm::app {
 namespace {
@@ -170,7 +170,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  const auto sources = resolve_sources(*named, *model->mesh);
+  const auto sources = resolve_sources(*named, *model);
   if (!sources) return sources.error();
   ModelSolver solver(*std::move(model));
   auto figures = solver.solve(options, *sources, {{}, *check}, progress);

@@ -77,6 +77,7 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
                         PictureData& data, const Progress& progress, PictureFigures& figures) {
   const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
   for (const Source& target : targets) {
+    if (auto surface = refuse_volume(solved.model, "paths are"); !surface) return surface;
     const auto placed = resolve_sources({&target, 1}, *mesh);
     if (!placed) return placed.error();
     const auto found = solver.paths_to(placed->set.points.front(), solved, progress);
@@ -117,7 +118,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
   if (view == View::kExactError) check.against = Check::kAuto;
-  const auto placed = resolve_sources(sources, *mesh);
+  const auto placed = resolve_sources(sources, *model);
   if (!placed) return placed.error();
   ModelSolver solver(*std::move(model));
   auto solved = solver.solve(options, *placed, {query, check}, progress);

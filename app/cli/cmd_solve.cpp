@@ -258,7 +258,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  const auto sources = resolve_sources(*named, *model->mesh);
+  const auto sources = resolve_sources(*named, *model);
   if (!sources) return sources.error();
   QueryOptions query;
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);

@@ -145,14 +145,14 @@ Result<std::vector<double>> parse_factors(const std::string& text) {
 Result<SourceSet> sources_on(const Model& model, const std::vector<Source>& named,
                              std::vector<Warning>& warnings) {
   if (named.empty()) {
-    const auto vertex = random_vertices(*model.mesh, 1, 1);
+    const auto vertex = random_vertices(model, 1, 1);
     if (!vertex) return about_model(model.name, vertex.error());
     warnings.push_back(
         {"no source was given: vertex " + std::to_string(vertex->front()) + " was taken",
          {"choose others with -s"}});
     return SourceSet::of_vertices(*vertex);
   }
-  auto resolved = resolve_sources(named, *model.mesh);
+  auto resolved = resolve_sources(named, model);
   if (!resolved) return resolved.error();
   warnings.insert(warnings.end(), resolved->warnings.begin(), resolved->warnings.end());
   return std::move(resolved->set);

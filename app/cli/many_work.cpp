@@ -65,8 +65,8 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  if (auto pin = check_pin(options.constraint, *model->mesh); !pin) return pin.error();
-  auto sources = resolve_each(*named, *model->mesh);
+  if (auto pin = check_pin(options.constraint, *model); !pin) return pin.error();
+  auto sources = resolve_each(*named, *model);
   if (!sources) return sources.error();
   const std::size_t chunk =
       std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),

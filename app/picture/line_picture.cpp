@@ -16,7 +16,7 @@
 #include "app/picture/picture_scale.h"
 #include "app/text/text.h"
 #include "geotherm/error.h"
-#include "geotherm/isolines.h"
+#include "geotherm/path.h"
 #include "geotherm/progress.h"
 #include "solver/mesh/ray_tree.h"
 

@@ -42,7 +42,7 @@ struct Answer {
 /// The answer as the library checks it; valid as long as the answer.
 CheckedAnswers checked_answers(const Answer& answer);
 
-/// One sentence for each reason why `unreached` vertices have no distance.
+/// One sentence for each reason why `unreached` vertices of a surface have no distance.
 std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached);
 
 /// Turns kBadInput of the library, which found something wrong with the mesh, into kBadFile, with

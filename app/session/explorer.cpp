@@ -64,7 +64,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
       placed.push_back(*known);
     } else {
       const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
-      auto places = resolve_sources({&named, 1}, mesh);
+      auto places = resolve_sources({&named, 1}, model_->model);
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
     }

@@ -56,6 +56,53 @@ Model model_of(MeshFile file, std::string name, const std::string& path, double 
   return model;
 }
 
+/// The border of a volume has all its vertices, so that their numbers stay.
+Result<Model> model_of_volume(TetFile file, std::string name, const std::string& path) {
+  auto volume = std::make_shared<const TetMesh>(std::move(file.mesh));
+  auto border = boundary(*volume);
+  if (!border) return border.error();
+  const auto positions = volume->positions();
+  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, std::move(border->faces));
+  if (!mesh) return mesh.error();
+  Model model{std::move(name), path, std::make_shared<const TriangleMesh>(*std::move(mesh)), 0, {}};
+  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
+  model.volume = std::move(volume);
+  return model;
+}
+
+Result<Model> model_of_points(PointFile file, std::string name, const std::string& path,
+                              const Progress& progress) {
+  auto surface = surface_of(file.points, {}, progress);
+  if (!surface) return surface.error();
+  Model model{std::move(name), path, nullptr, 0, {}};
+  for (auto* notes : {&file.notes, &surface->notes}) {
+    for (std::string& note : *notes) model.notes.push_back({std::move(note)});
+  }
+  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(surface->mesh));
+  model.from_points = true;
+  return model;
+}
+
+/// The model of a file by what it holds: tets, points without faces, or a surface.
+Result<Model> read_model(const std::string& path, const std::string& name,
+                         const ModelReading& reading, const Progress& progress) {
+  if (reading.format.empty() && holds_tets(path)) {
+    auto file = read_tets(path);
+    if (!file) return file.error();
+    return model_of_volume(*std::move(file), name, path);
+  }
+  const auto points = reading.format.empty() ? is_point_file(path) : Result<bool>(false);
+  if (points && *points) {
+    auto file = read_points(path);
+    if (!file) return file.error();
+    return model_of_points(*std::move(file), name, path, progress);
+  }
+  auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
+  if (!file) return file.error();
+  return model_of(*std::move(file), name, path, 0);
+}
+
 Result<Model> from_file(const std::string& text, const ModelReading& reading,
                         const Progress& progress) {
   const std::filesystem::path path(text);
@@ -69,17 +116,19 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   }
   if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
   const Stopwatch watch;
-  auto file = reading.format.empty() ? read_mesh(text) : read_mesh(text, reading.format);
-  if (!file) {
-    const bool memory = file.error().code == ErrorCode::kOutOfMemory;
+  auto model = read_model(text, path.stem().string(), reading, progress);
+  if (!model) {
+    Error error = model.error();
+    if (error.code == ErrorCode::kCancelled) return error;
+    const bool memory = error.code == ErrorCode::kOutOfMemory;
     const bool there = std::filesystem::exists(path, unknown);
-    Error error = file.error();
     if (!memory) error.code = ErrorCode::kBadFile;
     return with_hint(std::move(error), {memory  ? "take a mesh with fewer faces"
                                         : there ? "choose another file, or export this one again"
                                                 : "check the path"});
   }
-  return model_of(*std::move(file), path.stem().string(), text, watch.milliseconds());
+  model->load_ms = watch.milliseconds();
+  return model;
 }
 
 Result<Model> bundled(const std::string& name, const ModelReading& reading,
@@ -129,6 +178,9 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
                : is_bundled(text)     ? bundled(text, reading, progress)
                                       : from_file(text, reading, progress);
   if (!model || !reading.weld) return model;
+  if (auto surface = refuse_volume(*model, "welded vertices are"); !surface) {
+    return surface.error();
+  }
   if (!report(progress, "welding", -1)) return cancelled_error();
   auto welded = weld(*model->mesh, *reading.weld);
   if (!welded) return welded.error();
@@ -164,6 +216,17 @@ std::vector<std::filesystem::path> folders() {
 }
 
 }  // namespace
+
+std::string_view domain_name(const Model& model) {
+  return model.volume ? "tets" : model.from_points ? "points" : "triangles";
+}
+
+Result<void> refuse_volume(const Model& model, std::string_view what) {
+  if (!model.volume) return {};
+  return Error{ErrorCode::kBadInput, std::string(what) + " of surfaces, and " +
+                                         one_line(model.name) + " is a volume of " +
+                                         counted(model.volume->tet_count(), "tet", "tets")};
+}
 
 std::span<const BundledModel> bundled_models() { return kModels; }
 

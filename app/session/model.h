@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geotherm/domains.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
 #include "geotherm/progress.h"
@@ -34,9 +35,14 @@ Result<std::optional<double>> parse_weld(const std::string& text);
 struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
   std::string path;  ///< empty for a bundled model, - for standard input
+  /// What is drawn, and where points are picked. Of a volume its border, of a point cloud the
+  /// triangles between the points; either way all vertices of the file are among its vertices.
   std::shared_ptr<const TriangleMesh> mesh;
   double load_ms = 0;          ///< reading
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each
+  /// What distance is computed in, where it is no surface.
+  std::shared_ptr<const TetMesh> volume = {};
+  bool from_points = false;  ///< `mesh` was made of points without faces
 };
 
 /// The same model for work whose errors stand beside its name, or in its row.
@@ -57,6 +63,13 @@ struct BundledModel {
   std::string_view description;
   std::string_view feature;  ///< what menus say beside the name
 };
+
+/// "triangles", "points" or "tets": what a model's file holds.
+std::string_view domain_name(const Model& model);
+
+/// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model is
+/// a volume.
+Result<void> refuse_volume(const Model& model, std::string_view what);
 
 /// All of them: terrain, sleeve, cube, gargoyle, bunny.
 std::span<const BundledModel> bundled_models();

@@ -28,18 +28,16 @@ bool is_poor(const Answer& answer) { return answer.error->is_poor(); }
 bool is_poor(const CheckedMethod& checked) { return checked.error.report.is_poor(); }
 
 /// Tries better methods in order; returns the first answer that is not poor, else the last; none
-/// where there is no better method. `ask`: takes MethodOptions, the method of the reference and a
-/// progress. Errors: those of the first one, kCancelled.
+/// where `kinds` is empty. `ask`: takes MethodOptions and a progress. Errors: those of the first one, kCancelled.
 template <class Asked, class Ask>
-Result<std::optional<Asked>> ask_better(const MethodOptions& poor, Check check, Index faces,
+Result<std::optional<Asked>> ask_better(const MethodOptions& poor,
+                                        const std::vector<MethodKind>& kinds,
                                         const Progress& progress, Ask&& ask) {
-  const std::vector<MethodKind> kinds = better_methods(poor.method, check, faces);
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, kinds.size()));
   std::optional<Asked> best;
   double done = 0;
   for (const MethodKind kind : kinds) {
-    auto next = ask(better_options(poor, kind), reference_of_better(kind, check, faces),
-                    part_of(progress, done, done + share));
+    auto next = ask(better_options(poor, kind), part_of(progress, done, done + share));
     if (!next && (!best || next.error().code == ErrorCode::kCancelled)) return next.error();
     if (!next) break;  // what was poor, too, is better than nothing
     best = *std::move(next);
@@ -50,6 +48,26 @@ Result<std::optional<Asked>> ask_better(const MethodOptions& poor, Check check, 
 }
 
 }  // namespace
+
+MethodKind ModelSolver::reference_of(MethodKind checked, const CheckSettings& settings) const {
+  if (model_.volume) return MethodKind::kFastMarching;
+  return reference_in(settings, checked, model_.mesh->face_count());
+}
+
+MethodKind ModelSolver::reference_of_better(MethodKind kind, Check check) const {
+  return model_.volume ? kind : app::reference_of_better(kind, check, model_.mesh->face_count());
+}
+
+bool ModelSolver::is_better(MethodKind a, MethodKind b) const {
+  if (!model_.volume) return geotherm::is_better(a, b);
+  return a == MethodKind::kFastMarching && b == MethodKind::kHeat;
+}
+
+std::vector<MethodKind> ModelSolver::better_methods(MethodKind poor, Check check) const {
+  if (!model_.volume) return app::better_methods(poor, check, model_.mesh->face_count());
+  if (poor != MethodKind::kHeat) return {};
+  return {MethodKind::kFastMarching};
+}
 
 /// Computes reference distances into `reference_`.
 Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers& answers,
@@ -62,7 +80,7 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
   reference_.reset();
   std::shared_ptr<const DistanceMethod> kept;
   const Stopwatch watch;
-  if (use_ == Use::kSession) {
+  if (use_ == Use::kSession || model_.volume) {
     auto made = make(better_options(answers.options, kind), nullptr, part_of(progress, 0.0, 0.3));
     if (!made) return made.error();
     kept = *std::move(made);
@@ -97,6 +115,10 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
 Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswers& answers,
                                       Check check, const Progress& progress) try {
   if (!report.measured) return {};
+  if (model_.volume) {
+    if (report.is_poor()) report.advice = {"; use ", SettingHint{"method", {"fast-marching"}}};
+    return {};
+  }
   const bool further = is_thorough(check) && use_ == Use::kOneAnswer;
   return geotherm::find_remedy(report, model_.mesh, answers, reference_->answers,
                                further ? RemedySearch::kWhereNotGood : RemedySearch::kWherePoor,
@@ -129,7 +151,7 @@ Result<void> ModelSolver::settle(Answer& answer, AccuracyReport report,
 
 Result<void> ModelSolver::check(Answer& answer, const CheckSettings& settings,
                                 const Progress& progress) {
-  const MethodKind kind = reference_in(settings, answer.method->kind(), model_.mesh->face_count());
+  const MethodKind kind = reference_of(answer.method->kind(), settings);
   if (settings.quick && !is_better(kind, answer.method->kind())) return {};
   auto report = hold(checked_answers(answer), kind, settings.against, *answer.method,
                      part_of(progress, 0.0, 0.6));
@@ -143,8 +165,8 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
   const Check check = wanted.check.against;
   QueryOptions query = wanted.query;
   query.fields = false;
-  const auto ask = [&](const MethodOptions& options, MethodKind against,
-                       const Progress& part) -> Result<Answer> {
+  const auto ask = [&](const MethodOptions& options, const Progress& part) -> Result<Answer> {
+    const MethodKind against = reference_of_better(options.method, check);
     auto next = distances(options, sources, query, part_of(part, 0.0, 0.5));
     if (!next) return next;
     auto report =
@@ -153,7 +175,8 @@ Result<void> ModelSolver::replace(Answer& answer, const ResolvedSources& sources
     next->error = std::make_shared<const AccuracyReport>(*std::move(report));
     return next;
   };
-  auto better = ask_better<Answer>(answer.options, check, model_.mesh->face_count(), progress, ask);
+  auto better = ask_better<Answer>(answer.options, better_methods(answer.options.method, check),
+                                   progress, ask);
   if (!better) return better.error();
   if (!*better) {
     describe_mesh(answer);
@@ -176,14 +199,15 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
                                                 const CheckSettings& settings,
                                                 const Progress& progress) {
   const Progress checking = with_prefix(progress, "checking: ");
-  const Index faces = model_.mesh->face_count();
   const std::vector<std::size_t> numbers = spread(all.size());
   std::vector<SourceSet> sets;
   for (const std::size_t i : numbers) sets.push_back(all[i]);
   /// Asks `by` for the sample and holds that against the method `against`.
   const auto checked = [&](const ReadyMethod& by, MethodKind against, bool searches,
                            const Progress& part) -> Result<SampleCheck> {
-    if (!is_better(MethodKind::kWavefront, by.options.method) && searches) {
+    const MethodKind near_exact =
+        model_.volume ? MethodKind::kFastMarching : MethodKind::kWavefront;
+    if (!is_better(near_exact, by.options.method) && searches) {
       return SampleCheck{unchecked(by.options.method, settings.against), all.size(), 0};
     }
     auto results = by.method->solve_each(sets, {.quality = false}, part_of(part, 0.0, 0.2));
@@ -201,7 +225,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     const std::size_t worst = numbers[report->worst_set];
     return SampleCheck{*std::move(report), all.size(), worst};
   };
-  auto check = checked(ready, reference_in(settings, ready.options.method, faces), true,
+  auto check = checked(ready, reference_of(ready.options.method, settings), true,
                        part_of(checking, 0.0, 0.5));
   if (!check) return check.error();
   CheckedMethod out{ready, *std::move(check), {}, {}};
@@ -217,15 +241,17 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
     }
     return out;
   }
-  const auto ask = [&](const MethodOptions& options, MethodKind against,
+  const auto ask = [&](const MethodOptions& options,
                        const Progress& part) -> Result<CheckedMethod> {
+    const MethodKind against = reference_of_better(options.method, settings.against);
     auto by = prepare(options, part_of(part, 0.0, 0.5));
     if (!by) return by.error();
     auto error = checked(*by, against, false, part_of(part, 0.5, 1.0));
     if (!error) return error.error();
     return CheckedMethod{*by, *std::move(error), {}, {}};
   };
-  auto better = ask_better<CheckedMethod>(ready.options, settings.against, faces,
+  auto better = ask_better<CheckedMethod>(ready.options,
+                                          better_methods(ready.options.method, settings.against),
                                           part_of(checking, 0.5, 1.0), ask);
   if (!better) return better.error();
   if (!*better) {

@@ -7,6 +7,8 @@
 #include "app/session/machine.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
+#include "geotherm/heat_method.h"
 #include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
@@ -43,6 +45,7 @@ const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
 Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOptions& options,
                                                                 const DistanceMethod* near,
                                                                 const Progress& progress) {
+  if (model_.volume) return make_in_volume(options, near, progress);
   if (options.method == MethodKind::kHeat) {
     return build_method_near(model_.mesh, options, near, progress);
   }
@@ -64,9 +67,21 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
   return made;
 }
 
+Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make_in_volume(
+    const MethodOptions& options, const DistanceMethod* near, const Progress& progress) {
+  const HeatMethod* const heat = near != nullptr ? near->heat() : nullptr;
+  if (options.method != MethodKind::kHeat || options.refine > 0 || heat == nullptr) {
+    return build_method(model_.volume, options, progress);
+  }
+  auto made = heat->with(options, progress);
+  if (!made) return made.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(made)));
+}
+
 Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Progress& progress) {
   if (const ReadyMethod* const known = find_ready(options)) return *known;
-  if (auto pin = check_pin(options.constraint, *model_.mesh); !pin) return pin.error();
+  if (auto pin = check_pin(options.constraint, model_); !pin) return pin.error();
   const ReadyMethod* near = nullptr;
   for (const ReadyMethod& ready : ready_) {
     if (near == nullptr || (is_wanted(*near) && !is_wanted(ready))) near = &ready;
@@ -95,7 +110,7 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
     return only;
   }
   MethodOptions options;
-  options.method = MethodKind::kWavefront;
+  options.method = model_.volume ? MethodKind::kFastMarching : MethodKind::kWavefront;
   options.threads = threads;
   const auto method = make(options, nullptr, part_of(progress, 0.0, 0.5));
   if (!method) return about_model(model_.name, method.error());
@@ -139,7 +154,11 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
 
 void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
-  add(answer.warnings, unreached_notes(*summary_, answer.distance.unreached));
+  const Index unreached = answer.distance.unreached;
+  if (!model_.volume) return add(answer.warnings, unreached_notes(*summary_, unreached));
+  if (unreached == 0) return;
+  answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") +
+                             " in no tet that a source reaches; their distance is infinite"});
 }
 
 Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSources& sources,
@@ -155,9 +174,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
       checks ? threads : 1,
       [&] {
         if (!checks) return;
-        const MethodKind kind = answer->method->kind();
-        report = hold(checked_answers(*answer),
-                      reference_in(wanted.check, kind, model_.mesh->face_count()),
+        report = hold(checked_answers(*answer), reference_of(answer->method->kind(), wanted.check),
                       wanted.check.against, *answer->method, with_prefix(checking, "checking: "));
       },
       [&] {
@@ -183,6 +200,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
 
 Result<TargetPaths> ModelSolver::paths_to(const SurfacePoint& target, const Answer& answer,
                                           const Progress& progress) {
+  if (auto surface = refuse_volume(model_, "paths are"); !surface) return surface.error();
   if (!paths_ || paths_->method != answer.method) {
     auto near_exact = make(better_options(answer.options, MethodKind::kWavefront), nullptr,
                            part_of(progress, 0.0, 0.2));

@@ -94,6 +94,9 @@ class ModelSolver {
   Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,
                                                      const DistanceMethod* near,
                                                      const Progress& progress);
+  Result<std::shared_ptr<const DistanceMethod>> make_in_volume(const MethodOptions& options,
+                                                               const DistanceMethod* near,
+                                                               const Progress& progress);
   bool is_wanted(const ReadyMethod& ready) const;
   const ReadyMethod* find_ready(const MethodOptions& options) const;
   Result<Answer> distances(const MethodOptions& options, const ResolvedSources& sources,
@@ -101,6 +104,11 @@ class ModelSolver {
   void describe_mesh(Answer& answer) const;
 
   // model_check.cpp
+  // In a volume fast marching is what is better than heat, and there is nothing else.
+  MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
+  MethodKind reference_of_better(MethodKind kind, Check check) const;
+  bool is_better(MethodKind a, MethodKind b) const;
+  std::vector<MethodKind> better_methods(MethodKind poor, Check check) const;
   Result<void> solve_reference(MethodKind kind, const CheckedAnswers& answers,
                                const DistanceMethod& beside, const Progress& progress);
   Result<AccuracyReport> hold(const CheckedAnswers& answers, MethodKind kind, Check check,

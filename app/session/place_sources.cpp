@@ -45,10 +45,22 @@ Error out_of_range(const std::string& one, const std::string& many, Index asked,
                    many + " are 0 to " + std::to_string(count - 1));
 }
 
+/// Flags the vertices from which distance can start.
+std::vector<char> usable_vertices(const SourceSpace& space) {
+  if (space.volume == nullptr) {
+    return vertices_in_faces(space.mesh.vertex_count(), space.mesh.faces());
+  }
+  std::vector<char> used(static_cast<std::size_t>(space.volume->vertex_count()), 0);
+  for (const Tet& tet : space.volume->tets()) {
+    for (const Index v : tet) used[v] = 1;
+  }
+  return used;
+}
+
 class Resolver {
  public:
-  explicit Resolver(const TriangleMesh& mesh)
-      : mesh_(mesh), used_(vertices_in_faces(mesh.vertex_count(), mesh.faces())) {}
+  explicit Resolver(const SourceSpace& space)
+      : space_(space), mesh_(space.mesh), used_(usable_vertices(space)) {}
 
   Result<void> operator()(const VertexList& list) {
     for (const Index v : list.vertices) {
@@ -58,7 +70,7 @@ class Resolver {
   }
 
   Result<void> operator()(const RandomVertices& random) {
-    auto vertices = random_vertices(mesh_, random.count, random.seed);
+    auto vertices = random_vertices(space_, random.count, random.seed);
     if (!vertices) return vertices.error();
     return (*this)(VertexList{*std::move(vertices), random.offset});
   }
@@ -67,9 +79,15 @@ class Resolver {
     const EdgeTable& edges = clean().edges;
     bool found = false;
     for (Index e = 0; e < edges.edge_count(); ++e) {
-      if (edges.sides(e).size() != 1) continue;
-      set_.add_edge(edges.low(e), edges.high(e));
+      if (space_.volume == nullptr && edges.sides(e).size() != 1) continue;
       found = true;
+      if (space_.volume == nullptr) {
+        set_.add_edge(edges.low(e), edges.high(e));
+        continue;
+      }
+      for (const Index v : {edges.low(e), edges.high(e)}) {
+        if (auto added = add_vertex(v, 0); !added) return added;
+      }
     }
     if (found) return {};
     return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
@@ -89,24 +107,30 @@ class Resolver {
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
     }
+    if (space_.volume != nullptr) {
+      Vec3 at = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) at += point.weights[k] * mesh_.positions()[face[k]];
+      return add_in_volume(at, point.offset);
+    }
     set_.add(SurfacePoint::in_face(point.face, point.weights), point.offset);
     return {};
   }
 
   Result<void> operator()(const SpacePoint& point) {
+    if (space_.volume != nullptr) return add_in_volume(point.position, point.offset);
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
-    if (found->distance > kFar * model_size()) {
-      warnings_.push_back({where_ + ": the closest point of the surface is " +
-                           significant(found->distance) + " away (the model's size is " +
-                           significant(model_size()) + ")"});
-    }
+    note_distance("surface", found->distance);
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
     set_.add(found->point, point.offset);
     return {};
   }
 
   Result<void> operator()(const VertexCurve& curve) {
+    if (space_.volume != nullptr) {
+      return misplaced("a curve is a source on surfaces alone, and this is a volume",
+                       "name its vertices one by one");
+    }
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (auto added = add_vertex(curve.vertices[i], 0); !added) {
         return about(place(curve, i), added.error());
@@ -144,6 +168,26 @@ class Resolver {
   ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
+  Result<void> add_in_volume(const Vec3& position, double offset) {
+    const auto found = closest_point(*space_.volume, position);
+    if (!found) return found.error();
+    note_distance("volume", found->distance);
+    if (found->point.is_vertex()) return add_vertex(found->point.vertex, offset);
+    if (offset > 0) {
+      return misplaced("a point inside a tet takes no offset", "give a vertex, or leave it out");
+    }
+    const auto& weights = found->point.weights;
+    set_.add(CellPoint{found->point.tet, {weights.begin(), weights.end()}});
+    return {};
+  }
+
+  void note_distance(const std::string& of, double distance) {
+    if (!(distance > kFar * model_size())) return;
+    warnings_.push_back({where_ + ": the closest point of the " + of + " is " +
+                         significant(distance) + " away (the model's size is " +
+                         significant(model_size()) + ")"});
+  }
+
   Result<void> add_vertex(Index v, double offset) {
     if (v >= mesh_.vertex_count()) {
       return out_of_range("vertex", "vertices", v, mesh_.vertex_count());
@@ -151,7 +195,8 @@ class Resolver {
     v = mesh_.standing_for(v);
     if (!used_[v]) {
       return misplaced(
-          "vertex " + std::to_string(v) + " belongs to no face, so that no distance starts there",
+          "vertex " + std::to_string(v) + (space_.volume ? " belongs to no tet" : " belongs to no face") +
+              ", so that no distance starts there",
           "choose another");
     }
     set_.add(SurfacePoint::at_vertex(v), offset);
@@ -191,6 +236,7 @@ class Resolver {
     return size_ = (high - low).stableNorm();
   }
 
+  const SourceSpace space_;
   const TriangleMesh& mesh_;
   std::vector<char> used_;
   std::optional<CleanFaces> clean_;
@@ -219,6 +265,7 @@ void SetUnion::add(const SourceSet& more) {
     add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
   }
   edges_.insert(more.edges.begin(), more.edges.end());
+  for (const CellPoint& point : more.cell_points) add(point);
 }
 
 SourceSet SetUnion::take() {
@@ -229,16 +276,16 @@ SourceSet SetUnion::take() {
   return std::exchange(set_, {});
 }
 
-Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh) {
-  Resolver resolver(mesh);
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space) {
+  Resolver resolver(space);
   for (const Source& source : sources) {
     if (auto added = resolver.add(source); !added) return added.error();
   }
   return resolver.finish();
 }
 
-Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleMesh& mesh) {
-  Resolver resolver(mesh);
+Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space) {
+  Resolver resolver(space);
   EachSource each;
   const auto place = [&](const Source& one) -> Result<void> {
     if (auto added = resolver.add(one); !added) return added;
@@ -251,7 +298,7 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
     VertexList list;
     if (const auto* named = std::get_if<VertexList>(&source.spec)) list = *named;
     if (const auto* random = std::get_if<RandomVertices>(&source.spec)) {
-      auto vertices = random_vertices(mesh, random->count, random->seed);
+      auto vertices = random_vertices(space, random->count, random->seed);
       if (!vertices) return about(source.where, vertices.error(), source.blame);
       list = {*std::move(vertices), random->offset};
     }
@@ -267,9 +314,9 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleM
   return each;
 }
 
-Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
+Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count,
                                            std::uint64_t seed) {
-  const std::vector<char> used = vertices_in_faces(mesh.vertex_count(), mesh.faces());
+  const std::vector<char> used = usable_vertices(space);
   std::vector<Index> pool;
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) pool.push_back(static_cast<Index>(v));
@@ -286,11 +333,11 @@ Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count
   return pool;
 }
 
-Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh) {
+Result<void> check_pin(const Constraint& constraint, const SourceSpace& space) {
   if (constraint.mode != ConstraintMode::kPinVertex || constraint.pin_vertex == kNoIndex) return {};
   const Source pin{VertexList{{constraint.pin_vertex}}, "constraint " + to_text(constraint),
                    ErrorCode::kBadInput};
-  const auto placed = resolve_sources({&pin, 1}, mesh);
+  const auto placed = resolve_sources({&pin, 1}, space);
   if (!placed) return placed.error();
   return {};
 }

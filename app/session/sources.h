@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/session/model.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
 #include "geotherm/options.h"
@@ -102,6 +103,7 @@ class SetUnion {
   void add(const SurfacePoint& point, double offset);
   void add_edge(Index a, Index b) { edges_.insert({std::min(a, b), std::max(a, b)}); }
   void add(const SourceSet& more);
+  void add(CellPoint point) { set_.cell_points.push_back(std::move(point)); }
   SourceSet take();  ///< what was added since the last call
 
  private:
@@ -110,14 +112,25 @@ class SetUnion {
   std::set<std::array<Index, 2>> edges_;
 };
 
+/// Where sources are placed: on a surface, or in a volume, of which `mesh` is the border.
+struct SourceSpace {
+  const TriangleMesh& mesh;
+  const TetMesh* volume = nullptr;
+
+  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                           // NOLINT
+  SourceSpace(const Model& model) : mesh(*model.mesh), volume(model.volume.get()) {}  // NOLINT
+};
+
 struct ResolvedSources {
   SourceSet set;  ///< no vertex and no edge twice
   std::vector<Warning> warnings;
 };
 
-/// Places sources on a mesh, all in one set. Errors: the blame of the source, its `where`, and what
-/// does not fit (a vertex or face out of range, a vertex in no face, no boundary).
-Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const TriangleMesh& mesh);
+/// Places sources, all in one set. In a volume the boundary are the vertices of its border, and a
+/// point in a face or in space is the nearest point of the volume. Errors: the blame of the source,
+/// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or tet, no
+/// boundary, a curve in a volume).
+Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space);
 
 struct EachSource {
   std::vector<SourceSet> sets;
@@ -127,15 +140,15 @@ struct EachSource {
 /// Places sources on a mesh, every point of them in a set of its own, in their order: each vertex
 /// of a list, each random vertex, each point in a face or in space; what is named twice stands
 /// twice. A curve and the boundary are one set each. Errors: those of resolve_sources().
-Result<EachSource> resolve_each(std::span<const Source> sources, const TriangleMesh& mesh);
+Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space);
 
 /// `count` different vertices that belong to a face; the same on every platform for a seed.
 /// Errors: kBadInput (fewer such vertices).
-Result<std::vector<Index>> random_vertices(const TriangleMesh& mesh, Index count,
+Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count,
                                            std::uint64_t seed);
 
 /// Whether the pinned vertex, where one is named, is on the mesh. Errors: kBadInput.
-Result<void> check_pin(const Constraint& constraint, const TriangleMesh& mesh);
+Result<void> check_pin(const Constraint& constraint, const SourceSpace& space);
 
 /// All vertices of a set, ends of edges included, ascending, each once.
 std::vector<Index> vertices_of(const SourceSet& set);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/isolines.h"
+#include "geotherm/path.h"
 
 #include <gtest/gtest.h>
 

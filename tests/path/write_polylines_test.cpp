@@ -7,7 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "geotherm/isolines.h"
 #include "tests/path/path_support.h"
 
 namespace geotherm::test {

@@ -44,16 +44,17 @@ const std::vector<Permission>& permissions() {
   const Names mesh =
       with(base, {"solver/mesh", "geotherm/mesh.h", "geotherm/io.h", "geotherm/sources.h"});
   const Names linear = with(base, {"solver/linear", "geotherm/backend.h"});
-  const Names geometry = with(with(mesh, linear), {"solver/geometry", "geotherm/mesh_report.h"});
+  const Names geometry =
+      with(with(mesh, linear), {"solver/geometry", "geotherm/mesh_report.h", "geotherm/domains.h"});
   const Names method =
       with(geometry, {"solver/method", "geotherm/distance_method.h", "geotherm/many.h"});
-  const Names path = with(method, {"solver/path", "geotherm/path.h", "geotherm/isolines.h"});
+  const Names path = with(method, {"solver/path", "geotherm/path.h"});
   const Names polyhedral =
       with(method, {"solver/polyhedral", "solver/accuracy/distance_bounds.h",
                     "solver/accuracy/check_waves.h", "geotherm/polyhedral_methods.h"});
   const Names volume = with(method, {"solver/volume", "geotherm/domains.h"});
   const Names heat = with(polyhedral, {"solver/heat", "solver/accuracy", "geotherm/heat_method.h",
-                                       "geotherm/options.h"});
+                                       "geotherm/options.h", "geotherm/domains.h"});
   static const std::vector<Permission> kPermissions = {
       {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
       {"solver/core", base, {"std", "eigen"}, {"posix"}},
@@ -61,7 +62,10 @@ const std::vector<Permission>& permissions() {
       {"solver/linear", linear, {"std", "eigen"}, {"posix", "algebra"}},
       {"solver/geometry", geometry, {"std", "eigen"}, {}},
       {"solver/method", method, {"std", "eigen"}, {}},
-      {"solver/points", with(mesh, {"solver/points"}), {"std", "eigen"}, {"nanoflann"}},
+      {"solver/points",
+       with(mesh, {"solver/points", "geotherm/domains.h"}),
+       {"std", "eigen"},
+       {"nanoflann"}},
       {"solver/path", path, {"std", "eigen"}, {}},
       {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
       {"solver/volume", volume, {"std", "eigen"}, {"zlib"}},

@@ -14,7 +14,6 @@
 #include "geotherm/error.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
-#include "geotherm/isolines.h"
 #include "geotherm/many.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"

@@ -12,7 +12,8 @@
 #include "geotherm/mesh.h"
 #include "geotherm/names.h"
 
-// Paths on the surface: polylines, the shortest ones, and files of them.
+// Lines on the surface: the shortest paths, isolines (level sets of distances, or of any values at the
+// vertices), and files of them.
 namespace geotherm {
 
 /// A polyline on the surface. Two points that follow each other lie in a common face.
@@ -127,5 +128,23 @@ Result<void> write_polylines(const std::string& path, const TriangleMesh& mesh,
 /// One row a point: line,point,x,y,z,face,b0,b1,b2 and, where there are any, value. Faces and
 /// weights are those of points_in_faces(). A closed line repeats its first point.
 std::string polyline_csv(const TriangleMesh& mesh, std::span<const Polyline> lines);
+
+/// A piece of a level set, as long as it can be followed: closed, or open from boundary to boundary
+/// (or to an edge with three faces and more).
+struct Isoline {
+  double value = 0;
+  SurfacePath path;
+};
+
+/// Level sets of the function that is linear on each face. `values`: V, file order; faces with a
+/// value that is not finite have none. `levels`: ascending. Sorted by level, the longest first. The
+/// lines of a value that vertices have pass through these; no piece has length 0.
+/// Cost: O(F log levels + pieces). Throws std::bad_alloc; find_isolines() does not.
+std::vector<Isoline> trace_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                    std::span<const double> levels);
+
+/// The same. Errors: kOutOfMemory.
+Result<std::vector<Isoline>> find_isolines(const TriangleMesh& mesh, std::span<const double> values,
+                                           std::span<const double> levels);
 
 }  // namespace geotherm
