@@ -66,7 +66,7 @@ std::optional<FilePurpose> purpose_of(Action action) {
 /// What an action sends, where it sends something.
 std::optional<app::Command> command_of(const Frame& frame, Action action) {
   if (const auto view = view_of(action)) {
-    return app::command::Set{"view", app::to_text(*view)};
+    return app::command::Set{"view", geotherm::to_text(*view)};
   }
   switch (action) {
     case Action::kQuit:

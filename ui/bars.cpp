@@ -135,7 +135,7 @@ namespace {
 std::string what_is_shown(const Frame& frame) {
   if (!frame.model()) return "no model";
   std::vector<std::string> parts = {frame.model()->model.name,
-                                    app::to_text(frame.state().picture.view)};
+                                    geotherm::to_text(frame.state().picture.view)};
   if (frame.state().kept) {
     constexpr const char* kShown[] = {"A", "B", "A \u2212 B"};
     parts.emplace_back(kShown[static_cast<std::size_t>(frame.state().shown)]);

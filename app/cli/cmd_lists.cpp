@@ -45,13 +45,18 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (!model) return model.error();
   const MeshReport mesh = inspect_mesh(*model->mesh);
   CommandOutput out{"", model->notes, {}};
-  for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
-  const CrackReport cracks = find_cracks(*model->mesh);
+  const bool surface = !model->volume && !model->from_points;
+  if (surface) {
+    for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
+  }
+  const CrackReport cracks = surface ? find_cracks(*model->mesh) : CrackReport();
   if (cracks.vertices > 0) out.warnings.push_back(crack_note(cracks));
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;
 
-  std::string text = to_text(Json{{"model", full_model_json(model->name, mesh)},
+  Json described = full_model_json(model->name, mesh);
+  add_domain(*model, described);
+  std::string text = to_text(Json{{"model", std::move(described)},
                                   {"cracks", cracks_json(cracks)},
                                   {"timing_ms", {{"load", model->load_ms}}},
                                   {"warnings", told(out.warnings)}});

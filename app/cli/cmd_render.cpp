@@ -48,7 +48,7 @@ Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View v
   auto sources = sources_of(arguments.sources);
   if (!sources || !sources->empty() || !needs_sources(view)) return sources;
   return Error{ErrorCode::kBadInput,
-               "no source was given, which --view " + to_text(view) +
+               "no source was given, which --view " + geotherm::to_text(view) +
                    " needs; say where distance is 0, such as -s 17 or -s boundary, or choose "
                    "--view smooth"};
 }
@@ -241,14 +241,15 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   if (!settings) return settings.error();
   const MethodOptions& options = asked->options;
   if (needs_fields(settings->view) && options.method != MethodKind::kHeat) {
-    return Error{ErrorCode::kBadInput,
-                 "--view " + to_text(settings->view) + " shows the heat u, which --method " +
-                     to_text(options.method) + " has not; use --method heat or another view"};
+    return Error{ErrorCode::kBadInput, "--view " + geotherm::to_text(settings->view) +
+                                           " shows the heat u, which --method " +
+                                           to_text(options.method) +
+                                           " has not; use --method heat or another view"};
   }
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   if (needs_fields(settings->view)) {
-    if (auto fits = refuse_better(*check, "--view " + to_text(settings->view)); !fits) {
+    if (auto fits = refuse_better(*check, "--view " + geotherm::to_text(settings->view)); !fits) {
       return fits.error();
     }
   }

@@ -127,11 +127,33 @@ namespace {
 Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
-    if (auto known = check_distance_path(path); !known) return known;
+    // What a volume writes beside is known when the model is.
+    const bool known_of_volume = check_tet_distances_path(path).has_value();
+    if (auto known = check_distance_path(path); !known && !known_of_volume) return known;
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
+}
+
+/// .vtu holds tets alone. Errors: kBadInput.
+Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (model.volume || check_distance_path(path)) continue;
+    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + " holds tets, and " +
+                                           one_line(model.name) + " is a surface; write .vtp"};
+  }
+  return {};
+}
+
+/// A volume's .vtu holds its tets; what else there is holds its border.
+Result<void> write_answer(const std::string& path, const Model& model,
+                          std::span<const double> distances, std::span<const Index> nearest,
+                          std::span<const DataField> fields) {
+  if (model.volume && check_tet_distances_path(path)) {
+    return write_distances(path, *model.volume, distances, nearest, fields);
+  }
+  return write_distances(path, *model.mesh, distances, nearest, fields);
 }
 
 bool needs_nearest(const std::vector<std::string>& paths) {
@@ -147,7 +169,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_source_options(command, arguments.sources);
   command
       .add_option("-o,--output", arguments.outputs,
-                  "where the distances go: .csv .npy .ply .vtp, or - for CSV on standard output; "
+                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, or - for CSV on "
+                  "standard output; "
                   "may be repeated; with --each .npy, with --pairs .npy and .csv")
       ->type_name("FILE")
       ->expected(1)
@@ -258,6 +281,9 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (!named) return named.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
+  if (auto writable = check_outputs_of(*model, arguments.outputs); !writable) {
+    return writable.error();
+  }
   const auto sources = resolve_sources(*named, *model);
   if (!sources) return sources.error();
   QueryOptions query;
@@ -282,8 +308,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
     const std::vector<Index> nearest =
         labels ? figures->result.nearest_source : std::vector<Index>();
     const auto written = outputs.write(path, [&]() -> Result<void> {
-      if (path != "-")
-        return write_distances(path, *figures->model.mesh, distances, nearest, *fields);
+      if (path != "-") return write_answer(path, figures->model, distances, nearest, *fields);
       out.text = io::csv_bytes(distances, nearest, *fields);
       return {};
     });

@@ -94,7 +94,7 @@ Json settings_json(const PictureFigures& f) {
 }
 
 std::string view_in_words(const PictureFigures& f) {
-  std::string text = to_text(f.settings.view);
+  std::string text = geotherm::to_text(f.settings.view);
   if (!has_colours(f)) return text;
   text += ", " + f.scale.colour_map + (f.settings.reverse ? " reversed" : "") + " from " +
           significant(f.scale.min) + " to " + significant(f.scale.max);
@@ -114,7 +114,7 @@ std::string caption_of(const PictureFigures& f) {
 
 std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
   std::vector<PngText> texts = {{"Software", "geotherm " GEOTHERM_VERSION},
-                                {"Title", f.model + ", " + to_text(f.settings.view)},
+                                {"Title", f.model + ", " + geotherm::to_text(f.settings.view)},
                                 {"Description", caption_of(f)}};
   add(texts, "version", GEOTHERM_VERSION);
   add(texts, "command", f.command);

@@ -12,8 +12,6 @@
 // of one frame.
 namespace geotherm::app {
 
-using geotherm::to_text;  // of an enum with names
-
 /// Views 1 to 7, in the order of their keys, then further ones.
 enum class View {
   kWireframe,

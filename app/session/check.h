@@ -14,8 +14,6 @@
 // say and do when these are wrong.
 namespace geotherm::app {
 
-using geotherm::to_text;  // of an enum with names
-
 /// What distances are held against.
 enum class Check {
   kOff,

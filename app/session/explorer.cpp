@@ -98,7 +98,8 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
   model->warnings = model->model.notes;
-  for (Warning& warning : mesh_warnings(model->mesh)) {
+  const bool surface = !model->model.volume && !model->model.from_points;
+  for (Warning& warning : surface ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
   }
   auto base = std::make_shared<PictureData>(picture_of(*mesh));

@@ -20,6 +20,10 @@ std::string key_of(const Setting& setting);
 /// The keys of `model` that every report has.
 Json model_json(const std::string& name, const MeshSummary& mesh);
 
+/// Says what the model holds where that is no surface: "domain", and of a volume "tets". Faces and
+/// edges are those of its border, or of the triangles between points.
+void add_domain(const Model& model, Json& json);
+
 /// Those and all others of the mesh report.
 Json full_model_json(const std::string& name, const MeshReport& mesh);
 

@@ -157,6 +157,12 @@ Json model_json(const std::string& name, const MeshSummary& mesh) {
           {"area", mesh.area}};
 }
 
+void add_domain(const Model& model, Json& json) {
+  if (!model.volume && !model.from_points) return;
+  json["domain"] = domain_name(model);
+  if (model.volume) json["tets"] = model.volume->tet_count();
+}
+
 Json full_model_json(const std::string& name, const MeshReport& mesh) {
   Json json = model_json(name, mesh);
   json.update({{"edges", mesh.edges},
@@ -200,6 +206,9 @@ Json sources_json(const SourceSet& sources) {
   Json json = vertices_of(sources);
   for (const SurfacePoint& point : sources.points) {
     if (!point.is_vertex()) json.push_back(point_json(point));
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    json.push_back({{"tet", point.cell}, {"weights", point.weights}});
   }
   return json;
 }
@@ -305,6 +314,7 @@ Json solve_json(const Answer& f) {
   Json json = {{"model", model_json(f.model.name, f.mesh)},
                {"options", options_json(*f.method, f.options, f.result)},
                {"sources", sources_json(f.sources)}};
+  add_domain(f.model, json["model"]);
   if (!f.sources.edges.empty()) json["source_edges"] = f.sources.edges;
   if (!f.sources.offsets.empty()) json["source_offsets"] = offsets_json(f.sources);
   json.update({{"distance",

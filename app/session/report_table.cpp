@@ -181,6 +181,11 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
     return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
   };
   row("model", one_line(model.name));
+  if (model.volume) {
+    row("domain", grouped(model.volume->tet_count()) + " tets; faces and edges are its border's");
+  } else if (model.from_points) {
+    row("domain", "points; faces and edges are those between them");
+  }
   row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
                       " in no face, " + grouped(mesh.duplicate_positions) +
                       " where another one lies)");

@@ -195,7 +195,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   const View view = state.picture.view;
   if (needs_fields(view) && explored.a->method->heat() == nullptr) {
     note(LogLine::Kind::kWarning,
-         {"the view " + to_text(view) + " shows the heat u, which the method " +
+         {"the view " + geotherm::to_text(view) + " shows the heat u, which the method " +
               to_text(explored.a->options.method) + " has not",
           {"set ", SettingHint{"method", {"heat"}}}});
   }

@@ -90,7 +90,7 @@ auto& member_of(auto& state, Value Part::*member) {
 template <auto kMember>
 Setting choice(Setting setting) {
   using Value = std::remove_cvref_t<decltype(member_of(std::declval<ViewerState&>(), kMember))>;
-  setting.get = [](const ViewerState& s) { return to_text(member_of(s, kMember)); };
+  setting.get = [](const ViewerState& s) { return geotherm::to_text(member_of(s, kMember)); };
   setting.set = [](ViewerState& s, const std::string& text) {
     return store(parse<Value>(text), member_of(s, kMember));
   };

@@ -94,6 +94,7 @@ SourceGroups source_groups(const SourceSet& sources) {
   for (Index e = 0; e < edges; ++e) {
     groups.of_edge.push_back(group_of(points + e));
   }
+  groups.count += static_cast<Index>(sources.cell_points.size());
   return groups;
 }
 

@@ -52,8 +52,7 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
 TEST_P(QualityFigures, HeatIsConserved) {
   const auto surface = build_surface(mesh, **find_backend(backend), LaplacianKind::kAuto, 1);
   ASSERT_TRUE(surface) << surface.error().message;
-  const auto system =
-      LinearSystem::build(*(*surface)->analysis, (*surface)->operators, 1.0, 1.0, {}, {}, 0.5);
+  const auto system = LinearSystem::build(**surface, 1.0, 1.0, {}, {}, 0.5);
   ASSERT_TRUE(system) << system.error().message;
   Block u = Block::Zero((*surface)->operators->size(), 1);
   u(3, 0) = 2;

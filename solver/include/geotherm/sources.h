@@ -35,8 +35,9 @@ struct SourceSet {
   bool operator==(const SourceSet&) const = default;
 };
 
-/// Numbers the sources for labels: points first, then edges, each as in the set. A point has a
-/// group of its own; edges that touch, and points that are their ends, are one group. Groups are
+/// Numbers the sources for labels: points first, then edges, then points of cells, each as in the
+/// set. A point has a group of its own; edges that touch, and points that are their ends, are one
+/// group. Groups are
 /// numbered 0, 1, ... in the order in which they first stand.
 struct SourceGroups {
   std::vector<Index> of_point, of_edge;
