@@ -175,8 +175,8 @@ Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& opt
   }
   auto made = cells_of(*mesh);
   if (!made) return made.error();
-  auto built = HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)),
-                                 options, progress);
+  auto built =
+      HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)), options, progress);
   if (!built) return built.error();
   return std::shared_ptr<const DistanceMethod>(
       std::make_shared<const HeatMethod>(*std::move(built)));

@@ -67,8 +67,8 @@ struct BundledModel {
 /// "triangles", "points" or "tets": what a model's file holds.
 std::string_view domain_name(const Model& model);
 
-/// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model is
-/// a volume.
+/// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model
+/// is a volume.
 Result<void> refuse_volume(const Model& model, std::string_view what);
 
 /// All of them: terrain, sleeve, cube, gargoyle, bunny.

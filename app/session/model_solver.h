@@ -105,6 +105,8 @@ class ModelSolver {
 
   // model_check.cpp
   // In a volume fast marching is what is better than heat, and there is nothing else.
+  Result<void> find_remedy_in_volume(AccuracyReport& report, const CheckedAnswers& answers,
+                                     const Progress& progress);
   MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
   MethodKind reference_of_better(MethodKind kind, Check check) const;
   bool is_better(MethodKind a, MethodKind b) const;

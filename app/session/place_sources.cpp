@@ -194,10 +194,10 @@ class Resolver {
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return misplaced(
-          "vertex " + std::to_string(v) + (space_.volume ? " belongs to no tet" : " belongs to no face") +
-              ", so that no distance starts there",
-          "choose another");
+      return misplaced("vertex " + std::to_string(v) +
+                           (space_.volume ? " belongs to no tet" : " belongs to no face") +
+                           ", so that no distance starts there",
+                       "choose another");
     }
     set_.add(SurfacePoint::at_vertex(v), offset);
     return {};

@@ -117,7 +117,7 @@ struct SourceSpace {
   const TriangleMesh& mesh;
   const TetMesh* volume = nullptr;
 
-  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                           // NOLINT
+  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                         // NOLINT
   SourceSpace(const Model& model) : mesh(*model.mesh), volume(model.volume.get()) {}  // NOLINT
 };
 
@@ -128,8 +128,8 @@ struct ResolvedSources {
 
 /// Places sources, all in one set. In a volume the boundary are the vertices of its border, and a
 /// point in a face or in space is the nearest point of the volume. Errors: the blame of the source,
-/// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or tet, no
-/// boundary, a curve in a volume).
+/// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or tet,
+/// no boundary, a curve in a volume).
 Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space);
 
 struct EachSource {

@@ -163,7 +163,9 @@ double between(const double* a, const double* b, std::size_t dimension) {
   return std::sqrt(square);
 }
 
-/// Turns sources into anchors, and measures the cells that touch one.
+/// Turns sources into anchors. Cells at a source keep the gradient of u: the straight distance in
+/// its place, which is better on triangles, made distances on tets worse (measured;
+/// docs/domains.md).
 class CellPlacer {
  public:
   explicit CellPlacer(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
@@ -180,10 +182,9 @@ class CellPlacer {
     const std::vector<double> places = domain_.corner_places(cell);
     std::vector<double> at(d, 0.0);
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      if (point.weights[k] == 1) return add_vertex(mesh_vertex(corners[k]));
+      if (point.weights[k] == 1) return add_vertex(domain_.vertex_of_row[corners[k]]);
       for (std::size_t e = 0; e < d; ++e) at[e] += point.weights[k] * places[k * d + e];
     }
-    touched_.insert(cell);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       auto& anchor =
           anchors_.try_emplace(corners[k], SourceAnchors::Anchor{corners[k], kUnreached, 0.0})
@@ -194,65 +195,21 @@ class CellPlacer {
     }
   }
 
-  SourceAnchors finish() {
+  SourceAnchors finish() const {
     SourceAnchors out;
     std::set<Index> parts;
-    std::map<Index, double> near;  // straight distances to the sources, by row
     for (const auto& [row, anchor] : anchors_) {
       out.anchors.push_back(anchor);
       parts.insert(mesh_.components.of[row]);
-      near[row] = anchor.offset;
-      if (anchor.offset > 0) continue;
-      for (const Index cell : mesh_.cells_at.at(row)) touched_.insert(cell);
     }
     out.components.assign(parts.begin(), parts.end());
-    for (const Index cell : touched_) {
-      for (const Index row : mesh_.corners_of(cell)) near.try_emplace(row, kUnreached);
-    }
-    // Shortest ways from corner to corner, whatever the order of the cells: until nothing changes.
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const Index cell : touched_) changed = shorten(cell, near) || changed;
-    }
-    for (const Index cell : touched_) {
-      SourceAnchors::NearCell field{cell, {}};
-      const double* gradient = mesh_.gradients_of(cell);
-      for (const Index row : mesh_.corners_of(cell)) {
-        for (int e = 0; e < mesh_.dimension; ++e) field.field[e] += near[row] * *gradient++;
-      }
-      out.near_cells.push_back(field);
-    }
     return out;
   }
 
  private:
-  Index mesh_vertex(Index row) const { return domain_.vertex_of_row[row]; }
-
-  /// Brings the corners of a cell as near as the others allow; true where that changed one.
-  bool shorten(Index cell, std::map<Index, double>& near) const {
-    const auto corners = mesh_.corners_of(cell);
-    const auto d = static_cast<std::size_t>(mesh_.dimension);
-    const std::vector<double> places = domain_.corner_places(cell);
-    bool changed = false;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      double& value = near[corners[k]];
-      for (std::size_t j = 0; j < corners.size(); ++j) {
-        const double length = between(places.data() + k * d, places.data() + j * d, d);
-        // Round-off would go on for ever.
-        constexpr double kShorter = 1 - 1e-12;
-        const double other = near[corners[j]] + length;
-        if (!(other < kShorter * value)) continue;
-        value = other;
-        changed = true;
-      }
-    }
-    return changed;
-  }
-
   const CellDomain& domain_;
   const CellMesh& mesh_;
   std::map<Index, SourceAnchors::Anchor> anchors_;
-  std::set<Index> touched_;
 };
 
 }  // namespace

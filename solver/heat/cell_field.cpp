@@ -157,7 +157,7 @@ void CellField::add_cells(Index first_cell, Index end_cell, Block& b) const {
   }
 }
 
-Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
+Block CellField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
   const CellMesh& mesh = *domain_.mesh;
   const Eigen::Index columns = heat_.u.cols();
   Block b = work_.pool.take(heat_.u.rows(), columns);
@@ -172,18 +172,6 @@ Block CellField::divergence(std::span<const SourceAnchors> anchors) const {
                  }
                });
   add_cells(mesh.crossing, mesh.cell_count(), b);
-  if (!shortens_) return b;
-  for (Eigen::Index column = 0; column < columns; ++column) {
-    for (const auto& near : anchors[static_cast<std::size_t>(column)].near_cells) {
-      const Direction x = of_cell(near.cell, inverse_square(near.cell), column);
-      const double* gradient = mesh.gradients_of(near.cell);
-      for (const Index row : mesh.corners_of(near.cell)) {
-        double flow = 0;
-        for (int e = 0; e < mesh.dimension; ++e) flow += *gradient++ * (near.field[e] - x[e]);
-        b(row, column) += mesh.measures[near.cell] * flow;
-      }
-    }
-  }
   return b;
 }
 

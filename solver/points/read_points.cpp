@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "geotherm/domains.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/ply_header.h"
 #include "solver/points/io/raw_points.h"
-#include "geotherm/domains.h"
 
 namespace geotherm {
 namespace {

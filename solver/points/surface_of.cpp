@@ -6,10 +6,10 @@
 #include <new>
 #include <string>
 
+#include "geotherm/domains.h"
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
 #include "solver/core/text.h"
-#include "geotherm/domains.h"
 #include "solver/points/sorted_points.h"
 #include "solver/points/star.h"
 

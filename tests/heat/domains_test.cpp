@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -217,8 +219,8 @@ TEST_P(OnTets, BackendsAndConstraintModesAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, OnTets, testing::ValuesIn(backend_names()),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& test) {
+                           std::string name = test.param;
                            std::ranges::replace(name, '-', '_');
                            return name;
                          });
@@ -418,7 +420,7 @@ const BadCells kBad[] = {
     {"place", [](CellComplex& c) { c.positions[3][1] = kNan; }, "vertex 3"},
 };
 INSTANTIATE_TEST_SUITE_P(Arrays, RefusedCells, testing::ValuesIn(kBad),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Domains, SourcesThatDoNotFitAreOneLine) {
   const auto method = HeatMethod::build(std::make_shared<const CellComplex>(box_of_tets(2)));

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "geotherm/domains.h"
-#include "geotherm/domains.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {

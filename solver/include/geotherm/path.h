@@ -12,8 +12,8 @@
 #include "geotherm/mesh.h"
 #include "geotherm/names.h"
 
-// Lines on the surface: the shortest paths, isolines (level sets of distances, or of any values at the
-// vertices), and files of them.
+// Lines on the surface: the shortest paths, isolines (level sets of distances, or of any values at
+// the vertices), and files of them.
 namespace geotherm {
 
 /// A polyline on the surface. Two points that follow each other lie in a common face.
