@@ -115,9 +115,12 @@ class GridCells {
                                                    at[1] * grid_.spacing[1],
                                                    at[2] * grid_.spacing[2]));
     });
+    cells_at_.assign(static_cast<std::size_t>(out_.vertices), 0);
     in_cell_.assign(static_cast<std::size_t>(out_.vertices) * axes_.size(), 0);
     for_each_sample([this](const std::array<Index, 3>& at) { add_cell(at); });
     for_each_sample([this](const std::array<Index, 3>& at) { add_edges(at); });
+    // A sample that is a corner of fewer cells than one inside lies on the boundary.
+    for (const char count : cells_at_) out_.on_boundary.push_back(count < 1 << axes_.size());
     return std::move(out_);
   }
 
@@ -151,6 +154,7 @@ class GridCells {
       slowness += 1 / (speed(vertex[k]) * corners);
     }
     for (int k = 0; k < corners; ++k) {
+      ++cells_at_[vertex[k]];
       for (std::size_t e = 0; e < axes_.size(); ++e) {
         if ((k >> e & 1) == 0) in_cell_[vertex[k] * axes_.size() + e] = 1;
       }
@@ -201,7 +205,8 @@ class GridCells {
   const Grid& grid_;
   std::vector<int> axes_;  ///< along which there are several samples
   GridElement element_;
-  std::vector<char> in_cell_;  ///< samples x axes: the edge from there along the axis is in a cell
+  std::vector<char> in_cell_;   ///< samples x axes: the edge from there along the axis is in a cell
+  std::vector<char> cells_at_;  ///< samples: how many squares or cubes
   CellComplex out_;
 };
 

