@@ -106,10 +106,22 @@ TEST_F(ProgramInVolumes, RowsOfManySourcesAreThoseOfOne) {
 TEST_F(ProgramInVolumes, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"path", "ball.mesh", "--from", "0", "--to", "5", "-o", "p.obj"},
                  "paths are of surfaces, and ball is a volume");
+  expect_refused({"study", "ball.mesh"}, "studies are of surfaces");
+  expect_refused({"sample", "ball.mesh", "-n", "3"}, "samples are of surfaces");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--method", "exact"}, "of surfaces");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--refine", "1"}, "refined");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--weld", "0"}, "welded vertices are");
   expect_refused({"solve", "bunny", "-s", "0", "-o", "d.vtu"}, "holds tets");
+}
+
+TEST_F(ProgramInVolumes, CompareHoldsBackendsAgainstFastMarching) {
+  run({"compare", "ball.mesh", "--backends", "native,cg", "--json", "rows.json"});
+  const Json rows = Json::parse(bytes_of(folder.path("rows.json")))["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["error_reference"], "fast-marching") << row;
+    EXPECT_LE(row["mean_error"].get<double>(), 0.1) << row;
+  }
 }
 
 TEST_F(Program, PointsWithoutFacesHaveDistances) {
