@@ -70,6 +70,10 @@ std::string sources_in_words(const SourceSet& sources) {
   if (vertices.empty()) text.clear();
   if (inside > 0)
     text += (text.empty() ? "" : ", ") + counted(inside, "point in a face", "points in faces");
+  if (!sources.cell_points.empty()) {
+    text += (text.empty() ? "" : ", ") +
+            counted(std::ssize(sources.cell_points), "point in a tet", "points in tets");
+  }
   if (!sources.edges.empty()) {
     text += ", " + counted(static_cast<std::int64_t>(sources.edges.size()), "edge", "edges");
   }
@@ -141,7 +145,9 @@ std::string solve_table(const Answer& f) {
   const Quality& q = f.result.quality;
   const HeatMethod* heat = f.method->heat();
   TextTable table = two_columns();
-  table.add_row({"model", one_line(f.model.name) + ": " + mesh_in_words(f.mesh)});
+  std::string model = one_line(f.model.name) + ": ";
+  if (f.model.volume) model += counted(f.model.volume->tet_count(), "tet", "tets") + "; border: ";
+  table.add_row({"model", model + mesh_in_words(f.mesh)});
   if (heat != nullptr) {
     add_heat_rows(table, f, *heat);
   } else {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <string>
 
 #include "geotherm/domains.h"
@@ -109,7 +110,7 @@ Result<void> check_cells(const CellComplex& cells) {
   return {};
 }
 
-Result<CellComplex> cells_of(const Graph& graph) {
+Result<CellComplex> cells_of(const Graph& graph) try {
   CellComplex out;
   out.cell_name = "edge";
   out.cells_name = "edges";
@@ -136,6 +137,8 @@ Result<CellComplex> cells_of(const Graph& graph) {
   }
   if (graph.edges.empty()) return bad_cells("the graph has no edges");
   return out;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a graph"};
 }
 
 }  // namespace geotherm

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <new>
 #include <string>
 
 #include "geotherm/domains.h"
@@ -212,7 +213,7 @@ class GridCells {
 
 }  // namespace
 
-Result<CellComplex> cells_of(const Grid& grid) {
+Result<CellComplex> cells_of(const Grid& grid) try {
   if (const auto valid = check_grid(grid); !valid) return valid.error();
   if (std::ranges::all_of(grid.size, [](Index count) { return count == 1; })) {
     return bad_grid("the grid has one sample alone");
@@ -224,6 +225,8 @@ Result<CellComplex> cells_of(const Grid& grid) {
       std::ranges::all_of(grid.speeds, [](double f) { return f == 0 || f == 1; });
   if (!unit_speed) cells.lengths_are_straight = false;
   return cells;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
 }
 
 }  // namespace geotherm

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <string>
 
 #include "geotherm/domains.h"
@@ -88,7 +89,7 @@ std::vector<char> polygon_boundary(const CellComplex& cells) {
 
 }  // namespace
 
-Result<CellComplex> cells_of(const PolygonMesh& mesh) {
+Result<CellComplex> cells_of(const PolygonMesh& mesh) try {
   CellComplex cells;
   cells.cell_name = "polygon";
   cells.cells_name = "polygons";
@@ -133,6 +134,7 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) {
       for (Eigen::Index j = 0; j <= k; ++j) cells.stabilizers.push_back(element.stabilizer(k, j));
     }
     cells.measures.push_back(element.area);
+    cells.numbers.push_back(static_cast<Index>(f));
     cells.widths.push_back(element.width);
   }
   if (cells.measures.empty()) {
@@ -144,6 +146,8 @@ Result<CellComplex> cells_of(const PolygonMesh& mesh) {
   }
   cells.on_boundary = polygon_boundary(cells);
   return cells;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of polygons"};
 }
 
 }  // namespace geotherm

@@ -82,8 +82,8 @@ struct PolygonMesh {
 
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of
-/// de Goes, Butts, Desbrun 2020 (equation 20, lambda = 1/2). Cells are the faces that were not left
-/// out, in order: those without area, with fewer than three corners or with one twice. Errors
+/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with
+/// fewer than three corners or with one twice; sources keep the numbers of the mesh. Errors
 /// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, no face
 /// that can be used. Cost: one pass.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
