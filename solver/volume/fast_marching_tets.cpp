@@ -61,6 +61,7 @@ class TetMarch {
     out_.nearest.assign(count, kNoIndex);
     straight_.assign(count, 0);
     first_sight_.assign(count, kNoIndex);
+    sights_of_.assign(count, 0);
   }
 
   Result<void> add(const VolumePoint& point, double offset) {
@@ -117,6 +118,9 @@ class TetMarch {
   struct Sight {
     Index source, next;
   };
+  /// Sources that a vertex sees are noted up to this many; of more, as at the centre of a ball
+  /// whose border is the source, only those count that are nearer than all before.
+  static constexpr Index kMostSights = 8;
 
   const Vec3& at(Index v) const { return m_.mesh_->positions()[v]; }
 
@@ -168,6 +172,8 @@ class TetMarch {
     const double line = line_from(source, v);
     double& held = out_.distances[v];
     if (line > held + slack_at(v)) return;
+    if (sights_of_[v] >= kMostSights && line >= held) return;
+    ++sights_of_[v];
     sights_.push_back({source, first_sight_[v]});
     first_sight_[v] = static_cast<Index>(sights_.size()) - 1;
     queue_.push({line, v, source});
@@ -233,6 +239,7 @@ class TetMarch {
   std::vector<Source> sources_;
   std::vector<Index> first_sight_;  ///< V: into sights_, a list for each vertex
   std::vector<Sight> sights_;
+  std::vector<Index> sights_of_;        ///< V: how many
   std::vector<std::uint8_t> straight_;  ///< V: the distance is the line to `nearest`
   TetDistances out_;
   std::priority_queue<News> queue_;
