@@ -66,7 +66,8 @@ fs::path typed_path(const std::string& text, const fs::path& folder) {
 
 namespace {
 
-constexpr std::string_view kModels[] = {".obj", ".ply", ".off", ".stl"};
+constexpr std::string_view kModels[] = {".obj",  ".ply",   ".off", ".stl", ".xyz", ".pts",  ".pcd",
+                                        ".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele"};
 constexpr std::string_view kPictures[] = {".png"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
 constexpr std::string_view kSessions[] = {kSessionExtension};

@@ -114,11 +114,10 @@ void FileDialog::draw_formats(Frame& frame) {
     }
     ImGui::SameLine();
   }
-  if (!task.saves) {
-    ImGui::TextUnformatted(app::joined(task.extensions, " ").c_str());
-    ImGui::SameLine(0, frame.px(16));
-  }
   if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
+  if (task.saves) return;
+  ImGui::SameLine(0, frame.px(16));
+  ImGui::TextUnformatted(app::joined(task.extensions, " ").c_str());
 }
 
 void FileDialog::draw_picture_options(Frame& frame) {

@@ -43,7 +43,8 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (!asked) return asked.error();
   const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  const MeshReport mesh = inspect_mesh(*model->mesh);
+  MeshReport mesh = inspect_mesh(*model->mesh);
+  if (model->volume) mesh.unreferenced_vertices = unused_vertices(*model->volume);
   CommandOutput out{"", model->notes, {}};
   const bool surface = !model->volume && !model->from_points;
   if (surface) {

@@ -17,8 +17,9 @@ CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArgu
   add_setting_options(command, settings, names_of(SettingGroup::kModel));
   return command
       .add_option("MODEL", model,
-                  "a file (.obj .ply .off .stl), a bundled model (geotherm models), or - for "
-                  "standard input with --format")
+                  "a file (.obj .ply .off .stl; points: .xyz .pts .pcd .ply; tets: .mesh .msh .vtk "
+                  ".vtu .node), a bundled model (geotherm models), or - for standard input with "
+                  "--format")
       ->type_name("");
 }
 

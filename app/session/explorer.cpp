@@ -97,6 +97,8 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
+  if (model->model.volume)
+    model->mesh.unreferenced_vertices = unused_vertices(*model->model.volume);
   model->warnings = model->model.notes;
   const bool surface = !model->model.volume && !model->model.from_points;
   for (Warning& warning : surface ? mesh_warnings(model->mesh) : std::vector<Warning>()) {

@@ -99,6 +99,12 @@ Result<Model> read_model(const std::string& path, const std::string& name,
     return model_of_points(*std::move(file), name, path, progress);
   }
   auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
+  if (!file && file.error().code == ErrorCode::kNotAvailable && reading.format.empty()) {
+    return Error{ErrorCode::kNotAvailable,
+                 file.error().message,
+                 {"there are " + joined(mesh_formats(), " ") + ", for points " +
+                  joined(point_formats(), " ") + ", for tets " + joined(tet_formats(), " ")}};
+  }
   if (!file) return file.error();
   return model_of(*std::move(file), name, path, 0);
 }
@@ -219,6 +225,14 @@ std::vector<std::filesystem::path> folders() {
 
 std::string_view domain_name(const Model& model) {
   return model.volume ? "tets" : model.from_points ? "points" : "triangles";
+}
+
+Index unused_vertices(const TetMesh& volume) {
+  std::vector<char> used(static_cast<std::size_t>(volume.vertex_count()), 0);
+  for (const Tet& tet : volume.tets()) {
+    for (const Index v : tet) used[v] = 1;
+  }
+  return static_cast<Index>(std::ranges::count(used, 0));
 }
 
 Result<void> refuse_volume(const Model& model, std::string_view what) {

@@ -67,6 +67,9 @@ struct BundledModel {
 /// "triangles", "points" or "tets": what a model's file holds.
 std::string_view domain_name(const Model& model);
 
+/// How many vertices belong to no tet.
+Index unused_vertices(const TetMesh& volume);
+
 /// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model
 /// is a volume.
 Result<void> refuse_volume(const Model& model, std::string_view what);

@@ -193,8 +193,8 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
     row("domain", "points; faces and edges are those between them");
   }
   row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
-                      " in no face, " + grouped(mesh.duplicate_positions) +
-                      " where another one lies)");
+                      (model.volume ? " in no tet, " : " in no face, ") +
+                      grouped(mesh.duplicate_positions) + " where another one lies)");
   row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
                    grouped(mesh.duplicate_faces) + " duplicate, " +
                    grouped(mesh.inconsistent_faces) + " turned against their neighbours)");

@@ -168,7 +168,7 @@ const std::vector<Failure>& failures() {
        1,
        {"broken.obj", "line 4", "7", "; choose another file"}},
       {"EmptyFile", {"info", "empty.obj"}, 1, {"empty.obj", "empty (0 bytes); "}},
-      {"UnknownFormat", {"info", "mesh.abc"}, 1, {".abc", ".obj"}},
+      {"UnknownFormat", {"info", "mesh.abc"}, 1, {".abc", "obj ply", "xyz", "vtu"}},
       {"ModelIsFolder", {"info", "."}, 1, {"directory"}},
       {"NoArea", {"solve", "flat.obj", "-s", "0"}, 1, {"flat", "no face with area"}},
       {"CompareNoFile", {"compare", "bunny", "missing.obj"}, 1, {"missing.obj"}},
