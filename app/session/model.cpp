@@ -227,12 +227,16 @@ std::string_view domain_name(const Model& model) {
   return model.volume ? "tets" : model.from_points ? "points" : "triangles";
 }
 
-Index unused_vertices(const TetMesh& volume) {
+std::vector<char> vertices_in_tets(const TetMesh& volume) {
   std::vector<char> used(static_cast<std::size_t>(volume.vertex_count()), 0);
   for (const Tet& tet : volume.tets()) {
     for (const Index v : tet) used[v] = 1;
   }
-  return static_cast<Index>(std::ranges::count(used, 0));
+  return used;
+}
+
+Index unused_vertices(const TetMesh& volume) {
+  return static_cast<Index>(std::ranges::count(vertices_in_tets(volume), 0));
 }
 
 Result<void> refuse_volume(const Model& model, std::string_view what) {

@@ -67,7 +67,9 @@ struct BundledModel {
 /// "triangles", "points" or "tets": what a model's file holds.
 std::string_view domain_name(const Model& model);
 
-/// How many vertices belong to no tet.
+/// Flags the vertices that belong to a tet.
+std::vector<char> vertices_in_tets(const TetMesh& volume);
+/// How many do not.
 Index unused_vertices(const TetMesh& volume);
 
 /// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model

@@ -50,11 +50,7 @@ std::vector<char> usable_vertices(const SourceSpace& space) {
   if (space.volume == nullptr) {
     return vertices_in_faces(space.mesh.vertex_count(), space.mesh.faces());
   }
-  std::vector<char> used(static_cast<std::size_t>(space.volume->vertex_count()), 0);
-  for (const Tet& tet : space.volume->tets()) {
-    for (const Index v : tet) used[v] = 1;
-  }
-  return used;
+  return vertices_in_tets(*space.volume);
 }
 
 class Resolver {

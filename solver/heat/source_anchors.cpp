@@ -67,7 +67,7 @@ class Placer {
       const Face& face = surface_.operators->faces[f];
       const auto g = gradient(surface_.operators->layout[f], near_.at(face[0]), near_.at(face[1]),
                               near_.at(face[2]));
-      out.near_cells.push_back({f, {g[0], g[1], 0.0}});
+      out.near_faces.push_back({f, g});
     }
     out.components.assign(components.begin(), components.end());
     return out;

@@ -21,10 +21,10 @@ struct SourceAnchors {
     double offset;  ///< distance to the source through the cell that holds it; 0 on a source
     double heat;    ///< share of a unit of heat (barycentric; 1 for a source at the vertex)
   };
-  /// A cell at a source, where the direction of u's gradient says little and the distance is known.
-  struct NearCell {
-    Index cell;
-    std::array<double, 3> field;  ///< gradient of the interpolated straight distance
+  /// A face at a source, where the direction of u's gradient says little and the distance is known.
+  struct NearFace {
+    Index face;
+    std::array<double, 2> field;  ///< gradient of the interpolated straight distance
   };
 
   /// A point (both ends the same) or a straight piece of a curve inside one face or along its side,
@@ -36,7 +36,7 @@ struct SourceAnchors {
 
   std::vector<Anchor> anchors;       ///< ascending rows, each once
   std::vector<Piece> pieces;         ///< of the sources that are no vertices
-  std::vector<NearCell> near_cells;  ///< each cell once
+  std::vector<NearFace> near_faces;  ///< each face once
   std::vector<Index> components;     ///< that hold a source, ascending
 
   std::vector<Index> rows() const;

@@ -301,10 +301,10 @@ Block FaceField::divergence(std::span<const SourceAnchors> anchors) const {
   add_faces(mesh_.crossing, mesh_.face_count(), b);
   if (!(root_t_ > 0)) return b;
   for (Eigen::Index c = 0; c < columns; ++c) {
-    for (const auto& near : anchors[static_cast<std::size_t>(c)].near_cells) {
-      const Field x = of_face(near.cell, c);
-      const double share = at(width_, mesh_.faces[near.cell][0], c);
-      add_divergence(mesh_.faces[near.cell], mesh_.layout[near.cell],
+    for (const auto& near : anchors[static_cast<std::size_t>(c)].near_faces) {
+      const Field x = of_face(near.face, c);
+      const double share = at(width_, mesh_.faces[near.face][0], c);
+      add_divergence(mesh_.faces[near.face], mesh_.layout[near.face],
                      {share * (near.field[0] - x[0]), share * (near.field[1] - x[1])}, b, c);
     }
   }
