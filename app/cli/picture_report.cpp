@@ -40,6 +40,7 @@ void add_solve_texts(const Answer& solve, std::vector<PngText>& texts) {
   ViewerState state;
   static_cast<HeatOptions&>(state.options) = heat->options();
   state.options.backend = solve.result.backend;
+  state.options.boundary = heat->boundary();
   state.options.laplacian = heat->laplacian();
   const bool absolute = state.options.time_step.rule == TimeRule::kAbsolute;
   for (const Setting& setting : settings()) {

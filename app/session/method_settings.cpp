@@ -202,7 +202,7 @@ std::vector<Setting> method_settings() {
            .help = "the condition on u along the border",
            .detail =
                "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
-               "both."}),
+               "both; auto takes average in volumes, neumann elsewhere."}),
       choice<&HeatOptions::laplacian>(
           {.name = "laplacian",
            .of_heat = true,

@@ -133,7 +133,10 @@ Result<void> ModelSolver::find_remedy_in_volume(AccuracyReport& report,
   if (!report.is_poor()) return {};
   report.advice = {"use ", SettingHint{"method", {"fast-marching"}}};
   MethodOptions options = answers.options;
-  if (options.method != MethodKind::kHeat || options.boundary == BoundaryRule::kAverage) return {};
+  if (options.method != MethodKind::kHeat ||
+      answers.method.heat()->boundary() == BoundaryRule::kAverage) {
+    return {};
+  }
   options.boundary = BoundaryRule::kAverage;
   const auto tried = make(options, &answers.method, part_of(progress, 0.0, 0.5));
   if (!tried) return tried.error().code == ErrorCode::kCancelled ? tried.error() : Result<void>();

@@ -245,7 +245,11 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
   const HeatMethod* const heat = method.heat();
   ViewerState state;
   state.options = asked;
-  if (heat != nullptr) static_cast<HeatOptions&>(state.options) = heat->options();
+  if (heat != nullptr) {
+    static_cast<HeatOptions&>(state.options) = heat->options();
+    state.options.boundary = heat->boundary();
+    state.options.laplacian = heat->laplacian();
+  }
   Json json;
   for (const Setting& setting : settings()) {
     if (setting.group != SettingGroup::kMethod) continue;
@@ -259,7 +263,6 @@ Json options_json(const DistanceMethod& method, const MethodOptions& asked,
     return json;
   }
   json["backend"] = answer.backend;
-  json["laplacian"] = to_text(heat->laplacian());
   if (heat->options().time_step.rule == TimeRule::kAbsolute) json["time_factor"] = nullptr;
   json.update({{"backend_asked", asked.backend},
                {"fallbacks", fallbacks_json(*heat, answer)},

@@ -107,7 +107,7 @@ void add_heat_rows(TextTable& table, const Answer& figures, const HeatMethod& me
                                 counted(thread_count(options.threads), "thread", "threads")});
   table.add_row({"t", time_in_words(method, mesh, figures.options.refine > 0)});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
-                               ", boundary " + to_text(options.boundary) + ", " +
+                               ", boundary " + to_text(method.boundary()) + ", " +
                                to_text(options.variant) + ", " + to_text(options.precision) +
                                " precision"});
   table.add_row({"laplacian", laplacian_in_words(method)});

@@ -19,7 +19,10 @@ constexpr double kFactor = 1.0 / 3, kSetUp = 1, kCover = 2, kRefined = 4;
 class Candidates {
  public:
   Candidates(const MethodOptions& options, const MeshReport& mesh, double relative_t)
-      : options_(options), mesh_(mesh), relative_t_(relative_t) {}
+      : options_(options), mesh_(mesh), relative_t_(relative_t) {
+    // On surfaces the one is the other.
+    if (options_.boundary == BoundaryRule::kNeumann) options_.boundary = BoundaryRule::kAuto;
+  }
 
   std::vector<Candidate> take() {
     add_recommended();
@@ -145,7 +148,7 @@ class Candidates {
                              candidates_.end(), {}, &Candidate::faces);
   }
 
-  const MethodOptions& options_;
+  MethodOptions options_;
   const MeshReport& mesh_;
   double relative_t_;
   std::vector<Candidate> candidates_;

@@ -75,6 +75,9 @@ class CellInput final : public Domain::Input {
     out->unit = std::accumulate(cells_->widths.begin(), cells_->widths.end(), 0.0) /
                 static_cast<double>(cells_->cell_count());
     const std::span<const Index> order = out->analysis->order();
+    const bool has_border =
+        std::ranges::count(cells_->on_boundary, 0) != std::ssize(cells_->on_boundary);
+    if (cells_->dimension == 3 && has_border) out->auto_boundary = BoundaryRule::kAverage;
     out->mesh = build_cell_mesh(*cells_, pattern, order, out->unit, threads);
     number_rows(pattern, order, *out);
     out->components = measure_cells(*out->mesh);

@@ -86,6 +86,7 @@ struct Domain {
                                      ///< where in no cell
   std::vector<Index> vertex_of_row;  ///< n
   std::vector<char> on_boundary;     ///< n
+  BoundaryRule auto_boundary = BoundaryRule::kNeumann;  ///< what BoundaryRule::kAuto is here
   std::vector<ComponentSize> components;
   std::shared_ptr<const Analysis> analysis;
   SetupTiming timing;             ///< operators with their stages, and analyze

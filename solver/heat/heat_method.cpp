@@ -115,9 +115,9 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   const bool same_heat = from.heat && from.times == next->times &&
                          from.options.variant == options.variant &&
                          same_factors(from.options.precision, options.precision);
-  const FactorPlan plan = plan_factors(
-      options.boundary, same_heat ? std::optional(from.options.boundary) : std::nullopt,
-      next->poisson != nullptr, threads);
+  const FactorPlan plan =
+      plan_factors(next->boundary(), same_heat ? std::optional(from.boundary()) : std::nullopt,
+                   next->poisson != nullptr, threads);
   if (const auto fits = check_factor_memory(*next->domain->analysis, options.backend,
                                             options.precision, plan, options.memory_limit_mb);
       !fits) {
@@ -129,7 +129,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
   run_both(
       threads,
       [&] {
-        auto built = HeatStep::build(next->domain, next->times.t, options.boundary,
+        auto built = HeatStep::build(next->domain, next->times.t, next->boundary(),
                                      consistent_share(options.variant, next->times.relative),
                                      iterative, options.precision, from.heat.get(), of_heat,
                                      part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
@@ -210,6 +210,7 @@ std::array<double, 2> HeatMethod::t_range() const {
   if (state_->times.t.same()) return {t(), t()};
   return {state_->times.t.least() * edge * edge, state_->times.t.most() * edge * edge};
 }
+BoundaryRule HeatMethod::boundary() const { return state_->boundary(); }
 LaplacianKind HeatMethod::laplacian() const {
   const Surface* const surface = state_->domain->surface();
   return surface != nullptr ? surface->laplacian : LaplacianKind::kCotan;
@@ -235,7 +236,7 @@ double HeatMethod::memory_mb() const {
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
 }
 double HeatMethod::forecast_mb() const {
-  const FactorPlan plan = plan_factors(state_->options.boundary, {}, false, 1);
+  const FactorPlan plan = plan_factors(state_->boundary(), {}, false, 1);
   const Analysis& analysis = *state_->domain->analysis;
   const Precision precision = state_->options.precision;
   const std::int64_t bytes = analysis.factor_bytes(heat_storage(precision)) * (plan.factors - 1) +

@@ -83,6 +83,11 @@ struct HeatMethod::State {
   Attempt<HeatMethod> substitute(const std::string& name, std::span<const Fallback> before,
                                  const Progress& progress) const;
 
+  /// The rule at work: that of the options, or the domain's own.
+  BoundaryRule boundary() const {
+    return options.boundary == BoundaryRule::kAuto ? domain->auto_boundary : options.boundary;
+  }
+
   /// The backend that was asked for.
   const std::string& asked() const {
     return failed.empty() ? options.backend : failed.front().backend;

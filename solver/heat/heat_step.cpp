@@ -131,13 +131,20 @@ std::vector<Index> HeatStep::boundary_without(const SourceAnchors* anchors) cons
   return border;
 }
 
-bool HeatStep::on_border(const SourceAnchors& anchors) const {
-  return std::any_of(anchors.anchors.begin(), anchors.anchors.end(),
-                     [this](const auto& a) { return domain_->on_boundary[a.row] != 0; });
+std::vector<SourceAnchors::Anchor> HeatStep::on_border(const SourceAnchors& anchors) const {
+  std::vector<SourceAnchors::Anchor> out;
+  std::ranges::copy_if(anchors.anchors, std::back_inserter(out),
+                       [this](const auto& a) { return domain_->on_boundary[a.row] != 0; });
+  return out;
 }
 
 bool HeatStep::needs_own_system(const SourceAnchors& anchors, HeatMode mode) const {
-  if (boundary_ != BoundaryRule::kNeumann && on_border(anchors)) return true;
+  if (boundary_ != BoundaryRule::kNeumann) {
+    const std::size_t freed = on_border(anchors).size();
+    if (freed > kMaxFreedRows || (freed > 0 && (iterative_ || mode == HeatMode::kHold))) {
+      return true;
+    }
+  }
   return mode == HeatMode::kHold && (iterative_ || anchors.anchors.size() > kMaxHeldRows);
 }
 
@@ -161,6 +168,38 @@ Result<std::shared_ptr<const LinearSystem>> HeatStep::own_system(bool dirichlet,
                                          {threads, heat_storage(precision_)}, consistent_share_);
   if (!built) return built;
   return (*built)->refined(refines());
+}
+
+/// Sources on a border that is held at 0 have no heat unless their own rows are free. The factor
+/// with the whole border held gives the solutions with u = 1 on one of these rows each, and that of
+/// the heat of all other rows; the values that fulfil the equations of the freed rows go into
+/// `b`, where the held rows have their values.
+Result<void> HeatStep::free_by_schur(const SourceAnchors& anchors, Eigen::Index column,
+                                     const Workspace& work, Block& b) const {
+  const auto freed = on_border(anchors);
+  const auto count = static_cast<Eigen::Index>(freed.size());
+  Block u = work.take_zero(b.rows(), count + 1);
+  u.col(count) = b.col(column);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    u(freed[k].row, k) = 1;
+    u(freed[k].row, count) = 0;
+  }
+  if (const auto solved = dirichlet_->solve(u, {}, work); !solved) return solved.error();
+  Eigen::MatrixXd reaction(count, count + 1);
+  std::vector<double> values(static_cast<std::size_t>(b.rows())), product(values.size());
+  for (Eigen::Index k = 0; k <= count; ++k) {
+    Eigen::Map<Eigen::VectorXd>(values.data(), b.rows()) = u.col(k);
+    dirichlet_->matrix().apply_free(values, product);
+    for (Eigen::Index i = 0; i < count; ++i) reaction(i, k) = product[freed[i].row];
+  }
+  work.pool.give(std::move(u));
+  Eigen::VectorXd missing(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    missing(i) = b(freed[i].row, column) - reaction(i, count);
+  }
+  const Eigen::VectorXd held = reaction.leftCols(count).partialPivLu().solve(missing);
+  for (Eigen::Index i = 0; i < count; ++i) b(freed[i].row, column) = held(i);
+  return {};
 }
 
 /// u = M^-1 E lambda with u = 1 on the sources: one small dense system a source set. The entries of
@@ -220,8 +259,9 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     }
   }
   std::shared_ptr<const LinearSystem> system = dirichlet ? dirichlet_ : neumann_;
-  const bool own = (dirichlet && on_border(anchors.front())) ||
-                   (mode == HeatMode::kHold && needs_own_system(anchors.front(), mode));
+  const bool of_border = dirichlet && !on_border(anchors.front()).empty();
+  const bool own =
+      needs_own_system(anchors.front(), mode) && (of_border || mode == HeatMode::kHold);
   if (own) {
     if (!report(progress, "solve", 0.0)) return cancelled_error();
     auto built = own_system(dirichlet, anchors.front(), mode, work.threads, b);
@@ -229,6 +269,12 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     system = std::move(*built);
   } else if (mode == HeatMode::kHold) {
     if (const auto held = hold_by_schur(*system, anchors, work, b); !held) return held.error();
+  } else if (dirichlet) {
+    for (std::size_t c = 0; c < anchors.size(); ++c) {
+      if (on_border(anchors[c]).empty()) continue;
+      const auto freed = free_by_schur(anchors[c], static_cast<Eigen::Index>(c), work, b);
+      if (!freed) return freed.error();
+    }
   }
   std::vector<double> factors;
   if (iterative_ && components.count > 1) {
@@ -250,7 +296,7 @@ Result<HeatStep::Answer> HeatStep::solve_rule(bool dirichlet,
     for (double& factor : factors) factor = 1 / factor;
     scale_rows(components, factors, answer.field.u);
   }
-  if (dirichlet && on_border(anchors.front())) {
+  if (of_border && boundary_ == BoundaryRule::kDirichlet) {
     answer.warnings.emplace_back().message =
         "sources on the border are left free under the Dirichlet rule; the rest of the border is "
         "held at 0";

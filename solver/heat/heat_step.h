@@ -35,6 +35,9 @@ PerComponent consistent_share(Variant variant, const PerComponent& relative_t);
 /// Held vertices up to this many are reached through the shared factor (HeatMode::kHold).
 inline constexpr std::size_t kMaxHeldRows = 128;
 
+/// Sources on a Dirichlet boundary up to this many are reached through the shared factor.
+inline constexpr std::size_t kMaxFreedRows = 15;
+
 /// The heat step under a boundary rule: (A + t L) u = u0 with the heat modes of options.h.
 class HeatStep {
  public:
@@ -56,8 +59,10 @@ class HeatStep {
                                                        const HeatStep* previous, int threads,
                                                        const Progress& progress = {});
 
+  BoundaryRule boundary() const { return boundary_; }  ///< never kAuto
+
   /// True when these sources change the matrix, so that they cannot share a block with others:
-  /// sources on a Dirichlet boundary, and u held on many vertices.
+  /// many sources on a Dirichlet boundary, and u held on many vertices.
   bool needs_own_system(const SourceAnchors& anchors, HeatMode mode) const;
 
   /// u for every source set. Precondition: one set only, where it needs its own system.
@@ -71,7 +76,7 @@ class HeatStep {
  private:
   HeatStep() = default;
   std::vector<Index> boundary_without(const SourceAnchors* anchors) const;
-  bool on_border(const SourceAnchors& anchors) const;
+  std::vector<SourceAnchors::Anchor> on_border(const SourceAnchors& anchors) const;
   Result<Answer> solve_rule(bool dirichlet, std::span<const SourceAnchors> anchors, HeatMode mode,
                             bool residuals, const Workspace& work, const Progress& progress) const;
   /// The system of this rule for one source set, and its right side with held values in place.
@@ -79,6 +84,8 @@ class HeatStep {
                                                          const SourceAnchors& anchors,
                                                          HeatMode mode, int threads,
                                                          Block& b) const;
+  Result<void> free_by_schur(const SourceAnchors& anchors, Eigen::Index column,
+                             const Workspace& work, Block& b) const;
   Result<void> hold_by_schur(const LinearSystem& system, std::span<const SourceAnchors> anchors,
                              const Workspace& work, Block& b) const;
   bool refines() const { return precision_ == Precision::kRefined && !iterative_; }

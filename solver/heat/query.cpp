@@ -49,7 +49,7 @@ Result<std::vector<Group>> cut_into_groups(const QueryPipeline& p,
 
 /// Rows that are held at 0 for every source set, except its own sources.
 std::span<const char> held_at_zero(const QueryPipeline& p) {
-  if (p.options.boundary != BoundaryRule::kDirichlet) return {};
+  if (p.heat.boundary() != BoundaryRule::kDirichlet) return {};
   return p.domain.on_boundary;
 }
 
@@ -92,7 +92,7 @@ Result<int> threads_in_memory(const QueryPipeline& p, const std::vector<Group>& 
       std::min<std::ptrdiff_t>(std::ranges::count_if(groups, makes_factor), threads));
   if (own == 0) return threads;
   for (;; own = threads = own - 1) {
-    FactorPlan plan = plan_factors(p.options.boundary, {}, false, 1);
+    FactorPlan plan = plan_factors(p.heat.boundary(), {}, false, 1);
     plan.factors += own;
     plan.missing = plan.at_once = own;
     const auto fits = check_factor_memory(*p.domain.analysis, p.options.backend,

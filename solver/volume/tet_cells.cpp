@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <new>
 
 #include "geotherm/domains.h"
@@ -23,16 +24,18 @@ Result<CellComplex> cells_of(const TetMesh& mesh) try {
   for (const Tet& tet : clean.tets) {
     const TetGradient element =
         tet_gradient(positions[tet[0]], positions[tet[1]], positions[tet[2]], positions[tet[3]]);
-    double width = 0;
+    double longest = 0;
     for (int k = 0; k < 4; ++k) {
       const Vec3& g = element.gradients[static_cast<std::size_t>(k)];
       cells.gradients.insert(cells.gradients.end(), {g[0], g[1], g[2]});
       cells.corners.push_back(tet[k]);
-      for (int j = 0; j < k; ++j) width += (positions[tet[k]] - positions[tet[j]]).norm() / 6;
+      for (int j = 0; j < k; ++j) {
+        longest = std::max(longest, (positions[tet[k]] - positions[tet[j]]).norm());
+      }
     }
     cells.start.push_back(std::ssize(cells.corners));
     cells.measures.push_back(element.volume);
-    cells.widths.push_back(width);
+    cells.widths.push_back(longest);
   }
   cells.numbers = std::move(clean.original);
   cells.on_boundary.assign(static_cast<std::size_t>(mesh.vertex_count()), 0);

@@ -156,6 +156,18 @@ TEST(Domains, InABoxOfTetsErrorsFallWithTheEdges) {
   EXPECT_LE(before, 0.02);  // users accept that much of 80,000 tets
 }
 
+TEST(Domains, AutoBoundaryIsAverageInVolumesAndNeumannElsewhere) {
+  const auto rule_of = [](CellComplex cells) {
+    const auto method = HeatMethod::build(std::make_shared<const CellComplex>(std::move(cells)));
+    return method->boundary();
+  };
+  EXPECT_EQ(rule_of(box_of_tets(3)), BoundaryRule::kAverage);
+  EXPECT_EQ(rule_of(*cells_of(Graph{2, {{0, 1, 1.0}}})), BoundaryRule::kNeumann);
+  CellComplex without_border = box_of_tets(3);
+  without_border.on_boundary.clear();
+  EXPECT_EQ(rule_of(std::move(without_border)), BoundaryRule::kNeumann);
+}
+
 TEST(Domains, ASourceInsideATetIsAPointOfIt) {
   const auto cells = std::make_shared<const CellComplex>(box_of_tets(12));
   SourceSet inside;

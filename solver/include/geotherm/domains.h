@@ -30,7 +30,8 @@ struct CellComplex {
   std::vector<Index> corners;       ///< of all cells, one after the other; a cell's are different
   std::vector<double> gradients;    ///< D to a corner: of its hat function, 1 / model units
   std::vector<double> measures;     ///< C: lengths, areas or volumes, > 0
-  std::vector<double> widths;       ///< C: the mean length of the cell's edges, > 0; t follows them
+  std::vector<double> widths;       ///< C: lengths that u is linear over, > 0, such as the longest
+                                    ///< edges; t follows their mean
   /// What is added to a cell's G' G times measure, to hold what its gradient does not see: for each
   /// cell the lower triangle of a k x k matrix by rows, positive semidefinite, rows summing to 0.
   /// Empty: nothing.

@@ -75,6 +75,7 @@ class HeatMethod final : public DistanceMethod {
   double grading() const;
   /// The least and the largest time of a component, model units squared.
   std::array<double, 2> t_range() const;
+  BoundaryRule boundary() const;    ///< what kAuto became
   LaplacianKind laplacian() const;  ///< what kAuto became
   Index flips() const;              ///< Delaunay edge flips made
   /// What was inserted into the triangulation, never into the mesh. The same for every time step:

@@ -71,6 +71,7 @@ inline NamedValues<HeatMode> named_values(HeatMode) {
 
 /// The condition on u along the boundary; phi's is always Neumann.
 enum class BoundaryRule {
+  kAuto,       ///< kAverage in volumes, kNeumann elsewhere
   kNeumann,    ///< no heat leaves
   kDirichlet,  ///< u = 0 on the boundary
   kAverage,    ///< the mean of both solutions
@@ -78,7 +79,7 @@ enum class BoundaryRule {
 inline NamedValues<BoundaryRule> named_values(BoundaryRule) {
   using enum BoundaryRule;
   return {"'*' is no boundary rule",
-          {{kNeumann, "neumann"}, {kDirichlet, "dirichlet"}, {kAverage, "average"}}};
+          {{kAuto, "auto"}, {kNeumann, "neumann"}, {kDirichlet, "dirichlet"}, {kAverage, "average"}}};
 }
 
 /// How the method is discretised (docs/numerics.md, "What is corrected").
@@ -131,7 +132,7 @@ struct HeatOptions {
   TimeStep time_step;
   Constraint constraint;
   HeatMode heat = HeatMode::kUnit;
-  BoundaryRule boundary = BoundaryRule::kNeumann;
+  BoundaryRule boundary = BoundaryRule::kAuto;
   LaplacianKind laplacian = LaplacianKind::kAuto;
   Variant variant = Variant::kCorrected;
   Precision precision = Precision::kCompact;
