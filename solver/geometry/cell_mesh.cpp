@@ -78,6 +78,10 @@ class CellMeshBuilder {
     for (std::size_t c = 0; c < count; ++c) {
       out_.start[c + 1] = out_.start[c] + std::ssize(cells_.corners_of(out_.given_cell[c]));
     }
+    out_.is_of_tets =
+        cells_.dimension == 3 && std::ranges::adjacent_find(out_.start, [](auto a, auto b) {
+                                   return b - a != 4;
+                                 }) == out_.start.end();
     out_.corners.resize(static_cast<std::size_t>(out_.start.back()));
     out_.gradients.resize(out_.corners.size() * static_cast<std::size_t>(cells_.dimension));
     out_.measures.resize(count);

@@ -58,6 +58,7 @@ struct CellRange {
 /// scale alike, so that no answer depends on it.
 struct CellMesh {
   int dimension = 0;
+  bool is_of_tets = false;          ///< three dimensions, four corners everywhere
   std::vector<std::int64_t> start;  ///< C + 1
   RawVector<Index> corners;         ///< rows
   RawVector<double> gradients;      ///< D to a corner

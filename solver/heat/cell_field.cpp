@@ -9,6 +9,7 @@
 
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
+#include "solver/core/processor.h"
 #include "solver/heat/cell_domain.h"
 #include "solver/heat/field_kernels.h"
 
@@ -139,8 +140,45 @@ CellField::Direction CellField::of_cell(Index cell, const Square& inverse,
   return {g[0] * scale, g[1] * scale, g[2] * scale};
 }
 
+void CellField::add_tets(Index first_tet, Index end_tet, Eigen::Index first, int group,
+                         Block& b) const {
+  struct Context {
+    const CellField* field;
+    Eigen::Index first;
+  };
+  const Context context{this, first};
+  const CellMesh& mesh = *domain_.mesh;
+  TetPass pass{};
+  pass.corners = mesh.corners.data();
+  pass.gradients = mesh.gradients.data();
+  pass.measures = mesh.measures.data();
+  pass.on_boundary = domain_.on_boundary.data();
+  pass.first = first_tet;
+  pass.end = end_tet;
+  pass.u = heat_.u.data() + first;
+  if (!heat_.level.empty()) pass.level = heat_.level.data() + first;
+  if (shortens_) pass.log_u = log_u_.data() + first;
+  pass.root_t = root_t_.of(0);
+  pass.b = b.data() + first;
+  pass.stride = b.cols();
+  pass.context = &context;
+  pass.careful = [](const void* at, Index tet, int column) {
+    const auto& c = *static_cast<const Context*>(at);
+    return c.field->of_cell(tet, c.field->inverse_square(tet), c.first + column);
+  };
+  add_tet_divergence(pass, group);
+}
+
 void CellField::add_cells(Index first_cell, Index end_cell, Block& b) const {
   const CellMesh& mesh = *domain_.mesh;
+  if (mesh.is_of_tets && root_t_.same()) {
+    for (Eigen::Index first = 0; first < b.cols();) {
+      const int group = column_group(b.cols() - first);
+      add_tets(first_cell, end_cell, first, group, b);
+      first += group;
+    }
+    return;
+  }
   const int d = mesh.dimension;
   for (Index c = first_cell; c < end_cell; ++c) {
     const Square inverse = inverse_square(c);

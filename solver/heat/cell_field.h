@@ -38,6 +38,7 @@ class CellField final : public UnitField {
   Direction of_cell(Index cell, const Square& inverse, Eigen::Index column) const;
   double length(Index cell, const Square& inverse, Eigen::Index column) const;
   void add_cells(Index first_cell, Index end_cell, Block& b) const;
+  void add_tets(Index first_tet, Index end_tet, Eigen::Index first, int group, Block& b) const;
 
   const CellDomain& domain_;
   const HeatField& heat_;

@@ -38,6 +38,11 @@ void add_unit_divergence(const FieldPass& pass, int group, InstructionSet set) {
   field_kernels(set).add_unit_divergence[slot](pass);
 }
 
+void add_tet_divergence(const TetPass& pass, int group, InstructionSet set) {
+  const int slot = std::countr_zero(static_cast<unsigned>(group));
+  field_kernels(set).add_tet_divergence[slot](pass);
+}
+
 void logarithms(const double* u, double* out, std::size_t count, InstructionSet set) {
   field_kernels(set).logarithms(u, out, count);
 }

@@ -30,6 +30,23 @@ struct FieldPass {
   std::array<double, 2> (*careful)(const void* context, Index face, int column);
 };
 
+/// The same for a pass over tets: cells of four corners in three dimensions (CellMesh).
+struct TetPass {
+  const Index* corners;     ///< four to a tet
+  const double* gradients;  ///< of their hat functions: three numbers to a corner
+  const double* measures;   ///< of each tet
+  const char* on_boundary;  ///< of each row: tets there keep |X| = 1
+  Index first, end;         ///< tets to be walked
+  const double* u;
+  const double* log_u;         ///< null: X keeps length 1
+  const std::uint16_t* level;  ///< as in FieldPass
+  double* b;
+  std::ptrdiff_t stride;
+  double root_t;
+  const void* context;
+  std::array<double, 3> (*careful)(const void* context, Index tet, int column);
+};
+
 /// Corners whose u differ by less than this share of it are equally warm, but for round-off: their
 /// face has no direction. Symmetric meshes have such faces opposite their sources.
 inline constexpr double kEquallyWarm = 1e-14;
@@ -80,9 +97,14 @@ void mark_small(const double* u, std::int64_t rows, int columns, const double* f
 void add_unit_divergence(const FieldPass& pass, int group,
                          InstructionSet set = best_instruction_set());
 
-/// What these three call, of one instruction set.
+/// The same over tets.
+void add_tet_divergence(const TetPass& pass, int group,
+                        InstructionSet set = best_instruction_set());
+
+/// What these call, of one instruction set.
 struct FieldKernels {
   void (*add_unit_divergence[5])(const FieldPass& pass);  ///< by the binary logarithm of the group
+  void (*add_tet_divergence[5])(const TetPass& pass);     ///< likewise
   void (*logarithms)(const double* u, double* out, std::size_t count);
   void (*mark_small)(const double* u, std::int64_t rows, int columns, const double* floors,
                      std::uint16_t* masks);

@@ -18,6 +18,7 @@ namespace {
 
 #include "solver/heat/face_lanes.inl"
 #include "solver/heat/small_values.inl"
+#include "solver/heat/tet_lanes.inl"
 
 /// What the careful way gives.
 std::array<double, 3> divergence_of(const FieldPass& pass, Index f, int column) {
@@ -244,6 +245,9 @@ void take_logarithms(const double* u, double* out, std::size_t count) {
 
 extern const FieldKernels kFieldKernels;
 const FieldKernels kFieldKernels = {
-    {run<1>, run<2>, run<4>, run<8>, run<16>}, take_logarithms, mark_small};
+    {run<1>, run<2>, run<4>, run<8>, run<16>},
+    {run_tets<1>, run_tets<2>, run_tets<4>, run_tets<8>, run_tets<16>},
+    take_logarithms,
+    mark_small};
 
 }  // namespace geotherm::GEOTHERM_KERNEL_NAMESPACE
