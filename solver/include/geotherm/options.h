@@ -78,8 +78,9 @@ enum class BoundaryRule {
 };
 inline NamedValues<BoundaryRule> named_values(BoundaryRule) {
   using enum BoundaryRule;
-  return {"'*' is no boundary rule",
-          {{kAuto, "auto"}, {kNeumann, "neumann"}, {kDirichlet, "dirichlet"}, {kAverage, "average"}}};
+  return {
+      "'*' is no boundary rule",
+      {{kAuto, "auto"}, {kNeumann, "neumann"}, {kDirichlet, "dirichlet"}, {kAverage, "average"}}};
 }
 
 /// How the method is discretised (docs/numerics.md, "What is corrected").
