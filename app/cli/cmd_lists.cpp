@@ -44,13 +44,12 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
   MeshReport mesh = inspect_mesh(*model->mesh);
-  if (model->volume) mesh.unreferenced_vertices = unused_vertices(*model->volume);
+  if (model->space) mesh.unreferenced_vertices = model->space->unused_vertices();
   CommandOutput out{"", model->notes, {}};
-  const bool surface = !model->volume && !model->from_points;
-  if (surface) {
+  if (model->is_mesh()) {
     for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
   }
-  const CrackReport cracks = surface ? find_cracks(*model->mesh) : CrackReport();
+  const CrackReport cracks = model->is_mesh() ? find_cracks(*model->mesh) : CrackReport();
   if (cracks.vertices > 0) out.warnings.push_back(crack_note(cracks));
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;

@@ -335,7 +335,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!expected) return expected.error();
   auto model = load_model(arguments.model, task->reading, progress);
   if (!model) return model.error();
-  if (auto surface = refuse_volume(*model, "paths are"); !surface) return surface.error();
+  if (auto surface = refuse_space(*model, "paths are"); !surface) return surface.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
   if (auto found = find_paths(*task, arguments.to.size(), check->against, progress, figures);

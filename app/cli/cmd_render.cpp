@@ -77,7 +77,7 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
                         PictureData& data, const Progress& progress, PictureFigures& figures) {
   const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
   for (const Source& target : targets) {
-    if (auto surface = refuse_volume(solved.model, "paths are"); !surface) return surface;
+    if (auto surface = refuse_space(solved.model, "paths are"); !surface) return surface;
     const auto placed = resolve_sources({&target, 1}, *mesh);
     if (!placed) return placed.error();
     const auto found = solver.paths_to(placed->set.points.front(), solved, progress);

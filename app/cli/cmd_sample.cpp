@@ -356,7 +356,7 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  if (auto surface = refuse_volume(*model, "samples are"); !surface) return surface.error();
+  if (auto surface = refuse_space(*model, "samples are"); !surface) return surface.error();
   const auto figures = sample(*std::move(model), arguments.settings,
                               {options, *check, *count, first}, progress, announce);
   if (!figures) return figures.error();

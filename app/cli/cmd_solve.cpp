@@ -139,19 +139,23 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
 /// .vtu holds tets alone. Errors: kBadInput.
 Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    if (model.volume || check_distance_path(path)) continue;
+    if (check_distance_path(path)) continue;
+    if (model.space) {
+      if (auto known = model.space->check_path(path); !known) return known;
+      continue;
+    }
     return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + " holds tets, and " +
                                            one_line(model.name) + " is a surface; write .vtp"};
   }
   return {};
 }
 
-/// A volume's .vtu holds its tets; what else there is holds its border.
+/// A space has files of its own; what else there is holds what is drawn of it.
 Result<void> write_answer(const std::string& path, const Model& model,
                           std::span<const double> distances, std::span<const Index> nearest,
                           std::span<const DataField> fields) {
-  if (model.volume && check_tet_distances_path(path)) {
-    return write_distances(path, *model.volume, distances, nearest, fields);
+  if (model.space && model.space->check_path(path)) {
+    return model.space->write(path, distances, nearest, fields);
   }
   return write_distances(path, *model.mesh, distances, nearest, fields);
 }

@@ -214,7 +214,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   if (!named) return named.error();
   const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
-  if (auto surface = refuse_volume(*model, "studies are"); !surface) return surface.error();
+  if (auto surface = refuse_space(*model, "studies are"); !surface) return surface.error();
   CommandOutput out{"", model->notes, {}};
   auto sources = sources_on(*model, *named, out.warnings);
   if (!sources) return sources.error();

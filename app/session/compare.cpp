@@ -191,10 +191,10 @@ Answers better_answers(const Model& model, const CompareTask& task, MethodKind k
                        const Progress& progress) {
   const std::span<const SourceSet> first(task.queries.data(),
                                          std::min(task.queries.size(), kErrorQueries));
-  if (model.volume) {
+  if (model.space) {
     MethodOptions options;
     options.method = kind;
-    const auto method = build_method(model.volume, options, part_of(progress, 0.0, 0.2));
+    const auto method = model.space->build_method(options, part_of(progress, 0.0, 0.2));
     if (!method) return {};
     auto better = solve_reference(**method, first, part_of(progress, 0.2, 1.0));
     return better ? std::move(better->distances) : Answers();
@@ -237,8 +237,8 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
   std::stable_partition(order.begin(), order.end(), [&](std::size_t i) {
     return solver_name(task.solvers[i]) == task.reference;
   });
-  const MethodKind best = model.volume ? MethodKind::kFastMarching
-                                       : reference_for(MethodKind::kHeat, model.mesh->face_count());
+  const MethodKind best = model.space ? model.space->rival()
+                                      : reference_for(MethodKind::kHeat, model.mesh->face_count());
   const Answers better =
       better_answers(model, task, best, with_prefix(progress, model.name + ", errors: "));
   Answers reference;
@@ -250,7 +250,7 @@ Result<std::vector<CompareRow>> compare_backends(const Model& model, const Compa
     if (row.status == "cancelled") return cancelled_error();
     if (row.status != "ok") continue;
     const bool measured =
-        model.volume ? row.method == MethodKind::kHeat : is_better(best, row.method);
+        model.space ? row.method == MethodKind::kHeat : is_better(best, row.method);
     if (measured) measure_error(answers, better, row);
     const bool is_reference = row.name() == task.reference;
     if (is_reference) reference = std::move(answers);

@@ -97,11 +97,12 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
-  if (model->model.volume)
-    model->mesh.unreferenced_vertices = unused_vertices(*model->model.volume);
+  if (const auto& space = model->model.space) {
+    model->mesh.unreferenced_vertices = space->unused_vertices();
+  }
   model->warnings = model->model.notes;
-  const bool surface = !model->model.volume && !model->model.from_points;
-  for (Warning& warning : surface ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
+  for (Warning& warning :
+       model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
   }
   auto base = std::make_shared<PictureData>(picture_of(*mesh));

@@ -58,15 +58,14 @@ Model model_of(MeshFile file, std::string name, const std::string& path, double 
 
 /// The border of a volume has all its vertices, so that their numbers stay.
 Result<Model> model_of_volume(TetFile file, std::string name, const std::string& path) {
-  auto volume = std::make_shared<const TetMesh>(std::move(file.mesh));
-  auto border = boundary(*volume);
-  if (!border) return border.error();
-  const auto positions = volume->positions();
-  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, std::move(border->faces));
+  auto space = TetSpace::build(std::move(file.mesh));
+  if (!space) return space.error();
+  const auto positions = (*space)->volume().positions();
+  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
   if (!mesh) return mesh.error();
   Model model{std::move(name), path, std::make_shared<const TriangleMesh>(*std::move(mesh)), 0, {}};
   for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  model.volume = std::move(volume);
+  model.space = *std::move(space);
   return model;
 }
 
@@ -184,7 +183,7 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
                : is_bundled(text)     ? bundled(text, reading, progress)
                                       : from_file(text, reading, progress);
   if (!model || !reading.weld) return model;
-  if (auto surface = refuse_volume(*model, "welded vertices are"); !surface) {
+  if (auto surface = refuse_space(*model, "welded vertices are"); !surface) {
     return surface.error();
   }
   if (!report(progress, "welding", -1)) return cancelled_error();
@@ -224,26 +223,16 @@ std::vector<std::filesystem::path> folders() {
 }  // namespace
 
 std::string_view domain_name(const Model& model) {
-  return model.volume ? "tets" : model.from_points ? "points" : "triangles";
+  return model.space ? model.space->words().domain : model.from_points ? "points" : "triangles";
 }
 
-std::vector<char> vertices_in_tets(const TetMesh& volume) {
-  std::vector<char> used(static_cast<std::size_t>(volume.vertex_count()), 0);
-  for (const Tet& tet : volume.tets()) {
-    for (const Index v : tet) used[v] = 1;
-  }
-  return used;
-}
-
-Index unused_vertices(const TetMesh& volume) {
-  return static_cast<Index>(std::ranges::count(vertices_in_tets(volume), 0));
-}
-
-Result<void> refuse_volume(const Model& model, std::string_view what) {
-  if (!model.volume) return {};
-  return Error{ErrorCode::kBadInput, std::string(what) + " of surfaces, and " +
-                                         one_line(model.name) + " is a volume of " +
-                                         counted(model.volume->tet_count(), "tet", "tets")};
+Result<void> refuse_space(const Model& model, std::string_view what) {
+  if (!model.space) return {};
+  const SpaceWords& words = model.space->words();
+  return Error{ErrorCode::kBadInput,
+               std::string(what) + " of surfaces, and " + one_line(model.name) + " is a " +
+                   words.body + " of " +
+                   counted(model.space->cell_count(), words.cell, words.cells)};
 }
 
 std::span<const BundledModel> bundled_models() { return kModels; }

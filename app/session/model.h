@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geotherm/domains.h"
+#include "app/session/space.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
 #include "geotherm/progress.h"
@@ -40,9 +40,12 @@ struct Model {
   std::shared_ptr<const TriangleMesh> mesh;
   double load_ms = 0;          ///< reading
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each
-  /// What distance is computed in, where it is no surface.
-  std::shared_ptr<const TetMesh> volume = {};
+  /// What distance is computed in, where that is not `mesh` itself.
+  std::shared_ptr<const Space> space = {};
   bool from_points = false;  ///< `mesh` was made of points without faces
+
+  /// Whether the file holds the faces of `mesh`.
+  bool is_mesh() const { return !space && !from_points; }
 };
 
 /// The same model for work whose errors stand beside its name, or in its row.
@@ -64,17 +67,12 @@ struct BundledModel {
   std::string_view feature;  ///< what menus say beside the name
 };
 
-/// "triangles", "points" or "tets": what a model's file holds.
+/// "triangles", "points" or what its space is called: what a model's file holds.
 std::string_view domain_name(const Model& model);
 
-/// Flags the vertices that belong to a tet.
-std::vector<char> vertices_in_tets(const TetMesh& volume);
-/// How many do not.
-Index unused_vertices(const TetMesh& volume);
-
-/// Refuses what is done on surfaces alone. `what`: "paths are". Errors: kBadInput, where the model
-/// is a volume.
-Result<void> refuse_volume(const Model& model, std::string_view what);
+/// Refuses what is done on triangle meshes alone. `what`: "paths are". Errors: kBadInput, where the
+/// model is another space.
+Result<void> refuse_space(const Model& model, std::string_view what);
 
 /// All of them: terrain, sleeve, cube, gargoyle, bunny.
 std::span<const BundledModel> bundled_models();

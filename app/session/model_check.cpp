@@ -51,23 +51,23 @@ Result<std::optional<Asked>> ask_better(const MethodOptions& poor,
 }  // namespace
 
 MethodKind ModelSolver::reference_of(MethodKind checked, const CheckSettings& settings) const {
-  if (model_.volume) return MethodKind::kFastMarching;
+  if (model_.space) return model_.space->rival();
   return reference_in(settings, checked, model_.mesh->face_count());
 }
 
 MethodKind ModelSolver::reference_of_better(MethodKind kind, Check check) const {
-  return model_.volume ? kind : app::reference_of_better(kind, check, model_.mesh->face_count());
+  return model_.space ? kind : app::reference_of_better(kind, check, model_.mesh->face_count());
 }
 
 bool ModelSolver::is_better(MethodKind a, MethodKind b) const {
-  if (!model_.volume) return geotherm::is_better(a, b);
-  return a == MethodKind::kFastMarching && b == MethodKind::kHeat;
+  if (!model_.space) return geotherm::is_better(a, b);
+  return a == model_.space->rival() && b == MethodKind::kHeat;
 }
 
 std::vector<MethodKind> ModelSolver::better_methods(MethodKind poor, Check check) const {
-  if (!model_.volume) return app::better_methods(poor, check, model_.mesh->face_count());
+  if (!model_.space) return app::better_methods(poor, check, model_.mesh->face_count());
   if (poor != MethodKind::kHeat) return {};
-  return {MethodKind::kFastMarching};
+  return {model_.space->rival()};
 }
 
 /// Computes reference distances into `reference_`.
@@ -81,7 +81,7 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
   reference_.reset();
   std::shared_ptr<const DistanceMethod> kept;
   const Stopwatch watch;
-  if (use_ == Use::kSession || model_.volume) {
+  if (use_ == Use::kSession || model_.space) {
     auto made = make(better_options(answers.options, kind), nullptr, part_of(progress, 0.0, 0.3));
     if (!made) return made.error();
     kept = *std::move(made);
@@ -116,7 +116,7 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
 Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswers& answers,
                                       Check check, const Progress& progress) try {
   if (!report.measured) return {};
-  if (model_.volume) return find_remedy_in_volume(report, answers, progress);
+  if (model_.space) return find_remedy_in_space(report, answers, progress);
   const bool further = is_thorough(check) && use_ == Use::kOneAnswer;
   return geotherm::find_remedy(report, model_.mesh, answers, reference_->answers,
                                further ? RemedySearch::kWhereNotGood : RemedySearch::kWherePoor,
@@ -125,13 +125,13 @@ Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswe
   return {};  // the figures stand without it
 }
 
-/// Tries the boundary rule that helps where most tets are near the border, and else names the
+/// Tries the boundary rule that helps where most cells are near the boundary, and else names the
 /// reference. Errors: kCancelled.
-Result<void> ModelSolver::find_remedy_in_volume(AccuracyReport& report,
-                                                const CheckedAnswers& answers,
-                                                const Progress& progress) {
+Result<void> ModelSolver::find_remedy_in_space(AccuracyReport& report,
+                                               const CheckedAnswers& answers,
+                                               const Progress& progress) {
   if (!report.is_poor()) return {};
-  report.advice = {"use ", SettingHint{"method", {"fast-marching"}}};
+  report.advice = {"use ", SettingHint{"method", {to_text(model_.space->rival())}}};
   MethodOptions options = answers.options;
   if (options.method != MethodKind::kHeat ||
       answers.method.heat()->boundary() == BoundaryRule::kAverage) {
@@ -234,8 +234,7 @@ Result<CheckedMethod> ModelSolver::check_method(const ReadyMethod& ready,
   /// Asks `by` for the sample and holds that against the method `against`.
   const auto checked = [&](const ReadyMethod& by, MethodKind against, bool searches,
                            const Progress& part) -> Result<SampleCheck> {
-    const MethodKind near_exact =
-        model_.volume ? MethodKind::kFastMarching : MethodKind::kWavefront;
+    const MethodKind near_exact = model_.space ? model_.space->rival() : MethodKind::kWavefront;
     if (!is_better(near_exact, by.options.method) && searches) {
       return SampleCheck{unchecked(by.options.method, settings.against), all.size(), 0};
     }

@@ -45,7 +45,7 @@ const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
 Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOptions& options,
                                                                 const DistanceMethod* near,
                                                                 const Progress& progress) {
-  if (model_.volume) return make_in_volume(options, near, progress);
+  if (model_.space) return build_method_near(*model_.space, options, near, progress);
   if (options.method == MethodKind::kHeat) {
     return build_method_near(model_.mesh, options, near, progress);
   }
@@ -65,18 +65,6 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
   auto made = build_method(model_.mesh, options, part_of(progress, 0.5, 1.0), waves_);
   if (made) on_waves_[key] = {*made, options.threads, options.refine};
   return made;
-}
-
-Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make_in_volume(
-    const MethodOptions& options, const DistanceMethod* near, const Progress& progress) {
-  const HeatMethod* const heat = near != nullptr ? near->heat() : nullptr;
-  if (options.method != MethodKind::kHeat || options.refine > 0 || heat == nullptr) {
-    return build_method(model_.volume, options, progress);
-  }
-  auto made = heat->with(options, progress);
-  if (!made) return made.error();
-  return std::shared_ptr<const DistanceMethod>(
-      std::make_shared<const HeatMethod>(*std::move(made)));
 }
 
 Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Progress& progress) {
@@ -110,7 +98,7 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
     return only;
   }
   MethodOptions options;
-  options.method = model_.volume ? MethodKind::kFastMarching : MethodKind::kWavefront;
+  options.method = model_.space ? model_.space->rival() : MethodKind::kWavefront;
   options.threads = threads;
   const auto method = make(options, nullptr, part_of(progress, 0.0, 0.5));
   if (!method) return about_model(model_.name, method.error());
@@ -155,10 +143,11 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
 void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
   const Index unreached = answer.distance.unreached;
-  if (!model_.volume) return add(answer.warnings, unreached_notes(*summary_, unreached));
+  if (!model_.space) return add(answer.warnings, unreached_notes(*summary_, unreached));
   if (unreached == 0) return;
-  answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") +
-                             " in no tet that a source reaches; their distance is infinite"});
+  answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") + " in no " +
+                             model_.space->words().cell +
+                             " that a source reaches; their distance is infinite"});
 }
 
 Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSources& sources,
@@ -200,7 +189,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
 
 Result<TargetPaths> ModelSolver::paths_to(const SurfacePoint& target, const Answer& answer,
                                           const Progress& progress) {
-  if (auto surface = refuse_volume(model_, "paths are"); !surface) return surface.error();
+  if (auto surface = refuse_space(model_, "paths are"); !surface) return surface.error();
   if (!paths_ || paths_->method != answer.method) {
     auto near_exact = make(better_options(answer.options, MethodKind::kWavefront), nullptr,
                            part_of(progress, 0.0, 0.2));

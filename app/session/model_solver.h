@@ -94,9 +94,6 @@ class ModelSolver {
   Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,
                                                      const DistanceMethod* near,
                                                      const Progress& progress);
-  Result<std::shared_ptr<const DistanceMethod>> make_in_volume(const MethodOptions& options,
-                                                               const DistanceMethod* near,
-                                                               const Progress& progress);
   bool is_wanted(const ReadyMethod& ready) const;
   const ReadyMethod* find_ready(const MethodOptions& options) const;
   Result<Answer> distances(const MethodOptions& options, const ResolvedSources& sources,
@@ -104,9 +101,9 @@ class ModelSolver {
   void describe_mesh(Answer& answer) const;
 
   // model_check.cpp
-  // In a volume fast marching is what is better than heat, and there is nothing else.
-  Result<void> find_remedy_in_volume(AccuracyReport& report, const CheckedAnswers& answers,
-                                     const Progress& progress);
+  // In a space its rival is what is better than heat, and there is nothing else.
+  Result<void> find_remedy_in_space(AccuracyReport& report, const CheckedAnswers& answers,
+                                    const Progress& progress);
   MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
   MethodKind reference_of_better(MethodKind kind, Check check) const;
   bool is_better(MethodKind a, MethodKind b) const;

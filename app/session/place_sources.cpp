@@ -45,12 +45,14 @@ Error out_of_range(const std::string& one, const std::string& many, Index asked,
                    many + " are 0 to " + std::to_string(count - 1));
 }
 
+std::string cell_word(const SourceSpace& space) {
+  return space.space != nullptr ? space.space->words().cell : "face";
+}
+
 /// Flags the vertices from which distance can start.
 std::vector<char> usable_vertices(const SourceSpace& space) {
-  if (space.volume == nullptr) {
-    return vertices_in_faces(space.mesh.vertex_count(), space.mesh.faces());
-  }
-  return vertices_in_tets(*space.volume);
+  if (space.space != nullptr) return space.space->used();
+  return vertices_in_faces(space.mesh.vertex_count(), space.mesh.faces());
 }
 
 class Resolver {
@@ -72,18 +74,13 @@ class Resolver {
   }
 
   Result<void> operator()(const WholeBoundary&) {
+    if (space_.space != nullptr) return (*this)(VertexList{space_.space->boundary_vertices()});
     const EdgeTable& edges = clean().edges;
     bool found = false;
     for (Index e = 0; e < edges.edge_count(); ++e) {
-      if (space_.volume == nullptr && edges.sides(e).size() != 1) continue;
+      if (edges.sides(e).size() != 1) continue;
       found = true;
-      if (space_.volume == nullptr) {
-        set_.add_edge(edges.low(e), edges.high(e));
-        continue;
-      }
-      for (const Index v : {edges.low(e), edges.high(e)}) {
-        if (auto added = add_vertex(v, 0); !added) return added;
-      }
+      set_.add_edge(edges.low(e), edges.high(e));
     }
     if (found) return {};
     return misplaced("the surface has no boundary (each of its " + grouped(edges.edge_count()) +
@@ -103,17 +100,17 @@ class Resolver {
     for (int k = 0; k < 3; ++k) {
       if (point.weights[k] == 1.0) return add_vertex(face[k], point.offset);
     }
-    if (space_.volume != nullptr) {
+    if (space_.space != nullptr) {
       Vec3 at = Vec3::Zero();
       for (int k = 0; k < 3; ++k) at += point.weights[k] * mesh_.positions()[face[k]];
-      return add_in_volume(at, point.offset);
+      return add_in_space(at, point.offset);
     }
     set_.add(SurfacePoint::in_face(point.face, point.weights), point.offset);
     return {};
   }
 
   Result<void> operator()(const SpacePoint& point) {
-    if (space_.volume != nullptr) return add_in_volume(point.position, point.offset);
+    if (space_.space != nullptr) return add_in_space(point.position, point.offset);
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
     note_distance("surface", found->distance);
@@ -123,8 +120,9 @@ class Resolver {
   }
 
   Result<void> operator()(const VertexCurve& curve) {
-    if (space_.volume != nullptr) {
-      return misplaced("a curve is a source on surfaces alone, and this is a volume",
+    if (space_.space != nullptr) {
+      return misplaced("a curve is a source on surfaces alone, and this is a " +
+                           std::string(space_.space->words().body),
                        "name its vertices one by one");
     }
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
@@ -164,16 +162,17 @@ class Resolver {
   ResolvedSources finish() { return {set_.take(), std::exchange(warnings_, {})}; }
 
  private:
-  Result<void> add_in_volume(const Vec3& position, double offset) {
-    const auto found = closest_point(*space_.volume, position);
+  Result<void> add_in_space(const Vec3& position, double offset) {
+    auto found = space_.space->closest_point(position);
     if (!found) return found.error();
-    note_distance("volume", found->distance);
-    if (found->point.is_vertex()) return add_vertex(found->point.vertex, offset);
+    const SpaceWords& words = space_.space->words();
+    note_distance(words.body, found->distance);
+    if (found->vertex != kNoIndex) return add_vertex(found->vertex, offset);
     if (offset > 0) {
-      return misplaced("a point inside a tet takes no offset", "give a vertex, or leave it out");
+      return misplaced("a point inside a " + std::string(words.cell) + " takes no offset",
+                       "give a vertex, or leave it out");
     }
-    const auto& weights = found->point.weights;
-    set_.add(CellPoint{found->point.tet, {weights.begin(), weights.end()}});
+    set_.add(std::move(found->in_cell));
     return {};
   }
 
@@ -190,8 +189,7 @@ class Resolver {
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return misplaced("vertex " + std::to_string(v) +
-                           (space_.volume ? " belongs to no tet" : " belongs to no face") +
+      return misplaced("vertex " + std::to_string(v) + " belongs to no " + cell_word(space_) +
                            ", so that no distance starts there",
                        "choose another");
     }
@@ -318,8 +316,9 @@ Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count
     if (used[v]) pool.push_back(static_cast<Index>(v));
   }
   if (static_cast<std::size_t>(count) > pool.size()) {
-    return misplaced(grouped(count) + " different vertices were asked for",
-                     grouped(static_cast<std::int64_t>(pool.size())) + " belong to a face");
+    return misplaced(
+        grouped(count) + " different vertices were asked for",
+        grouped(static_cast<std::int64_t>(pool.size())) + " belong to a " + cell_word(space));
   }
   Random random(seed);
   for (Index i = 0; i < count; ++i) {

@@ -158,9 +158,9 @@ Json model_json(const std::string& name, const MeshSummary& mesh) {
 }
 
 void add_domain(const Model& model, Json& json) {
-  if (!model.volume && !model.from_points) return;
+  if (model.is_mesh()) return;
   json["domain"] = domain_name(model);
-  if (model.volume) json["tets"] = model.volume->tet_count();
+  if (model.space) json[model.space->words().cells] = model.space->cell_count();
 }
 
 Json full_model_json(const std::string& name, const MeshReport& mesh) {

@@ -146,7 +146,10 @@ std::string solve_table(const Answer& f) {
   const HeatMethod* heat = f.method->heat();
   TextTable table = two_columns();
   std::string model = one_line(f.model.name) + ": ";
-  if (f.model.volume) model += counted(f.model.volume->tet_count(), "tet", "tets") + "; border: ";
+  if (const auto& space = f.model.space) {
+    const SpaceWords& words = space->words();
+    model += counted(space->cell_count(), words.cell, words.cells) + "; " + words.drawn + ": ";
+  }
   table.add_row({"model", model + mesh_in_words(f.mesh)});
   if (heat != nullptr) {
     add_heat_rows(table, f, *heat);
@@ -187,14 +190,15 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
     return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
   };
   row("model", one_line(model.name));
-  if (model.volume) {
-    row("domain", grouped(model.volume->tet_count()) + " tets; faces and edges are its border's");
+  if (model.space) {
+    row("domain", model.space->described());
   } else if (model.from_points) {
     row("domain", "points; faces and edges are those between them");
   }
-  row("vertices", grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
-                      (model.volume ? " in no tet, " : " in no face, ") +
-                      grouped(mesh.duplicate_positions) + " where another one lies)");
+  row("vertices",
+      grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
+          (model.space ? std::string(" in no ") + model.space->words().cell : " in no face") +
+          ", " + grouped(mesh.duplicate_positions) + " where another one lies)");
   row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
                    grouped(mesh.duplicate_faces) + " duplicate, " +
                    grouped(mesh.inconsistent_faces) + " turned against their neighbours)");

@@ -112,13 +112,13 @@ class SetUnion {
   std::set<std::array<Index, 2>> edges_;
 };
 
-/// Where sources are placed: on a surface, or in a volume, of which `mesh` is the border.
+/// Where sources are placed: on a surface, or in a space, of which `mesh` is what is drawn.
 struct SourceSpace {
   const TriangleMesh& mesh;
-  const TetMesh* volume = nullptr;
+  const Space* space = nullptr;
 
-  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                         // NOLINT
-  SourceSpace(const Model& model) : mesh(*model.mesh), volume(model.volume.get()) {}  // NOLINT
+  SourceSpace(const TriangleMesh& surface) : mesh(surface) {}                       // NOLINT
+  SourceSpace(const Model& model) : mesh(*model.mesh), space(model.space.get()) {}  // NOLINT
 };
 
 struct ResolvedSources {
@@ -126,10 +126,10 @@ struct ResolvedSources {
   std::vector<Warning> warnings;
 };
 
-/// Places sources, all in one set. In a volume the boundary are the vertices of its border, and a
-/// point in a face or in space is the nearest point of the volume. Errors: the blame of the source,
-/// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or tet,
-/// no boundary, a curve in a volume).
+/// Places sources, all in one set. In a space the boundary are vertices, and a point in a face or
+/// at a place is the nearest point of the space. Errors: the blame of the source,
+/// its `where`, and what does not fit (a vertex or face out of range, a vertex in no face or
+/// cell, no boundary, a curve in a space that is no surface).
 Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space);
 
 struct EachSource {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/space.h"
+
+#include <utility>
+
+#include "app/text/text.h"
+#include "geotherm/heat_method.h"
+
+namespace geotherm::app {
+
+Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& space,
+                                                                const MethodOptions& options,
+                                                                const DistanceMethod* near,
+                                                                const Progress& progress) {
+  const HeatMethod* const heat = near != nullptr ? near->heat() : nullptr;
+  if (options.method != MethodKind::kHeat || options.refine > 0 || heat == nullptr) {
+    return space.build_method(options, progress);
+  }
+  auto made = heat->with(options, progress);
+  if (!made) return made.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(made)));
+}
+
+TetSpace::TetSpace(std::shared_ptr<const TetMesh> volume, TetBoundary border,
+                   std::vector<char> used)
+    : Space({"tets", "tet", "tets", "volume", "border"}, std::move(used),
+            MethodKind::kFastMarching),
+      volume_(std::move(volume)),
+      border_(std::move(border)) {}
+
+Result<std::shared_ptr<const TetSpace>> TetSpace::build(TetMesh volume) {
+  auto border = boundary(volume);
+  if (!border) return border.error();
+  std::vector<char> used(static_cast<std::size_t>(volume.vertex_count()), 0);
+  for (const Tet& tet : volume.tets()) {
+    for (const Index v : tet) used[v] = 1;
+  }
+  return std::shared_ptr<const TetSpace>(new TetSpace(
+      std::make_shared<const TetMesh>(std::move(volume)), *std::move(border), std::move(used)));
+}
+
+std::string TetSpace::described() const {
+  return grouped(cell_count()) + " tets; faces and edges are its border's";
+}
+
+Result<PlacedPoint> TetSpace::closest_point(const Vec3& place) const {
+  const auto found = geotherm::closest_point(*volume_, place);
+  if (!found) return found.error();
+  PlacedPoint out;
+  out.distance = found->distance;
+  if (found->point.is_vertex()) {
+    out.vertex = found->point.vertex;
+  } else {
+    const auto& weights = found->point.weights;
+    out.in_cell = {found->point.tet, {weights.begin(), weights.end()}};
+  }
+  return out;
+}
+
+Result<std::shared_ptr<const DistanceMethod>> TetSpace::build_method(
+    const MethodOptions& options, const Progress& progress) const {
+  return geotherm::build_method(volume_, options, progress);
+}
+
+Result<void> TetSpace::check_path(const std::string& path) const {
+  return check_tet_distances_path(path);
+}
+
+Result<void> TetSpace::write(const std::string& path, std::span<const double> distances,
+                             std::span<const Index> nearest,
+                             std::span<const DataField> fields) const {
+  return write_distances(path, *volume_, distances, nearest, fields);
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geotherm/build_method.h"
+#include "geotherm/domains.h"
+#include "geotherm/error.h"
+#include "geotherm/io.h"
+#include "geotherm/sources.h"
+
+namespace geotherm::app {
+
+/// What a space is called in messages and reports.
+struct SpaceWords {
+  const char* domain;        ///< "tets": model.domain in JSON
+  const char *cell, *cells;  ///< "tet", "tets"; JSON counts them under the second
+  const char* body;          ///< "volume"
+  const char* drawn;         ///< "border": what Model::mesh is of it
+};
+
+/// The point of a space nearest to a place: a vertex, else a point in a cell.
+struct PlacedPoint {
+  Index vertex = kNoIndex;
+  CellPoint in_cell;    ///< where `vertex` is kNoIndex
+  double distance = 0;  ///< to the place, model units
+};
+
+/// What distance is computed in, where that is no triangle mesh. Its vertices are those of
+/// Model::mesh, which is what is drawn of it. Immutable.
+class Space {
+ public:
+  virtual ~Space() = default;
+
+  const SpaceWords& words() const { return words_; }
+  /// V: flags the vertices that belong to a cell, where distance can start.
+  const std::vector<char>& used() const { return used_; }
+  Index unused_vertices() const { return static_cast<Index>(std::ranges::count(used_, 0)); }
+  /// Near-exact, and there is nothing better: what heat is held against.
+  MethodKind rival() const { return rival_; }
+
+  virtual Index cell_count() const = 0;
+  /// What `info` says of it.
+  virtual std::string described() const = 0;
+  /// The vertices that the source `boundary` is.
+  virtual std::vector<Index> boundary_vertices() const = 0;
+  virtual Result<PlacedPoint> closest_point(const Vec3& place) const = 0;
+
+  /// Errors: those of the library, kNotAvailable for options that the space has not.
+  virtual Result<std::shared_ptr<const DistanceMethod>> build_method(
+      const MethodOptions& options, const Progress& progress) const = 0;
+
+  /// Whether the extension of `path` is one that write() knows; what else there is holds
+  /// Model::mesh. Errors: kNotAvailable.
+  virtual Result<void> check_path(const std::string& path) const = 0;
+  /// As write_distances() of a mesh.
+  virtual Result<void> write(const std::string& path, std::span<const double> distances,
+                             std::span<const Index> nearest,
+                             std::span<const DataField> fields) const = 0;
+
+ protected:
+  Space(const SpaceWords& words, std::vector<char> used, MethodKind rival)
+      : words_(words), used_(std::move(used)), rival_(rival) {}
+
+ private:
+  SpaceWords words_;
+  std::vector<char> used_;
+  MethodKind rival_;
+};
+
+/// A method for the space; of heat one that shares what it can with `near`, which may be null.
+Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& space,
+                                                                const MethodOptions& options,
+                                                                const DistanceMethod* near,
+                                                                const Progress& progress);
+
+/// A volume, and its border with all vertices of the volume.
+class TetSpace final : public Space {
+ public:
+  /// Errors: those of boundary().
+  static Result<std::shared_ptr<const TetSpace>> build(TetMesh volume);
+
+  const TetMesh& volume() const { return *volume_; }
+  const TetBoundary& border() const { return border_; }
+
+  Index cell_count() const override { return volume_->tet_count(); }
+  std::string described() const override;
+  std::vector<Index> boundary_vertices() const override { return border_.vertices; }
+  Result<PlacedPoint> closest_point(const Vec3& place) const override;
+  Result<std::shared_ptr<const DistanceMethod>> build_method(
+      const MethodOptions& options, const Progress& progress) const override;
+  Result<void> check_path(const std::string& path) const override;
+  Result<void> write(const std::string& path, std::span<const double> distances,
+                     std::span<const Index> nearest,
+                     std::span<const DataField> fields) const override;
+
+ private:
+  TetSpace(std::shared_ptr<const TetMesh> volume, TetBoundary border, std::vector<char> used);
+
+  std::shared_ptr<const TetMesh> volume_;
+  TetBoundary border_;
+};
+
+}  // namespace geotherm::app
