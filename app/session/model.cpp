@@ -69,6 +69,19 @@ Result<Model> model_of_volume(TetFile file, std::string name, const std::string&
   return model;
 }
 
+Result<Model> model_of_polygons(const std::string& path, const std::string& format,
+                                std::string name) {
+  std::vector<std::string> notes;
+  auto polygons = read_polygons(path, format, &notes);
+  if (!polygons) return polygons.error();
+  auto space = PolygonSpace::build(*std::move(polygons));
+  if (!space) return space.error();
+  Model model{std::move(name), path, (*space)->triangles(), 0, {}};
+  for (std::string& note : notes) model.notes.push_back({std::move(note)});
+  model.space = *std::move(space);
+  return model;
+}
+
 Result<Model> model_of_points(PointFile file, std::string name, const std::string& path,
                               const Progress& progress) {
   auto surface = surface_of(file.points, {}, progress);
@@ -83,19 +96,29 @@ Result<Model> model_of_points(PointFile file, std::string name, const std::strin
   return model;
 }
 
-/// The model of a file by what it holds: tets, points without faces, or a surface.
+/// What a file holds.
+ModelDomain find_domain(const std::string& path) {
+  if (holds_tets(path)) return ModelDomain::kTets;
+  const auto points = is_point_file(path);
+  return points && *points ? ModelDomain::kPoints : ModelDomain::kTriangles;
+}
+
 Result<Model> read_model(const std::string& path, const std::string& name,
                          const ModelReading& reading, const Progress& progress) {
-  if (reading.format.empty() && holds_tets(path)) {
-    auto file = read_tets(path);
-    if (!file) return file.error();
-    return model_of_volume(*std::move(file), name, path);
-  }
-  const auto points = reading.format.empty() ? is_point_file(path) : Result<bool>(false);
-  if (points && *points) {
+  const ModelDomain holds = reading.format.empty() ? find_domain(path) : ModelDomain::kTriangles;
+  const ModelDomain domain = reading.domain == ModelDomain::kAuto ? holds : reading.domain;
+  if (domain == ModelDomain::kPolygons) return model_of_polygons(path, reading.format, name);
+  if (domain == ModelDomain::kPoints) {
     auto file = read_points(path);
     if (!file) return file.error();
     return model_of_points(*std::move(file), name, path, progress);
+  }
+  if (domain == ModelDomain::kTets || holds == ModelDomain::kTets) {
+    auto file = read_tets(path);
+    if (!file) return file.error();
+    auto model = model_of_volume(*std::move(file), name, path);
+    if (model && domain == ModelDomain::kTriangles) model->space = nullptr;
+    return model;
   }
   auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
   if (!file && file.error().code == ErrorCode::kNotAvailable && reading.format.empty()) {
@@ -156,6 +179,11 @@ Result<Model> from_standard_input(const ModelReading& reading, const Progress& p
     return Error{ErrorCode::kBadInput,
                  "the model - is standard input, which has no extension",
                  {"add ", SettingHint{"format"}, " with obj, ply, off or stl"}};
+  }
+  if (reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles) {
+    return Error{ErrorCode::kBadInput,
+                 "standard input is read as triangles, not as " + geotherm::to_text(reading.domain),
+                 {"write it to a file"}};
   }
   if (!report(progress, "reading " + name, -1)) return cancelled_error();
   const Stopwatch watch;
@@ -230,9 +258,11 @@ Result<void> refuse_space(const Model& model, std::string_view what) {
   if (!model.space) return {};
   const SpaceWords& words = model.space->words();
   return Error{ErrorCode::kBadInput,
-               std::string(what) + " of surfaces, and " + one_line(model.name) + " is a " +
+               std::string(what) + " of triangle meshes, and " + one_line(model.name) + " is a " +
                    words.body + " of " +
-                   counted(model.space->cell_count(), words.cell, words.cells)};
+                   counted(model.space->cell_count(), words.cell, words.cells),
+               {"with ", SettingHint{"domain", {"triangles"}},
+                " its " + std::string(words.drawn) + " is one"}};
 }
 
 std::span<const BundledModel> bundled_models() { return kModels; }

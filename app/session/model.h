@@ -17,7 +17,26 @@
 // How a model is read, beside its name.
 namespace geotherm::app {
 
+/// What distance is computed in.
+enum class ModelDomain {
+  kAuto,       ///< what the file holds: tets, points without faces, else triangles
+  kTriangles,  ///< polygons are triangulated, of tets the border is taken
+  kPolygons,   ///< faces as they are
+  kPoints,     ///< faces are left out
+  kTets,
+};
+inline NamedValues<ModelDomain> named_values(ModelDomain) {
+  using enum ModelDomain;
+  return {"'*' is no domain",
+          {{kAuto, "auto"},
+           {kTriangles, "triangles"},
+           {kPolygons, "polygons"},
+           {kPoints, "points"},
+           {kTets, "tets"}}};
+}
+
 struct ModelReading {
+  ModelDomain domain = ModelDomain::kAuto;
   std::string format;          ///< obj, ply, off or stl; empty: what the extension says
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
 

@@ -79,6 +79,8 @@ auto& member_of(auto& state, Value Part::*member) {
     return state.options.*member;
   } else if constexpr (std::is_same_v<Part, PictureSettings>) {
     return state.picture.*member;
+  } else if constexpr (std::is_same_v<Part, ModelReading>) {
+    return state.reading.*member;
   } else if constexpr (std::is_same_v<Part, CameraSettings>) {
     return state.picture.camera.*member;
   } else {

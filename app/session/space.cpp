@@ -73,4 +73,73 @@ Result<void> TetSpace::write(const std::string& path, std::span<const double> di
   return write_distances(path, *volume_, distances, nearest, fields);
 }
 
+PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
+                           std::shared_ptr<const TriangleMesh> triangles, std::vector<char> used)
+    : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation"}, std::move(used),
+            MethodKind::kWavefront),
+      cells_(std::move(cells)),
+      triangles_(std::move(triangles)) {}
+
+Result<std::shared_ptr<const PolygonSpace>> PolygonSpace::build(const PolygonMesh& mesh) {
+  auto cells = cells_of(mesh);
+  if (!cells) return cells.error();
+  auto triangles = triangulated(mesh);
+  if (!triangles) return triangles.error();
+  std::vector<char> used(mesh.positions.size(), 0);
+  for (const Index v : cells->corners) used[v] = 1;
+  return std::shared_ptr<const PolygonSpace>(new PolygonSpace(
+      std::make_shared<const CellComplex>(*std::move(cells)),
+      std::make_shared<const TriangleMesh>(*std::move(triangles)), std::move(used)));
+}
+
+std::string PolygonSpace::described() const {
+  return grouped(cell_count()) + " polygons; faces and edges are their triangles'";
+}
+
+std::vector<Index> PolygonSpace::boundary_vertices() const {
+  std::vector<Index> out;
+  for (Index v = 0; v < cells_->vertices; ++v) {
+    if (cells_->on_boundary[v]) out.push_back(v);
+  }
+  return out;
+}
+
+Result<PlacedPoint> PolygonSpace::closest_point(const Vec3& place) const {
+  const auto found = geotherm::closest_point(*triangles_, place);
+  if (!found) return found.error();
+  PlacedPoint out;
+  out.vertex = found->point.vertex;
+  if (!found->point.is_vertex()) {
+    const auto& weights = found->point.weights;
+    const auto corner = std::ranges::max_element(weights) - weights.begin();
+    out.vertex = triangles_->faces()[found->point.face][static_cast<std::size_t>(corner)];
+  }
+  out.distance = (triangles_->positions()[out.vertex] - place).norm();
+  return out;
+}
+
+Result<std::shared_ptr<const DistanceMethod>> PolygonSpace::build_method(
+    const MethodOptions& options, const Progress& progress) const {
+  if (options.method != MethodKind::kHeat) {
+    return geotherm::build_method(triangles_, options, progress);
+  }
+  if (options.refine > 0) {
+    return Error{ErrorCode::kNotAvailable, "polygons cannot be refined"};
+  }
+  auto made = HeatMethod::build(cells_, options, progress);
+  if (!made) return made.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(made)));
+}
+
+Result<void> PolygonSpace::check_path(const std::string& path) const {
+  return check_distance_path(path);
+}
+
+Result<void> PolygonSpace::write(const std::string& path, std::span<const double> distances,
+                                 std::span<const Index> nearest,
+                                 std::span<const DataField> fields) const {
+  return write_distances(path, *triangles_, distances, nearest, fields);
+}
+
 }  // namespace geotherm::app

@@ -106,4 +106,32 @@ class TetSpace final : public Space {
   TetBoundary border_;
 };
 
+/// Polygons, and the triangles that they are drawn as.
+class PolygonSpace final : public Space {
+ public:
+  /// Errors: those of cells_of() and triangulated().
+  static Result<std::shared_ptr<const PolygonSpace>> build(const PolygonMesh& mesh);
+
+  const std::shared_ptr<const TriangleMesh>& triangles() const { return triangles_; }
+
+  Index cell_count() const override { return cells_->cell_count(); }
+  std::string described() const override;
+  std::vector<Index> boundary_vertices() const override;
+  /// The nearest vertex of the nearest triangle.
+  Result<PlacedPoint> closest_point(const Vec3& place) const override;
+  Result<std::shared_ptr<const DistanceMethod>> build_method(
+      const MethodOptions& options, const Progress& progress) const override;
+  Result<void> check_path(const std::string& path) const override;
+  Result<void> write(const std::string& path, std::span<const double> distances,
+                     std::span<const Index> nearest,
+                     std::span<const DataField> fields) const override;
+
+ private:
+  PolygonSpace(std::shared_ptr<const CellComplex> cells,
+               std::shared_ptr<const TriangleMesh> triangles, std::vector<char> used);
+
+  std::shared_ptr<const CellComplex> cells_;
+  std::shared_ptr<const TriangleMesh> triangles_;
+};
+
 }  // namespace geotherm::app

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -81,12 +82,25 @@ struct PolygonMesh {
   std::vector<Index> corners;       ///< round each face
 };
 
+/// Reads the faces of `.obj`, `.ply` or `.off` as they are; otherwise as read_mesh(). `format`: one
+/// of mesh_formats(), empty: the extension's. `notes` gets one sentence each, for people. Errors:
+/// those of read_mesh().
+Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format = {},
+                                  std::vector<std::string>* notes = nullptr);
+
+/// A polygon mesh as triangles with the same vertices, for what needs such: faces of more than
+/// three corners become fans, or, where these would fold over, triangles that cover them once;
+/// faces with fewer than three none. Errors (kBadInput): a corner out of range, a coordinate that
+/// is not finite, no face. Cost: O(corners) for convex faces.
+Result<TriangleMesh> triangulated(const PolygonMesh& mesh);
+
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of
 /// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with
 /// fewer than three corners or with one twice; sources keep the numbers of the mesh. Errors
-/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, no face
-/// that can be used. Cost: one pass.
+/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, a face
+/// with more than 1,000 corners, no face that can be used. Cost: one pass, k^2 numbers for a face
+/// of k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan.
