@@ -76,12 +76,17 @@ struct CellMesh {
   /// L, all entries of each row but the diagonal's, which is minus their sum.
   std::vector<std::int64_t> row_start;  ///< n + 1
   RawVector<Index> column;
-  RawVector<double> entry;
+  RawVector<double> entry;          ///< of the heat step
+  RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: there are none
 
   Index size() const { return static_cast<Index>(mass.size()); }
   Index cell_count() const { return static_cast<Index>(measures.size()); }
   std::span<const Index> corners_of(Index cell) const {
     return {corners.data() + start[cell], corners.data() + start[cell + 1]};
+  }
+  /// Of the heat step where there is a mass, else of the Poisson equation.
+  const double* entries(double mass_factor) const {
+    return (mass_factor == 0 && !poisson_entry.empty() ? poisson_entry : entry).data();
   }
   const double* gradients_of(Index cell) const {
     return gradients.data() + start[cell] * dimension;
@@ -121,7 +126,7 @@ class CellOperator final : public DomainOperator {
   /// The weight of an entry of a row: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   double weight(Index row, std::int64_t entry) const {
-    return -stiffness_factor_.of(mesh_->components.of[row]) * mesh_->entry[entry];
+    return -stiffness_factor_.of(mesh_->components.of[row]) * mesh_->entries(mass_factor_)[entry];
   }
 
   std::shared_ptr<const CellMesh> mesh_;

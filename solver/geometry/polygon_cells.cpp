@@ -23,7 +23,7 @@ constexpr std::size_t kMaxCorners = 1000;
 /// What a face gives its corners, in a frame of the plane of its vector area.
 struct PolygonElement {
   double area = 0;
-  double width = 0;            ///< mean length of its sides
+  double width = 0;            ///< mean distance between two corners
   Eigen::MatrixXd gradient;    ///< 2 x k
   Eigen::MatrixXd stabilizer;  ///< k x k
 };
@@ -39,8 +39,9 @@ PolygonElement polygon_element(const std::vector<Vec3>& positions, std::span<con
   Vec3 twice = Vec3::Zero();
   for (Eigen::Index i = 0; i < k; ++i) {
     twice += (at(i) - first).cross(at(i + 1) - first);
-    out.width += (at(i + 1) - at(i)).norm() / static_cast<double>(k);
+    for (Eigen::Index j = 0; j < i; ++j) out.width += (at(i) - at(j)).norm();
   }
+  out.width /= static_cast<double>(k * (k - 1)) / 2;
   const double area = twice.norm() / 2;
   // Flatter than this, rounding decides where the plane lies.
   constexpr double kFlat = 1e-12;

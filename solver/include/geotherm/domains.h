@@ -35,7 +35,7 @@ struct CellComplex {
                                     ///< edges; t follows their mean
   /// What is added to a cell's G' G times measure, to hold what its gradient does not see: for each
   /// cell the lower triangle of a k x k matrix by rows, positive semidefinite, rows summing to 0.
-  /// Empty: nothing.
+  /// The heat step takes it whole, the Poisson equation a tenth. Empty: nothing.
   std::vector<double> stabilizers;
   std::vector<char> on_boundary;  ///< V: what the boundary rules hold; empty: none
   std::vector<Index> numbers;     ///< C, ascending: what sources call each cell; empty: 0 to C - 1
