@@ -129,6 +129,7 @@ class CellMeshBuilder {
     out_.row_start = rows.start;
     out_.column.assign(rows.neighbor.begin(), rows.neighbor.end());
     out_.entry.resize(rows.neighbor.size());
+    if (cells_.dimension == 2) out_.shared_mass.resize(rows.neighbor.size());
     if (!cells_.stabilizers.empty()) out_.poisson_entry.resize(rows.neighbor.size());
     out_.cells_at = CellTable(size_, out_.cell_count(), threads_,
                               [this](Index c) { return out_.corners_of(c); });
@@ -170,6 +171,8 @@ class CellMeshBuilder {
         std::span(out_.column.data() + first, out_.column.data() + out_.row_start[i + 1]);
     double* const entries = out_.entry.data() + first;
     std::fill_n(entries, columns.size(), 0.0);
+    double* const shared = out_.shared_mass.empty() ? nullptr : out_.shared_mass.data() + first;
+    if (shared != nullptr) std::fill_n(shared, columns.size(), 0.0);
     double* const of_poisson = stabilizer.empty() ? nullptr : out_.poisson_entry.data() + first;
     if (of_poisson != nullptr) std::fill_n(of_poisson, columns.size(), 0.0);
     const int d = out_.dimension;
@@ -184,6 +187,10 @@ class CellMeshBuilder {
         product *= out_.measures[c];
         const auto place = std::ranges::lower_bound(columns, corners[k]) - columns.begin();
         entries[place] += product;
+        if (shared != nullptr) {
+          const auto count = static_cast<double>(corners.size());
+          shared[place] += out_.measures[c] / (count * (count + 1));
+        }
         if (of_poisson != nullptr) {
           const auto [low, high] = std::minmax(own, k);
           const auto at = stabilizer[out_.given_cell[c]] + high * (high + 1) / 2 + low;

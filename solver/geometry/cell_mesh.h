@@ -78,6 +78,9 @@ struct CellMesh {
   RawVector<Index> column;
   RawVector<double> entry;          ///< of the heat step
   RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: there are none
+  /// Of each pair the consistent mass, measure / (k (k + 1)) from each cell of k corners at both,
+  /// as simplices have it. Two dimensions; empty in others.
+  RawVector<double> shared_mass;
 
   Index size() const { return static_cast<Index>(mass.size()); }
   Index cell_count() const { return static_cast<Index>(measures.size()); }
@@ -99,13 +102,15 @@ std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
                                                 std::span<const Index> order, double unit,
                                                 int threads);
 
-/// a A + s L, A the lumped mass. Entries of L above 0, which on tets come from obtuse dihedral
-/// angles, stay: without them u would be positive everywhere, but L no Laplacian any more, and
-/// distances on irregular tets would not converge (measured; docs/domains.md).
+/// a A + s L, A the lumped mass but for `consistent_share` of it, in two dimensions. Entries of L
+/// above 0, which on tets come from obtuse dihedral angles, stay: without them u would be positive
+/// everywhere, but L no Laplacian any more, and distances on irregular tets would not converge
+/// (measured; docs/domains.md).
 class CellOperator final : public DomainOperator {
  public:
   CellOperator(std::shared_ptr<const CellMesh> mesh, double mass_factor,
-               PerComponent stiffness_factor, std::vector<Index> held, int threads);
+               PerComponent stiffness_factor, PerComponent consistent_share,
+               std::vector<Index> held, int threads);
 
   Index size() const override { return mesh_->size(); }
   std::span<const double> diagonal() const override { return diagonal_; }
@@ -126,12 +131,17 @@ class CellOperator final : public DomainOperator {
   /// The weight of an entry of a row: M is its row sums plus, for each pair, weight times the
   /// squared difference.
   double weight(Index row, std::int64_t entry) const {
-    return -stiffness_factor_.of(mesh_->components.of[row]) * mesh_->entries(mass_factor_)[entry];
+    const Index component = mesh_->components.of[row];
+    const double stiffness = stiffness_factor_.of(component) * entries_[entry];
+    if (!shares_mass_) return -stiffness;
+    return -stiffness - mass_factor_ * consistent_share_.of(component) * mesh_->shared_mass[entry];
   }
 
   std::shared_ptr<const CellMesh> mesh_;
   double mass_factor_;
-  PerComponent stiffness_factor_;
+  PerComponent stiffness_factor_, consistent_share_;
+  const double* entries_;  ///< of L
+  bool shares_mass_;
   int threads_;
   std::vector<double> diagonal_;
   mutable LowerMatrix assembled_;

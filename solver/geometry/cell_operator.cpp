@@ -14,11 +14,15 @@ constexpr std::int64_t kCellRowGrain = 1 << 12;
 }  // namespace
 
 CellOperator::CellOperator(std::shared_ptr<const CellMesh> mesh, double mass_factor,
-                           PerComponent stiffness_factor, std::vector<Index> held, int threads)
+                           PerComponent stiffness_factor, PerComponent consistent_share,
+                           std::vector<Index> held, int threads)
     : DomainOperator(mesh->size(), std::move(held)),
       mesh_(std::move(mesh)),
       mass_factor_(mass_factor),
       stiffness_factor_(std::move(stiffness_factor)),
+      consistent_share_(std::move(consistent_share)),
+      entries_(mesh_->entries(mass_factor)),
+      shares_mass_(mass_factor != 0 && !mesh_->shared_mass.empty()),
       threads_(threads) {
   diagonal_.resize(static_cast<std::size_t>(size()));
   parallel_for(threads, size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {

@@ -224,10 +224,10 @@ std::shared_ptr<const Domain::Input> cell_input(std::shared_ptr<const CellComple
 std::shared_ptr<const DomainOperator> CellDomain::combine(double mass_factor,
                                                           const PerComponent& stiffness_factor,
                                                           std::vector<Index> held,
-                                                          const PerComponent& /*consistent_share*/,
+                                                          const PerComponent& consistent_share,
                                                           int threads) const {
-  return std::make_shared<const CellOperator>(mesh, mass_factor, stiffness_factor, std::move(held),
-                                              threads);
+  return std::make_shared<const CellOperator>(mesh, mass_factor, stiffness_factor, consistent_share,
+                                              std::move(held), threads);
 }
 
 void CellDomain::apply_stiffness(std::span<const double> x, std::span<double> y,

@@ -59,7 +59,7 @@ TEST(Domains, OnQuadsErrorsFallWithTheSides) {
     const Index middle = cells->vertices / 2;
     const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
     const double error = straight_error(*cells, result.distances, cells->positions[middle]);
-    EXPECT_LE(error, 0.65 * before) << n;
+    EXPECT_LE(error, 0.7 * before) << n;  // first order in the middle, less at the border
     before = error;
   }
   EXPECT_LE(before, 0.02);
