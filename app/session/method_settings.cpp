@@ -295,6 +295,23 @@ std::vector<Setting> method_settings() {
              names.insert(names.begin(), "auto");
              return names;
            }},
+      {.name = "domain",
+       .group = kModel,
+       .value_name = "NAME",
+       .help = "what the model's file is taken for; auto: what it holds",
+       .get = [](const State& s) { return geotherm::to_text(s.reading.domain); },
+       .set = [](State& s,
+                 const Text& t) { return store(parse<ModelDomain>(t), s.reading.domain); },
+       .values = all_names<ModelDomain>},
+      {.name = "grid",
+       .group = kModel,
+       .value_name = "VALUES",
+       .help = "what the values of a grid mean: mask (0 is wall), speeds, or by their type",
+       .detail = "Floating-point numbers are speeds, all others a mask. Of pictures a mask is "
+                 "brightness of at least half, and speeds are brightness from 0 to 1.",
+       .get = [](const State& s) { return geotherm::to_text(s.reading.grid); },
+       .set = [](State& s, const Text& t) { return store(parse<GridValues>(t), s.reading.grid); },
+       .values = all_names<GridValues>},
       choice<&ViewerState::check>(
           {.name = "check", .group = kCheck, .help = "what the distances are held against"}),
   };

@@ -11,15 +11,30 @@
 #include "app/session/space.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
 #include "geotherm/types.h"
 
 // How a model is read, beside its name.
 namespace geotherm::app {
 
+/// What a file is taken for.
+enum class ModelDomain { kAuto, kTriangles, kPoints, kTets, kGrid };
+inline NamedValues<ModelDomain> named_values(ModelDomain) {
+  return {"'*' is no domain",
+          {{ModelDomain::kAuto, "auto"},
+           {ModelDomain::kTriangles, "triangles"},
+           {ModelDomain::kPoints, "points"},
+           {ModelDomain::kTets, "tets"},
+           {ModelDomain::kGrid, "grid"}}};
+}
+
 struct ModelReading {
   std::string format;          ///< obj, ply, off or stl; empty: what the extension says
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
+
+  ModelDomain domain = ModelDomain::kAuto;  ///< kAuto: what the file holds
+  GridValues grid = GridValues::kAuto;
 
   bool operator==(const ModelReading&) const = default;
 };
@@ -35,8 +50,9 @@ Result<std::optional<double>> parse_weld(const std::string& text);
 struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
   std::string path;  ///< empty for a bundled model, - for standard input
-  /// What is drawn, and where points are picked. Of a volume its border, of a point cloud the
-  /// triangles between the points; either way all vertices of the file are among its vertices.
+  /// What is drawn, and where points are picked. Of a volume its border, of a grid its squares or
+  /// the outsides of its cubes, of a point cloud the triangles between the points; either way all
+  /// vertices of the file are among its vertices.
   std::shared_ptr<const TriangleMesh> mesh;
   double load_ms = 0;          ///< reading
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each

@@ -53,10 +53,32 @@ struct CellRange {
   Index first_cell, end_cell;
 };
 
+/// Mass and stiffness of cells, rows in elimination order.
+struct CellMatrix {
+  std::vector<double> mass;   ///< n, > 0
+  Components components;      ///< of the rows
+  LowerPattern lower;         ///< of the matrices
+  std::uint64_t pattern = 0;  ///< its hash
+
+  /// L, all entries of each row but the diagonal's, which is minus their sum.
+  std::vector<std::int64_t> row_start;  ///< n + 1
+  RawVector<Index> column;
+  RawVector<double> entry;
+
+  Index size() const { return static_cast<Index>(mass.size()); }
+};
+
+/// y = L x. The same bits with any number of threads.
+void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
+                     int threads);
+
+/// The components of a pattern as an elimination order numbers them anew.
+void name_components(const Components& parts, std::span<const Index> order, Components& out);
+
 /// A CellComplex as the solvers walk it: vertices in elimination order, cells sorted to follow
 /// them. Lengths are in units of `unit`, measures relative to their mean: a and s of a A + s L
 /// scale alike, so that no answer depends on it.
-struct CellMesh {
+struct CellMesh : CellMatrix {
   int dimension = 0;
   std::vector<std::int64_t> start;  ///< C + 1
   RawVector<Index> corners;         ///< rows
@@ -67,17 +89,7 @@ struct CellMesh {
   std::vector<CellRange> ranges;    ///< all rows, in order; the same for every thread count
   Index crossing = 0;               ///< cells from here on have corners in several ranges
   CellTable cells_at;               ///< of each row
-  std::vector<double> mass;         ///< n, > 0
-  Components components;            ///< of the rows
-  LowerPattern lower;               ///< of the matrices, in elimination order
-  std::uint64_t pattern = 0;        ///< its hash
 
-  /// L, all entries of each row but the diagonal's, which is minus their sum.
-  std::vector<std::int64_t> row_start;  ///< n + 1
-  RawVector<Index> column;
-  RawVector<double> entry;
-
-  Index size() const { return static_cast<Index>(mass.size()); }
   Index cell_count() const { return static_cast<Index>(measures.size()); }
   std::span<const Index> corners_of(Index cell) const {
     return {corners.data() + start[cell], corners.data() + start[cell + 1]};
@@ -98,7 +110,7 @@ std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
 /// distances on irregular tets would not converge (measured; docs/domains.md).
 class CellOperator final : public DomainOperator {
  public:
-  CellOperator(std::shared_ptr<const CellMesh> mesh, double mass_factor,
+  CellOperator(std::shared_ptr<const CellMatrix> mesh, double mass_factor,
                PerComponent stiffness_factor, std::vector<Index> held, int threads);
 
   Index size() const override { return mesh_->size(); }
@@ -123,7 +135,7 @@ class CellOperator final : public DomainOperator {
     return -stiffness_factor_.of(mesh_->components.of[row]) * mesh_->entry[entry];
   }
 
-  std::shared_ptr<const CellMesh> mesh_;
+  std::shared_ptr<const CellMatrix> mesh_;
   double mass_factor_;
   PerComponent stiffness_factor_;
   int threads_;
