@@ -8,6 +8,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/polyhedral_methods.h"
 #include "solver/core/parallel.h"
+#include "solver/grid/grid_marching.h"
 #include "solver/method/mapped_method.h"
 #include "solver/polyhedral/wave_surface.h"
 #include "solver/volume/tet_marching_method.h"
@@ -21,6 +22,12 @@ template <class Method>
 Built as_method(Result<std::shared_ptr<const Method>> built) {
   if (!built) return built.error();
   return std::shared_ptr<const DistanceMethod>(*std::move(built));
+}
+
+Built as_heat(Result<HeatMethod> built) {
+  if (!built) return built.error();
+  return std::shared_ptr<const DistanceMethod>(
+      std::make_shared<const HeatMethod>(*std::move(built)));
 }
 
 Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& options,
@@ -46,10 +53,7 @@ Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& op
 Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
   if (options.method == MethodKind::kHeat) {
-    auto built = HeatMethod::build(std::move(mesh), options, progress);
-    if (!built) return built.error();
-    return std::shared_ptr<const DistanceMethod>(
-        std::make_shared<const HeatMethod>(*std::move(built)));
+    return as_heat(HeatMethod::build(std::move(mesh), options, progress));
   }
   const bool walks_on_inserted =
       options.method == MethodKind::kWavefront || options.method == MethodKind::kWavefrontFine;
@@ -119,10 +123,20 @@ Error memory_ended(const MethodOptions& options) {
 
 /// A heat method with other options beside one that there is.
 Built beside(const HeatMethod& near, const MethodOptions& options, const Progress& progress) {
-  auto made = near.with(options, progress);
-  if (!made) return made.error();
-  return std::shared_ptr<const DistanceMethod>(
-      std::make_shared<const HeatMethod>(*std::move(made)));
+  return as_heat(near.with(options, progress));
+}
+
+/// What works in a space that is no surface: heat and fast marching, on it as it is.
+Result<void> check_space_options(const MethodOptions& options, const std::string& space) {
+  if (options.refine > 0) {
+    return Error{ErrorCode::kNotAvailable,
+                 "a " + space + " cannot be refined",
+                 {"leave ", SettingHint{"refine"}, " out"}};
+  }
+  if (options.method == MethodKind::kFastMarching || options.method == MethodKind::kHeat) return {};
+  return Error{ErrorCode::kNotAvailable,
+               "the method " + to_text(options.method) + " is of surfaces, and this is a " + space,
+               {"use ", SettingHint{"method", {"heat", "fast-marching"}}}};
 }
 
 }  // namespace
@@ -160,26 +174,25 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
 
 Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& options,
                    const Progress& progress) {
-  if (options.refine > 0) {
-    return Error{ErrorCode::kNotAvailable,
-                 "a volume cannot be refined",
-                 {"leave ", SettingHint{"refine"}, " out"}};
-  }
+  if (auto fits = check_space_options(options, "volume"); !fits) return fits.error();
   if (options.method == MethodKind::kFastMarching) {
     return build_tet_marching(std::move(mesh), options.threads, progress);
   }
-  if (options.method != MethodKind::kHeat) {
-    return Error{ErrorCode::kNotAvailable,
-                 "the method " + to_text(options.method) + " is of surfaces, and this is a volume",
-                 {"use ", SettingHint{"method", {"heat", "fast-marching"}}}};
-  }
   auto made = cells_of(*mesh);
   if (!made) return made.error();
-  auto built =
-      HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)), options, progress);
-  if (!built) return built.error();
-  return std::shared_ptr<const DistanceMethod>(
-      std::make_shared<const HeatMethod>(*std::move(built)));
+  return as_heat(
+      HeatMethod::build(std::make_shared<const CellComplex>(*std::move(made)), options, progress));
+}
+
+Built build_method(std::shared_ptr<const Grid> grid, const MethodOptions& options,
+                   const Progress& progress) try {
+  if (auto fits = check_space_options(options, "grid"); !fits) return fits.error();
+  if (options.method == MethodKind::kFastMarching) {
+    return build_grid_marching(std::move(grid), options.threads, progress);
+  }
+  return as_heat(HeatMethod::build(std::move(grid), options, progress));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
 }
 
 Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,

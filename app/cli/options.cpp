@@ -18,7 +18,8 @@ CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArgu
   return command
       .add_option("MODEL", model,
                   "a file (.obj .ply .off .stl; points: .xyz .pts .pcd .ply; tets: .mesh .msh .vtk "
-                  ".vtu .node), a bundled model (geotherm models), or - for standard input with "
+                  ".vtu .node; grids: .png .npy .vti .nrrd), a bundled model (geotherm models), or "
+                  "- for standard input with "
                   "--format")
       ->type_name("");
 }
@@ -29,12 +30,12 @@ void add_quiet_option(CLI::App& command, bool& quiet) {
 
 void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command
-      .add_option(
-          "-s,--source", arguments.sources,
-          "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
-          "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z; points may "
-          "end in @OFFSET, the distance there; may be "
-          "repeated, all are one source set")
+      .add_option("-s,--source", arguments.sources,
+                  "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
+                  "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z, "
+                  "sample:i:j[:k] (of a grid); points may "
+                  "end in @OFFSET, the distance there; may be "
+                  "repeated, all are one source set")
       ->type_name("SOURCES")
       ->expected(1)
       ->allow_extra_args(false)

@@ -302,6 +302,13 @@ std::vector<Setting> method_settings() {
              names.insert(names.begin(), "auto");
              return names;
            }},
+      choice<&ModelReading::grid>(
+          {.name = "grid",
+           .group = kModel,
+           .value_name = "VALUES",
+           .help = "what the values of a grid mean: mask (0 is wall), speeds, or by their type",
+           .detail = "Floating-point numbers are speeds, all others a mask. Of pictures a mask is "
+                     "brightness of at least half, and speeds are brightness from 0 to 1."}),
       choice<&ViewerState::check>(
           {.name = "check", .group = kCheck, .help = "what the distances are held against"}),
   };

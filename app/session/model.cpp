@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "app/session/grid_space.h"
 #include "app/session/progress.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -96,39 +98,84 @@ Result<Model> model_of_points(PointFile file, std::string name, const std::strin
   return model;
 }
 
+Result<Model> model_of_grid(GridFile file, std::string name, const std::string& path) try {
+  Model model{std::move(name), path, nullptr, 0, {}};
+  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
+  auto space = std::make_shared<const GridSpace>(std::move(file));
+  auto mesh = space->drawn();
+  if (!mesh) return mesh.error();
+  model.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
+  model.space = std::move(space);
+  return model;
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
+}
+
 /// What a file holds.
-ModelDomain find_domain(const std::string& path) {
+ModelDomain find_domain(const std::string& path, const ModelReading& reading) {
+  if (!reading.format.empty()) return ModelDomain::kTriangles;
   if (holds_tets(path)) return ModelDomain::kTets;
+  if (holds_grid(path)) return ModelDomain::kGrid;
   const auto points = is_point_file(path);
   return points && *points ? ModelDomain::kPoints : ModelDomain::kTriangles;
 }
 
+/// The options that only files of some domains have.
+Result<void> check_reading(const ModelReading& reading, ModelDomain domain) {
+  const auto refused = [&](const char* option, const std::string& is_of) {
+    return Error{ErrorCode::kBadInput,
+                 is_of + ", and the model is read as " + to_text(domain),
+                 {"leave ", SettingHint{option}, " out"}};
+  };
+  const bool of_faces = domain == ModelDomain::kTriangles || domain == ModelDomain::kPolygons;
+  if (!reading.format.empty() && !of_faces) {
+    return refused("format", "the format " + reading.format + " is of faces");
+  }
+  if (reading.grid != GridValues::kAuto && domain != ModelDomain::kGrid) {
+    return refused("grid", "what values mean is asked of grids");
+  }
+  return {};
+}
+
+/// The model of a file by what it holds, or is taken for.
 Result<Model> read_model(const std::string& path, const std::string& name,
                          const ModelReading& reading, const Progress& progress) {
-  const ModelDomain holds = reading.format.empty() ? find_domain(path) : ModelDomain::kTriangles;
+  const ModelDomain holds = find_domain(path, reading);
   const ModelDomain domain = reading.domain == ModelDomain::kAuto ? holds : reading.domain;
-  if (domain == ModelDomain::kPolygons) return model_of_polygons(path, reading.format, name);
-  if (domain == ModelDomain::kPoints) {
-    auto file = read_points(path);
+  if (auto fits = check_reading(reading, domain); !fits) return fits.error();
+  const auto with = [&](auto file, auto make) -> Result<Model> {
     if (!file) return file.error();
-    return model_of_points(*std::move(file), name, path, progress);
+    return make(*std::move(file), name, path);
+  };
+  switch (domain) {
+    case ModelDomain::kTets:
+      return with(read_tets(path), model_of_volume);
+    case ModelDomain::kGrid:
+      return with(read_grid(path, reading.grid), model_of_grid);
+    case ModelDomain::kPoints:
+      return with(read_points(path),
+                  [&progress](PointFile file, const std::string& stem, const std::string& of) {
+                    return model_of_points(std::move(file), stem, of, progress);
+                  });
+    case ModelDomain::kPolygons:
+      return model_of_polygons(path, reading.format, name);
+    case ModelDomain::kAuto:
+    case ModelDomain::kTriangles:
+      break;
   }
-  if (domain == ModelDomain::kTets || holds == ModelDomain::kTets) {
-    auto file = read_tets(path);
-    if (!file) return file.error();
-    auto model = model_of_volume(*std::move(file), name, path);
-    if (model && domain == ModelDomain::kTriangles) model->space = nullptr;
+  if (holds == ModelDomain::kTets) {
+    auto model = with(read_tets(path), model_of_volume);
+    if (model) model->space = nullptr;
     return model;
   }
   auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
-  if (!file && file.error().code == ErrorCode::kNotAvailable && reading.format.empty()) {
-    return Error{ErrorCode::kNotAvailable,
-                 file.error().message,
-                 {"there are " + joined(mesh_formats(), " ") + ", for points " +
-                  joined(point_formats(), " ") + ", for tets " + joined(tet_formats(), " ")}};
-  }
-  if (!file) return file.error();
-  return model_of(*std::move(file), name, path, 0);
+  if (file) return model_of(*std::move(file), name, path, 0);
+  if (file.error().code != ErrorCode::kNotAvailable || !reading.format.empty()) return file.error();
+  return Error{
+      ErrorCode::kNotAvailable,
+      file.error().message,
+      {"there are " + joined(mesh_formats(), " ") + ", for points " + joined(point_formats(), " ") +
+       ", for tets " + joined(tet_formats(), " ") + ", for grids " + joined(grid_formats(), " ")}};
 }
 
 Result<Model> from_file(const std::string& text, const ModelReading& reading,
@@ -175,6 +222,12 @@ Result<Model> bundled(const std::string& name, const ModelReading& reading,
 
 Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
   const std::string name = "standard input";
+  if (auto fits = check_reading(reading, ModelDomain::kTriangles); !fits) return fits.error();
+  if (reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles) {
+    return Error{ErrorCode::kBadInput,
+                 "standard input holds triangles alone",
+                 {"leave ", SettingHint{"domain"}, " out"}};
+  }
   if (reading.format.empty()) {
     return Error{ErrorCode::kBadInput,
                  "the model - is standard input, which has no extension",

@@ -11,19 +11,21 @@
 #include "app/session/space.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
 #include "geotherm/types.h"
 
 // How a model is read, beside its name.
 namespace geotherm::app {
 
-/// What distance is computed in.
+/// What a file is taken for, and distance computed in.
 enum class ModelDomain {
-  kAuto,       ///< what the file holds: tets, points without faces, else triangles
+  kAuto,       ///< what the file holds: tets, a grid, points without faces, else triangles
   kTriangles,  ///< polygons are triangulated, of tets the border is taken
   kPolygons,   ///< faces as they are
   kPoints,     ///< faces are left out
   kTets,
+  kGrid,
 };
 inline NamedValues<ModelDomain> named_values(ModelDomain) {
   using enum ModelDomain;
@@ -32,13 +34,17 @@ inline NamedValues<ModelDomain> named_values(ModelDomain) {
            {kTriangles, "triangles"},
            {kPolygons, "polygons"},
            {kPoints, "points"},
-           {kTets, "tets"}}};
+           {kTets, "tets"},
+           {kGrid, "grid"}}};
 }
 
 struct ModelReading {
   ModelDomain domain = ModelDomain::kAuto;
   std::string format;          ///< obj, ply, off or stl; empty: what the extension says
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
+
+  ModelDomain domain = ModelDomain::kAuto;  ///< kAuto: what the file holds
+  GridValues grid = GridValues::kAuto;
 
   bool operator==(const ModelReading&) const = default;
 };
@@ -54,8 +60,9 @@ Result<std::optional<double>> parse_weld(const std::string& text);
 struct Model {
   std::string name;  ///< the file's name without folder and extension, or the bundled name
   std::string path;  ///< empty for a bundled model, - for standard input
-  /// What is drawn, and where points are picked. Of a volume its border, of a point cloud the
-  /// triangles between the points; either way all vertices of the file are among its vertices.
+  /// What is drawn, and where points are picked. Of a volume its border, of a grid its squares or
+  /// the outsides of its cubes, of a point cloud the triangles between the points; either way all
+  /// vertices of the file are among its vertices.
   std::shared_ptr<const TriangleMesh> mesh;
   double load_ms = 0;          ///< reading
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each

@@ -119,6 +119,21 @@ class Resolver {
     return {};
   }
 
+  Result<void> operator()(const GridSample& sample) {
+    const auto size = space_.space != nullptr ? space_.space->size() : std::array<Index, 3>();
+    if (size[0] == 0) {
+      return misplaced("a sample is a source of grids alone", "give a vertex or xyz:x:y:z");
+    }
+    for (std::size_t e = 0; e < 3; ++e) {
+      if (sample.place[e] < size[e]) continue;
+      return misplaced(
+          "there is no sample " + std::to_string(sample.place[e]) + " along " + "xyz"[e],
+          "samples are 0 to " + std::to_string(size[e] - 1));
+    }
+    const auto [i, j, k] = sample.place;
+    return add_vertex(i + size[0] * (j + size[1] * k), sample.offset);
+  }
+
   Result<void> operator()(const VertexCurve& curve) {
     if (space_.space != nullptr) {
       return misplaced("a curve is a source on surfaces alone, and this is a " +

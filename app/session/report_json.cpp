@@ -160,7 +160,9 @@ Json model_json(const std::string& name, const MeshSummary& mesh) {
 void add_domain(const Model& model, Json& json) {
   if (model.is_mesh()) return;
   json["domain"] = domain_name(model);
-  if (model.space) json[model.space->words().cells] = model.space->cell_count();
+  if (!model.space) return;
+  json[model.space->words().cells] = model.space->cell_count();
+  if (const auto size = model.space->size(); size[0] > 0) json["size"] = size;
 }
 
 Json full_model_json(const std::string& name, const MeshReport& mesh) {

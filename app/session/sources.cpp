@@ -55,9 +55,10 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
   for (const std::string_view part : split(text, ',')) {
     const auto vertex = number_in<Index>(trimmed(part));
     if (!vertex || *vertex < 0) {
-      return unreadable(quoted(text) + " is no source",
-                        {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
-                         "random:K[:SEED], boundary, face:ID:b0:b1:b2 or xyz:x:y:z"});
+      return unreadable(
+          quoted(text) + " is no source",
+          {"write vertex ids from 0 (17 or 3,99,512), curve:V1,V2,..., "
+           "random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z or sample:i:j[:k]"});
     }
     list.vertices.push_back(*vertex);
   }
@@ -118,12 +119,26 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
   return SourceSpec(FacePoint{*face, *weights});
 }
 
+Result<SourceSpec> parse_sample(std::string_view text, const std::vector<std::string_view>& parts) {
+  GridSample sample;
+  bool valid = parts.size() == 3 || parts.size() == 4;
+  for (std::size_t e = 0; valid && e + 1 < parts.size(); ++e) {
+    const auto place = number_in<Index>(parts[e + 1]);
+    valid = place && *place >= 0;
+    if (valid) sample.place[e] = *place;
+  }
+  if (valid) return SourceSpec(sample);
+  return unreadable(quoted(text) + " is no sample of a grid",
+                    {"write sample:i:j or sample:i:j:k, places along x, y and z from 0"});
+}
+
 Result<SourceSpec> parse_plain(std::string_view text) {
   const std::vector<std::string_view> parts = split(text, ':');
   if (text == "boundary") return SourceSpec(WholeBoundary{});
   if (text.starts_with("curve:")) return parse_curve(text.substr(6));
   if (parts[0] == "random") return parse_random(text, parts);
   if (parts[0] == "face") return parse_face(text, parts);
+  if (parts[0] == "sample") return parse_sample(text, parts);
   if (parts[0] == "xyz") {
     if (parts.size() != 4) {
       return unreadable(quoted(text) + " is no point in space",
@@ -167,6 +182,11 @@ struct Writer {
     std::string text = "xyz";
     for (const double x : point.position) text += ':' + number_text(x);
     return text + offset_text(point.offset);
+  }
+  std::string operator()(const GridSample& sample) const {
+    std::string text = "sample";
+    for (const Index place : sample.place) text += ':' + std::to_string(place);
+    return text + offset_text(sample.offset);
   }
 };
 
@@ -233,7 +253,8 @@ Result<SourceSpec> parse_words(const std::vector<std::string_view>& words) {
   if (words.size() == 3) return parse_space_point({words[0], words[1], words[2]});
   if (words.size() == 1) {
     const std::string_view word = words[0];
-    const bool is_point = word.starts_with("face:") || word.starts_with("xyz:");
+    const bool is_point =
+        word.starts_with("face:") || word.starts_with("xyz:") || word.starts_with("sample:");
     if (is_point || word.find('@') != std::string_view::npos) return parse_source(word);
     const auto vertex = number_in<Index>(word);
     if (vertex && *vertex >= 0) return SourceSpec(VertexList{{*vertex}});

@@ -22,8 +22,9 @@
 namespace geotherm::app {
 
 // What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
-// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`; those of
-// points may end in `@OFFSET`, the distance there, model units: `17@0.5`.
+// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`,
+// `sample:i:j[:k]`; those of points may end in `@OFFSET`, the distance there, model units:
+// `17@0.5`.
 
 struct VertexList {
   std::vector<Index> vertices;
@@ -63,8 +64,15 @@ struct SpacePoint {
   bool operator==(const SpacePoint&) const = default;
 };
 
-using SourceSpec =
-    std::variant<VertexList, VertexCurve, RandomVertices, WholeBoundary, FacePoint, SpacePoint>;
+/// A sample of a grid by its place along x, y and z.
+struct GridSample {
+  std::array<Index, 3> place{};
+  double offset = 0;
+  bool operator==(const GridSample&) const = default;
+};
+
+using SourceSpec = std::variant<VertexList, VertexCurve, RandomVertices, WholeBoundary, FacePoint,
+                                SpacePoint, GridSample>;
 
 /// A source as the user wrote it.
 struct Source {

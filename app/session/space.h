@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -45,6 +46,8 @@ class Space {
   MethodKind rival() const { return rival_; }
 
   virtual Index cell_count() const = 0;
+  /// Samples along x, y and z; zeros where vertices are no samples of a grid.
+  virtual std::array<Index, 3> size() const { return {}; }
   /// What `info` says of it.
   virtual std::string described() const = 0;
   /// The vertices that the source `boundary` is.

@@ -108,20 +108,6 @@ class CellMeshBuilder {
     }
   }
 
-  /// `parts` of the pattern, which the elimination order numbers anew.
-  void name_components(std::span<const Index> order) {
-    const Components& parts = pattern_.parts;
-    out_.components.count = parts.count;
-    out_.components.of.assign(static_cast<std::size_t>(size_), 0);
-    std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
-    Index named = 0;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-      Index& here = name[parts.of[order[k]]];
-      if (here == kNoIndex) here = named++;
-      out_.components.of[k] = here;
-    }
-  }
-
   void add_up_stiffness(std::span<const Index> order) {
     out_.lower = permuted_lower(pattern_.pattern, order, threads_);
     out_.pattern = pattern_hash(out_.lower, threads_);
@@ -215,6 +201,18 @@ class CellMeshBuilder {
 
 }  // namespace
 
+void name_components(const Components& parts, std::span<const Index> order, Components& out) {
+  out.count = parts.count;
+  out.of.resize(order.size());
+  std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+  Index named = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    Index& here = name[parts.of[order[k]]];
+    if (here == kNoIndex) here = named++;
+    out.of[k] = here;
+  }
+}
+
 CellPattern pattern_of_cells(const CellComplex& cells, int threads) {
   CellPattern out;
   std::vector<char> used(static_cast<std::size_t>(cells.vertices), 0);
@@ -252,7 +250,7 @@ std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
   CellMeshBuilder builder(cells, pattern, order, unit, threads, *out);
   builder.sort_cells();
   builder.add_up_masses();
-  builder.name_components(order);
+  name_components(pattern.parts, order, out->components);
   builder.add_up_stiffness(order);
   return out;
 }

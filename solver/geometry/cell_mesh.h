@@ -53,10 +53,40 @@ struct CellRange {
   Index first_cell, end_cell;
 };
 
+/// Mass and stiffness of cells, rows in elimination order.
+struct CellMatrix {
+  std::vector<double> mass;   ///< n, > 0
+  Components components;      ///< of the rows
+  LowerPattern lower;         ///< of the matrices
+  std::uint64_t pattern = 0;  ///< its hash
+
+  /// L, all entries of each row but the diagonal's, which is minus their sum.
+  std::vector<std::int64_t> row_start;  ///< n + 1
+  RawVector<Index> column;
+  RawVector<double> entry;          ///< of the heat step
+  RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: the same
+  /// Of each pair the consistent mass, measure / (k (k + 1)) from each cell of k corners at both,
+  /// as simplices have it; empty where all mass is lumped.
+  RawVector<double> shared_mass;
+
+  Index size() const { return static_cast<Index>(mass.size()); }
+  /// Of the heat step where there is a mass, else of the Poisson equation.
+  const double* entries(double mass_factor) const {
+    return (mass_factor == 0 && !poisson_entry.empty() ? poisson_entry : entry).data();
+  }
+};
+
+/// y = L x. The same bits with any number of threads.
+void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
+                     int threads);
+
+/// The components of a pattern as an elimination order numbers them anew.
+void name_components(const Components& parts, std::span<const Index> order, Components& out);
+
 /// A CellComplex as the solvers walk it: vertices in elimination order, cells sorted to follow
 /// them. Lengths are in units of `unit`, measures relative to their mean: a and s of a A + s L
 /// scale alike, so that no answer depends on it.
-struct CellMesh {
+struct CellMesh : CellMatrix {
   int dimension = 0;
   bool is_of_tets = false;          ///< three dimensions, four corners everywhere
   std::vector<std::int64_t> start;  ///< C + 1
@@ -68,28 +98,10 @@ struct CellMesh {
   std::vector<CellRange> ranges;    ///< all rows, in order; the same for every thread count
   Index crossing = 0;               ///< cells from here on have corners in several ranges
   CellTable cells_at;               ///< of each row
-  std::vector<double> mass;         ///< n, > 0
-  Components components;            ///< of the rows
-  LowerPattern lower;               ///< of the matrices, in elimination order
-  std::uint64_t pattern = 0;        ///< its hash
 
-  /// L, all entries of each row but the diagonal's, which is minus their sum.
-  std::vector<std::int64_t> row_start;  ///< n + 1
-  RawVector<Index> column;
-  RawVector<double> entry;          ///< of the heat step
-  RawVector<double> poisson_entry;  ///< with less of the stabilizers; empty: there are none
-  /// Of each pair the consistent mass, measure / (k (k + 1)) from each cell of k corners at both,
-  /// as simplices have it. Two dimensions; empty in others.
-  RawVector<double> shared_mass;
-
-  Index size() const { return static_cast<Index>(mass.size()); }
   Index cell_count() const { return static_cast<Index>(measures.size()); }
   std::span<const Index> corners_of(Index cell) const {
     return {corners.data() + start[cell], corners.data() + start[cell + 1]};
-  }
-  /// Of the heat step where there is a mass, else of the Poisson equation.
-  const double* entries(double mass_factor) const {
-    return (mass_factor == 0 && !poisson_entry.empty() ? poisson_entry : entry).data();
   }
   const double* gradients_of(Index cell) const {
     return gradients.data() + start[cell] * dimension;
@@ -102,13 +114,13 @@ std::shared_ptr<const CellMesh> build_cell_mesh(const CellComplex& cells,
                                                 std::span<const Index> order, double unit,
                                                 int threads);
 
-/// a A + s L, A the lumped mass but for `consistent_share` of it, in two dimensions. Entries of L
-/// above 0, which on tets come from obtuse dihedral angles, stay: without them u would be positive
-/// everywhere, but L no Laplacian any more, and distances on irregular tets would not converge
-/// (measured; docs/domains.md).
+/// a A + s L, A the lumped mass but for `consistent_share` of it, where there is a shared mass.
+/// Entries of L above 0, which on tets come from obtuse dihedral angles, stay: without them u would
+/// be positive everywhere, but L no Laplacian any more, and distances on irregular tets would not
+/// converge (measured; docs/domains.md).
 class CellOperator final : public DomainOperator {
  public:
-  CellOperator(std::shared_ptr<const CellMesh> mesh, double mass_factor,
+  CellOperator(std::shared_ptr<const CellMatrix> mesh, double mass_factor,
                PerComponent stiffness_factor, PerComponent consistent_share,
                std::vector<Index> held, int threads);
 
@@ -137,7 +149,7 @@ class CellOperator final : public DomainOperator {
     return -stiffness - mass_factor_ * consistent_share_.of(component) * mesh_->shared_mass[entry];
   }
 
-  std::shared_ptr<const CellMesh> mesh_;
+  std::shared_ptr<const CellMatrix> mesh_;
   double mass_factor_;
   PerComponent stiffness_factor_, consistent_share_;
   const double* entries_;  ///< of L

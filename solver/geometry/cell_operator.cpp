@@ -13,7 +13,21 @@ constexpr std::int64_t kCellRowGrain = 1 << 12;
 
 }  // namespace
 
-CellOperator::CellOperator(std::shared_ptr<const CellMesh> mesh, double mass_factor,
+void apply_stiffness(const CellMatrix& matrix, std::span<const double> x, std::span<double> y,
+                     int threads) {
+  const double* const entries = matrix.entries(0);
+  parallel_for(threads, matrix.size(), kCellRowGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
+      double sum = 0;
+      for (std::int64_t e = matrix.row_start[i]; e < matrix.row_start[i + 1]; ++e) {
+        sum += entries[e] * (x[matrix.column[e]] - x[i]);
+      }
+      y[i] = sum;
+    }
+  });
+}
+
+CellOperator::CellOperator(std::shared_ptr<const CellMatrix> mesh, double mass_factor,
                            PerComponent stiffness_factor, PerComponent consistent_share,
                            std::vector<Index> held, int threads)
     : DomainOperator(mesh->size(), std::move(held)),

@@ -232,17 +232,7 @@ std::shared_ptr<const DomainOperator> CellDomain::combine(double mass_factor,
 
 void CellDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
                                  int threads) const {
-  constexpr std::int64_t kGrain = 1 << 12;
-  const double* const entries = mesh->entries(0);
-  parallel_for(threads, size(), kGrain, [&](std::int64_t begin, std::int64_t end) {
-    for (auto i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i) {
-      double sum = 0;
-      for (std::int64_t e = mesh->row_start[i]; e < mesh->row_start[i + 1]; ++e) {
-        sum += entries[e] * (x[mesh->column[e]] - x[i]);
-      }
-      y[i] = sum;
-    }
-  });
+  geotherm::apply_stiffness(*mesh, x, y, threads);
 }
 
 Index CellDomain::find_cell(Index number) const {

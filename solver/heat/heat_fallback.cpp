@@ -8,6 +8,7 @@
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/heat/cell_domain.h"
+#include "solver/heat/grid_domain.h"
 #include "solver/heat/heat_state.h"
 #include "solver/heat/surface.h"
 
@@ -29,6 +30,15 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const CellComplex> cells,
                                      const HeatOptions& options, const Progress& progress) {
   return State::build(cell_input(std::move(cells)), options, progress);
+}
+
+Result<HeatMethod> HeatMethod::build(std::shared_ptr<const Grid> grid, const HeatOptions& options,
+                                     const Progress& progress) try {
+  auto input = grid_input(std::move(grid));
+  if (!input) return input.error();
+  return State::build(*input, options, progress);
+} catch (const std::bad_alloc&) {
+  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
 }
 
 Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::Input>& input,

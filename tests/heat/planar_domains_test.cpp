@@ -5,7 +5,7 @@
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
 
-// The heat method on polygons and grids.
+// The heat method on polygons.
 namespace geotherm::test {
 namespace {
 
@@ -83,55 +83,6 @@ TEST(Domains, FacesWithoutAreaAreLeftOutAndSaid) {
   EXPECT_EQ(made->cell_count(), 16);
   ASSERT_EQ(made->notes.size(), 1U);
   EXPECT_NE(made->notes[0].message.find("2 faces were left out"), std::string::npos);
-}
-
-TEST(Domains, InAGridErrorsFallWithTheSpacing) {
-  double before = 1;
-  for (const Index n : {33, 65, 129}) {
-    Grid grid{{n, n, 1}, {1.0 / n, 1.0 / n, 1}, Vec3::Zero(), {}};
-    const auto cells = shared(cells_of(grid));
-    const Index middle = cells->vertices / 2;
-    const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
-    const double error = straight_error(*cells, result.distances, cells->positions[middle]);
-    EXPECT_LE(error, 0.65 * before) << n;
-    before = error;
-  }
-  EXPECT_LE(before, 0.015);
-}
-
-TEST(Domains, InAMazeDistanceFollowsTheCorridors) {
-  // Corridors one sample wide, back and forth: distance is the number of steps.
-  constexpr Index kSize = 31;
-  Grid maze{{kSize, kSize, 1}, {1, 1, 1}, Vec3::Zero(), {}};
-  maze.speeds.assign(kSize * kSize, 0.0);
-  Index steps = 0;
-  for (Index y = 0; y < kSize; y += 2) {
-    for (Index x = 0; x < kSize; ++x) maze.speeds[x + kSize * y] = 1;
-    steps += kSize - 1;
-    if (y + 2 >= kSize) break;
-    maze.speeds[((y / 2) % 2 == 0 ? kSize - 1 : 0) + kSize * (y + 1)] = 1;
-    steps += 2;
-  }
-  const Index end = (kSize / 2) % 2 == 0 ? kSize - 1 : 0;
-  const auto result = solve_cells(shared(cells_of(maze)), SourceSet::of_vertices({0}));
-  EXPECT_NEAR(result.distances[end + kSize * (kSize - 1)], steps, 1e-4 * steps);
-}
-
-TEST(Domains, DoubledSpeedHalvesTheTime) {
-  Grid grid{{40, 30, 1}, {1, 1, 1}, Vec3::Zero(), {}};
-  const auto plain = solve_cells(shared(cells_of(grid)), SourceSet::of_vertices({0})).distances;
-  grid.speeds.assign(40 * 30, 2.0);
-  auto fast = solve_cells(shared(cells_of(grid)), SourceSet::of_vertices({0})).distances;
-  for (double& time : fast) time *= 2;
-  EXPECT_LE(relative_difference(fast, plain), 1e-6);
-}
-
-TEST(Domains, VoxelsAreCubes) {
-  Grid grid{{25, 25, 25}, {1, 1, 1}, Vec3::Zero(), {}};
-  const auto cells = shared(cells_of(grid));
-  const Index middle = cells->vertices / 2;
-  const auto result = solve_cells(cells, SourceSet::of_vertices({middle}));
-  EXPECT_LE(straight_error(*cells, result.distances, cells->positions[middle]), 0.03);
 }
 
 }  // namespace

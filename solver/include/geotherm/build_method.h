@@ -42,6 +42,12 @@ Result<std::shared_ptr<const DistanceMethod>> build_method(std::shared_ptr<const
                                                            const MethodOptions& options = {},
                                                            const Progress& progress = {});
 
+/// The same for a grid. Errors: kNotAvailable, kBadInput (check_grid()), those of
+/// HeatMethod::build().
+Result<std::shared_ptr<const DistanceMethod>> build_method(std::shared_ptr<const Grid> grid,
+                                                           const MethodOptions& options = {},
+                                                           const Progress& progress = {});
+
 /// The same beside a method on the same mesh, null where there is none: a heat method shares with
 /// another one what stays the same (HeatMethod::with()).
 Result<std::shared_ptr<const DistanceMethod>> build_method_near(

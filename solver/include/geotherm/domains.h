@@ -12,13 +12,16 @@
 #include "geotherm/error.h"
 #include "geotherm/io.h"
 #include "geotherm/mesh.h"
+#include "geotherm/names.h"
 #include "geotherm/progress.h"
+#include "geotherm/sources.h"
 #include "geotherm/types.h"
 
 // Spaces other than triangle meshes. The heat method needs of a space a mass, a stiffness and the
 // gradient of a field on each cell (Crane, Weischedel, Wardetzky 2013, section 3.2): a CellComplex
-// states these, and cells_of() makes one of tetrahedra, polygons, grids and graphs. Points become a
-// triangle mesh, surface_of(). docs/adding_a_domain.md makes a space of one's own.
+// states these, and cells_of() makes one of tetrahedra, polygons and graphs; a Grid is used as it
+// is. Points become a triangle mesh, surface_of(). docs/adding_a_domain.md makes a space of one's
+// own.
 namespace geotherm {
 
 /// A space cut into cells. A cell joins k vertices, which may be another number in each, and gives
@@ -103,23 +106,88 @@ Result<TriangleMesh> triangulated(const PolygonMesh& mesh);
 /// of k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
-/// Samples in a box, such as the pixels of an image or the voxels of a scan.
+/// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
+/// samples, numbered with x fastest. Its cells are the squares or cubes between samples that all
+/// pass, and the edges between two that lie in none of these, so that corridors one sample wide
+/// connect. The speed of a cell is the harmonic mean of its corners'.
 struct Grid {
   std::array<Index, 3> size = {1, 1, 1};  ///< samples along x, y and z; 1 along z in two dimensions
-  std::array<double, 3> spacing = {1, 1, 1};  ///< between samples, model units, > 0
-  Vec3 origin = Vec3::Zero();                 ///< of sample (0, 0, 0)
+  /// Between samples, model units, not 0; below 0 where the axis runs backwards.
+  std::array<double, 3> spacing = {1, 1, 1};
+  Vec3 origin = Vec3::Zero();  ///< of sample (0, 0, 0)
   /// For each sample, x fastest: the speed with which distance is travelled there, so that the
   /// answer is travel time; 0 where nothing passes. Empty: 1 everywhere.
   std::vector<double> speeds;
+
+  Index sample_count() const { return size[0] * size[1] * size[2]; }
+  Index number(const std::array<Index, 3>& at) const {
+    return at[0] + size[0] * (at[1] + size[1] * at[2]);
+  }
+  std::array<Index, 3> place(Index sample) const {
+    return {sample % size[0], sample / size[0] % size[1], sample / size[0] / size[1]};
+  }
+  Vec3 position(Index sample) const {
+    const auto at = place(sample);
+    return origin + Vec3(at[0] * spacing[0], at[1] * spacing[1], at[2] * spacing[2]);
+  }
+  double speed(Index sample) const { return speeds.empty() ? 1 : speeds[sample]; }
 };
 
-/// A grid as a space: vertices are samples, numbered with x fastest, cells the squares or cubes
-/// between samples that pass, and the edges that lie in none of these, so that corridors one sample
-/// wide connect. Bilinear (trilinear) elements; their gradient is that at the middle. The speed of
-/// a cell is the harmonic mean of its corners'. Errors (kBadInput, with the numbers): sizes that
-/// are not positive or do not fit the speeds, a speed that is negative or not finite, nothing that
-/// passes. Cost: one pass; 0.5 kB a cube.
-Result<CellComplex> cells_of(const Grid& grid);
+/// Errors (kBadInput, with the numbers): sizes that are not positive, are above a billion samples
+/// in all or do not fit the speeds, a spacing that is 0, a speed that is negative or not finite, no
+/// two neighbours that pass. Cost: one pass.
+Result<void> check_grid(const Grid& grid);
+
+/// The point of a grid nearest to a place: a sample, else a point in a cell.
+struct ClosestGridPoint {
+  Index sample = kNoIndex;
+  CellPoint in_cell;    ///< where `sample` is kNoIndex; numbered by the cell's lowest sample
+  double distance = 0;  ///< straight line, model units; 0 inside
+};
+/// In a cell that passes the point itself, else the nearest sample that passes. Errors (kBadInput):
+/// those of check_grid(), a coordinate that is not finite. Cost: O(V).
+Result<ClosestGridPoint> closest_point(const Grid& grid, const Vec3& query);
+
+/// What the values of a file's samples mean.
+enum class GridValues {
+  kAuto,   ///< floating-point numbers are speeds, all others a mask
+  kMask,   ///< what is not 0 passes, with speed 1; of pictures, brightness of at least half
+  kSpeeds  ///< speeds, 0 and NaN are walls; of pictures brightness, from 0 to 1
+};
+NamedValues<GridValues> named_values(GridValues);
+
+/// A grid as read from a file, what its values mean and what the reader left out.
+struct GridFile {
+  Grid grid;
+  std::string meaning;
+  std::vector<std::string> notes;  ///< one sentence each, for people
+};
+
+/// Reads `.npy` (booleans, whole numbers, floating-point numbers of 4 and 8 bytes; 2 or 3 axes, of
+/// which the last is x), `.png` (the first row is the top: y runs backwards), `.vti` (VTK image:
+/// text, base64, appended, compressed by zlib; the active scalars of the points, or the first) and
+/// `.nrrd`, `.nhdr` (raw, gzip, text; samples in the file or beside it). Errors: one sentence with
+/// path and cause (kBadFile), a negative speed with its place among them; an unknown extension
+/// (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held against its size
+/// before memory is asked for. Cost: the file and 8 bytes a sample in memory.
+Result<GridFile> read_grid(const std::string& path, GridValues values = GridValues::kAuto);
+
+/// The extensions without their point: npy, png, vti, nrrd, nhdr.
+std::vector<std::string> grid_formats();
+
+/// Whether the extension is one of those.
+bool holds_grid(const std::string& path);
+
+/// True when write_distances() of a grid knows the extension; otherwise the error (kNotAvailable)
+/// says which there are.
+Result<void> check_grid_distances_path(const std::string& path);
+
+/// Writes one distance a sample, infinite where unreached: `.npy` in the shape of the grid, `.csv`,
+/// `.vti` (point data `distance`). `nearest` and `fields` follow as for a triangle mesh. Errors:
+/// those of check_grid_distances_path(), kBadInput (sizes), kBadFile, kOutOfMemory.
+Result<void> write_distances(const std::string& path, const Grid& grid,
+                             std::span<const double> distances, std::span<const Index> nearest = {},
+                             std::span<const DataField> fields = {});
 
 /// The four corners of a tetrahedron, as vertex numbers.
 using Tet = std::array<Index, 4>;

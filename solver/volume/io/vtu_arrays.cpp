@@ -200,7 +200,7 @@ void for_each_stored(const std::vector<char>& bytes, VtkType type, std::endian o
 /// Numbers up to the next tag.
 template <class T>
 std::vector<T> read_text_array(std::string_view bytes, std::size_t place, const char* name,
-                               std::int64_t count) {
+                               std::int64_t count, bool finite) {
   TextScanner scanner(bytes.substr(0, bytes.find('<', place)), '\0', place);
   scanner.now_reading(name);
   const auto fail = [&](const std::string& what) {
@@ -215,7 +215,7 @@ std::vector<T> read_text_array(std::string_view bytes, std::size_t place, const 
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (scanner.at_end()) fail("only " + std::to_string(i) + " follow");
     if constexpr (std::is_floating_point_v<T>) {
-      values[i] = scanner.coordinate();
+      values[i] = finite ? scanner.coordinate() : scanner.number();
     } else {
       values[i] = scanner.integer();
     }
@@ -225,11 +225,12 @@ std::vector<T> read_text_array(std::string_view bytes, std::size_t place, const 
 
 template <class T>
 std::vector<T> read_vtu_array(std::string_view bytes, const VtuEncoding& encoding,
-                              const VtuArray& array, const char* name, std::int64_t count) {
+                              const VtuArray& array, const char* name, std::int64_t count,
+                              bool finite) {
   std::vector<T> values;
   const auto size = static_cast<std::uint64_t>(count);
   if (array.format == VtuArray::Format::kText) {
-    return read_text_array<T>(bytes, static_cast<std::size_t>(array.place), name, count);
+    return read_text_array<T>(bytes, static_cast<std::size_t>(array.place), name, count, finite);
   }
   const bool appended = array.format == VtuArray::Format::kAppended;
   const std::size_t start = appended ? encoding.appended : 0;
@@ -243,7 +244,8 @@ std::vector<T> read_vtu_array(std::string_view bytes, const VtuEncoding& encodin
   values.reserve(static_cast<std::size_t>(size));
   for_each_stored(raw, array.type, encoding.order, [&](auto value) {
     if constexpr (std::is_floating_point_v<T>) {
-      if (!std::isfinite(static_cast<double>(value))) decoder.fail("a number is not finite");
+      if (finite && !std::isfinite(static_cast<double>(value)))
+        decoder.fail("a number is not finite");
     }
     values.push_back(static_cast<T>(value));
   });
@@ -253,8 +255,9 @@ std::vector<T> read_vtu_array(std::string_view bytes, const VtuEncoding& encodin
 }  // namespace
 
 std::vector<double> read_vtu_reals(std::string_view bytes, const VtuEncoding& encoding,
-                                   const VtuArray& array, const char* name, std::int64_t count) {
-  return read_vtu_array<double>(bytes, encoding, array, name, count);
+                                   const VtuArray& array, const char* name, std::int64_t count,
+                                   bool finite) {
+  return read_vtu_array<double>(bytes, encoding, array, name, count, finite);
 }
 
 std::vector<std::int64_t> read_vtu_integers(std::string_view bytes, const VtuEncoding& encoding,
@@ -263,7 +266,7 @@ std::vector<std::int64_t> read_vtu_integers(std::string_view bytes, const VtuEnc
   if (array.type == VtkType::kFloat32 || array.type == VtkType::kFloat64) {
     throw ReadFailure{std::string("the array \"") + name + "\" has no whole numbers"};
   }
-  return read_vtu_array<std::int64_t>(bytes, encoding, array, name, count);
+  return read_vtu_array<std::int64_t>(bytes, encoding, array, name, count, true);
 }
 
 }  // namespace geotherm::io

@@ -32,10 +32,11 @@ struct VtuEncoding {
 };
 
 /// The `count` numbers of an array, which must have as many. `name`: for messages. Throws
-/// ReadFailure, so also where a finite number is asked for (doubles) and one is not; what the array
+/// ReadFailure, so also where numbers are to be finite and one is not; what the array
 /// announces is held against the bytes that are there before memory is asked for.
 std::vector<double> read_vtu_reals(std::string_view bytes, const VtuEncoding& encoding,
-                                   const VtuArray& array, const char* name, std::int64_t count);
+                                   const VtuArray& array, const char* name, std::int64_t count,
+                                   bool finite = true);
 std::vector<std::int64_t> read_vtu_integers(std::string_view bytes, const VtuEncoding& encoding,
                                             const VtuArray& array, const char* name,
                                             std::int64_t count);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/session/space.h"
+#include "geotherm/mesh.h"
+#include "solver/geometry/grid_mesh.h"
+
+namespace geotherm::app {
+
+/// A grid of samples.
+class GridSpace final : public Space {
+ public:
+  /// Precondition: check_grid() accepts file.grid. Throws std::bad_alloc.
+  explicit GridSpace(GridFile file)
+      : GridSpace(
+            std::make_shared<const GridLattice>(std::make_shared<const Grid>(std::move(file.grid))),
+            std::move(file.meaning)) {}
+
+  /// What is drawn: in two dimensions the squares, cut into triangles, in three the outsides of the
+  /// cubes. Every sample is a vertex, so that numbers stay. Errors: kOutOfMemory.
+  Result<TriangleMesh> drawn() const;
+
+  Index cell_count() const override { return lattice_->cell_count(); }
+  std::array<Index, 3> size() const override { return grid_->size; }
+  std::string described() const override;
+  std::vector<Index> boundary_vertices() const override;
+  Result<PlacedPoint> closest_point(const Vec3& place) const override;
+  Result<std::shared_ptr<const DistanceMethod>> build_method(
+      const MethodOptions& options, const Progress& progress) const override;
+  Result<void> check_path(const std::string& path) const override;
+  Result<void> write(const std::string& path, std::span<const double> distances,
+                     std::span<const Index> nearest,
+                     std::span<const DataField> fields) const override;
+
+ private:
+  GridSpace(std::shared_ptr<const GridLattice> lattice, std::string meaning);
+
+  std::shared_ptr<const Grid> grid_;
+  std::shared_ptr<const GridLattice> lattice_;
+  std::string meaning_;
+};
+
+}  // namespace geotherm::app

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+#include "solver/grid/grid_marching.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/geometry/grid_mesh.h"
+#include "solver/method/solve_sets.h"
+
+namespace geotherm {
+namespace {
+
+using Place = std::array<double, 3>;  ///< in samples along the D axes
+
+/// One query.
+class GridMarch {
+ public:
+  explicit GridMarch(const GridLattice& lattice)
+      : lattice_(lattice), grid_(lattice.grid()), d_(lattice.dimension()) {
+    const auto count = static_cast<std::size_t>(grid_.sample_count());
+    distance_.assign(count, kUnreached);
+    nearest_.assign(count, kNoIndex);
+    state_.assign(count, 0);
+  }
+
+  Result<void> add_sample(Index sample, double offset) {
+    if (sample < 0 || sample >= grid_.sample_count() || !(grid_.speed(sample) > 0)) {
+      return Error{ErrorCode::kBadInput,
+                   "source sample " + std::to_string(sample) + " is not there, or does not pass"};
+    }
+    sources_.push_back({place_of(sample), offset, 1 / grid_.speed(sample)});
+    start_at(sample, offset);
+    return {};
+  }
+
+  Result<void> add_point(const CellPoint& point) {
+    const bool there = point.cell >= 0 && point.cell < grid_.sample_count() &&
+                       lattice_.has_cell(point.cell) && std::ssize(point.weights) == 1 << d_;
+    if (!there) {
+      return Error{ErrorCode::kBadInput,
+                   "the source in cell " + std::to_string(point.cell) +
+                       " is not there, or has not a weight for each of its corners"};
+    }
+    const GridCell cell = lattice_.cell(point.cell);
+    Place at{};
+    for (int k = 0; k < cell.count; ++k) {
+      const Place corner = place_of(cell.corners[k]);
+      for (int e = 0; e < d_; ++e) at[e] += point.weights[k] * corner[e];
+    }
+    sources_.push_back({at, 0, cell.slowness});
+    for (int k = 0; k < cell.count; ++k) {
+      start_at(cell.corners[k], line_from(sources_.back(), place_of(cell.corners[k])));
+    }
+    return {};
+  }
+
+  Result<void> march(const Progress& progress) {
+    constexpr std::int64_t kReported = 1 << 16;
+    const auto samples = static_cast<double>(distance_.size());
+    std::int64_t done = 0;
+    while (!queue_.empty()) {
+      const auto [distance, v] = queue_.top();
+      queue_.pop();
+      if (is(v, kFinal) || distance != distance_[v]) continue;  // it was changed meanwhile
+      state_[v] |= kFinal;
+      if (++done % kReported == 0 &&
+          !report(progress, "marching", static_cast<double>(done) / samples)) {
+        return cancelled_error();
+      }
+      for (int e = 0; e < d_; ++e) {
+        for (const int step : {-1, 1}) {
+          const Index w = neighbor(v, e, step);
+          if (w != kNoIndex && !is(w, kFinal)) update(w, v, e, -step);
+        }
+      }
+    }
+    return {};
+  }
+
+  std::vector<double> take_distances() { return std::move(distance_); }
+  std::vector<Index> take_nearest() { return std::move(nearest_); }
+
+ private:
+  enum : std::uint8_t { kFinal = 1, kSees = 2 };
+  struct Source {
+    Place place;
+    double offset, slowness;
+  };
+  struct News {
+    double distance;
+    Index sample;
+    bool operator<(const News& other) const {  // the queue's top is its largest
+      return distance != other.distance ? distance > other.distance : sample > other.sample;
+    }
+  };
+
+  bool is(Index v, std::uint8_t what) const { return (state_[v] & what) != 0; }
+  Index coordinate(Index v, int e) const {
+    return e + 1 < d_ ? v % lattice_.stride(e + 1) / lattice_.stride(e) : v / lattice_.stride(e);
+  }
+  Place place_of(Index v) const {
+    Place out{};
+    for (int e = 0; e < d_; ++e) out[e] = coordinate(v, e);
+    return out;
+  }
+  double line_from(const Source& source, const Place& at) const {
+    double square = 0;
+    for (int e = 0; e < d_; ++e) {
+      const double along = (at[e] - source.place[e]) * lattice_.spacing(e);
+      square += along * along;
+    }
+    return source.offset + source.slowness * std::sqrt(square);
+  }
+
+  /// The next sample that passes; kNoIndex: there is none.
+  Index neighbor(Index v, int e, int step) const {
+    if (step > 0) return lattice_.has_edge(v, e) ? v + lattice_.stride(e) : kNoIndex;
+    const Index before = v - lattice_.stride(e);
+    return before >= 0 && lattice_.has_edge(before, e) ? before : kNoIndex;
+  }
+
+  void start_at(Index v, double distance) {
+    if (distance >= distance_[v]) return;
+    set(v, distance, static_cast<Index>(sources_.size()) - 1);
+    state_[v] |= kSees;
+  }
+
+  void set(Index v, double distance, Index source) {
+    distance_[v] = distance;
+    nearest_[v] = source;
+    state_[v] &= static_cast<std::uint8_t>(~kSees);
+    queue_.push({distance, v});
+  }
+
+  /// The lowest corner of the cell at v towards the steps; kNoIndex: there is none.
+  Index cell_towards(Index v, const std::array<int, 3>& steps) const {
+    Index lowest = v;
+    for (int e = 0; e < d_; ++e) {
+      if (steps[e] < 0) lowest -= lattice_.stride(e);
+      if (steps[e] < 0 && coordinate(v, e) == 0) return kNoIndex;
+    }
+    return lattice_.has_cell(lowest) ? lowest : kNoIndex;
+  }
+
+  /// A neighbour of v became final: `from`, `step` along `axis`.
+  void update(Index v, Index from, int axis, int step) {
+    if (see(v, nearest_[from])) return;
+    const double along = lattice_.spacing(axis) * (1 / grid_.speed(v) + 1 / grid_.speed(from)) / 2;
+    double best = distance_[from] + along;
+    for (int k = 0; k < 1 << d_; ++k) {  // the cells at this edge
+      if ((k >> axis & 1) != 0) continue;
+      std::array<int, 3> steps{};
+      for (int e = 0; e < d_; ++e) steps[e] = e == axis ? step : (k >> e & 1) != 0 ? 1 : -1;
+      if (cell_towards(v, steps) != kNoIndex) best = std::min(best, slope_in(v, steps, best));
+    }
+    if (best < distance_[v]) set(v, best, nearest_[from]);
+  }
+
+  /// The distance that has the slope 1 / speed from the final neighbours of v in a cell, at most
+  /// `most`.
+  double slope_in(Index v, const std::array<int, 3>& steps, double most) const {
+    struct Side {
+      double known, weight, value;  ///< weight (d - value)^2 is the square of the slope along it
+    };
+    std::array<Side, 3> sides;
+    int count = 0;
+    for (int e = 0; e < d_; ++e) {
+      const Index a = v + steps[e] * lattice_.stride(e);
+      if (!is(a, kFinal)) continue;
+      const double h = lattice_.spacing(e), first = distance_[a];
+      Side& side = sides[count++];
+      side = {first, 1 / (h * h), first};
+      const Index b = neighbor(a, e, steps[e]);
+      if (b == kNoIndex || !is(b, kFinal) || distance_[b] > first) continue;
+      side.weight *= 2.25;
+      side.value = (4 * first - distance_[b]) / 3;
+    }
+    const double slowness = 1 / grid_.speed(v);
+    // The farthest neighbour is left out until the rest is upwind of the answer.
+    std::sort(sides.begin(), sides.begin() + count,
+              [](const Side& a, const Side& b) { return a.known < b.known; });
+    for (; count > 1; --count) {
+      double a = 0, b = 0, c = -slowness * slowness;
+      for (int i = 0; i < count; ++i) {
+        a += sides[i].weight;
+        b += sides[i].weight * sides[i].value;
+        c += sides[i].weight * sides[i].value * sides[i].value;
+      }
+      const double root = b * b - a * c;
+      if (!(root >= 0)) continue;
+      const double distance = (b + std::sqrt(root)) / a;
+      if (distance >= sides[count - 1].known) return std::min(distance, most);
+    }
+    return most;
+  }
+
+  /// Whether v sees a source, so that the straight line is its distance: the line leaves the cell
+  /// towards it between corners that see it.
+  bool see(Index v, Index source) {
+    if (is(v, kSees) && nearest_[v] == source) return true;
+    const Source& s = sources_[source];
+    const Place at = place_of(v);
+    Place way{};  // to the source, in samples
+    int main = 0;
+    for (int e = 0; e < d_; ++e) {
+      way[e] = s.place[e] - at[e];
+      if (std::abs(way[e]) > std::abs(way[main])) main = e;
+    }
+    if (std::abs(way[main]) < 1) return false;
+    const double line = line_from(s, at);
+    if (line > distance_[v] && nearest_[v] != source) return false;
+    std::array<int, 3> steps{};
+    bool straight = true;  // along an edge
+    for (int e = 0; e < d_; ++e) {
+      steps[e] = way[e] < 0 ? -1 : 1;
+      straight = straight && (e == main || way[e] == 0);
+    }
+    const Index next = neighbor(v, main, steps[main]);
+    if (straight) {
+      if (next == kNoIndex || 1 / grid_.speed(v) != s.slowness) return false;
+    } else if (!is_free(v, steps, way, s.slowness)) {
+      return false;
+    }
+    for (int k = 0; k < 1 << d_; ++k) {  // the corners of the side that the line crosses
+      if ((k >> main & 1) != 0) continue;
+      Index corner = v + steps[main] * lattice_.stride(main);
+      double weight = 1;
+      for (int e = 0; e < d_; ++e) {
+        if (e == main) continue;
+        const double share = std::abs(way[e]) / std::abs(way[main]);
+        weight *= (k >> e & 1) != 0 ? share : 1 - share;
+        if ((k >> e & 1) != 0) corner += steps[e] * lattice_.stride(e);
+      }
+      if (!(weight > 0)) continue;
+      if (!is(corner, kSees) || !is(corner, kFinal) || nearest_[corner] != source) return false;
+    }
+    set(v, line, source);  // also upwards: a slope may be too flat
+    state_[v] |= kSees;
+    return true;
+  }
+
+  /// Whether a cell is there on the line's way, of this slowness: on either side of the line where
+  /// it runs inside a face.
+  bool is_free(Index v, std::array<int, 3> steps, const Place& way, double slowness) const {
+    for (int k = 0; k < 1 << d_; ++k) {
+      bool tried = true;
+      for (int e = 0; e < d_; ++e) tried = tried && ((k >> e & 1) == 0 || way[e] == 0);
+      if (!tried) continue;
+      std::array<int, 3> turned = steps;
+      for (int e = 0; e < d_; ++e) {
+        if ((k >> e & 1) != 0) turned[e] = -turned[e];
+      }
+      const Index lowest = cell_towards(v, turned);
+      if (lowest != kNoIndex && lattice_.cell(lowest).slowness == slowness) return true;
+    }
+    return false;
+  }
+
+  const GridLattice& lattice_;
+  const Grid& grid_;
+  const int d_;
+  std::vector<Source> sources_;
+  std::vector<double> distance_;
+  std::vector<Index> nearest_;
+  std::vector<std::uint8_t> state_;
+  std::priority_queue<News> queue_;
+};
+
+class GridMarchingMethod final : public DistanceMethod {
+ public:
+  GridMarchingMethod(GridLattice lattice, double setup_ms, int threads, double nanoseconds)
+      : lattice_(std::move(lattice)), threads_{threads, nanoseconds} {
+    timing_.operators = timing_.setup = setup_ms;
+  }
+
+  MethodKind kind() const override { return MethodKind::kFastMarching; }
+
+  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
+                                                 const QueryOptions& query,
+                                                 const Progress& progress) const override {
+    const auto one = [&](const SourceSet& sources, const Progress& part) -> Result<DistanceResult> {
+      return solve_one(sources, query, part);
+    };
+    return solve_sets(sets, threads_, progress, one);
+  }
+
+  const SetupTiming& timing() const override { return timing_; }
+  double memory_mb() const override { return lattice_.grid().sample_count() / double(1 << 20); }
+  const std::vector<Warning>& warnings() const override { return warnings_; }
+
+ private:
+  Result<DistanceResult> solve_one(const SourceSet& sources, const QueryOptions& query,
+                                   const Progress& progress) const {
+    const Stopwatch watch;
+    if (sources.empty()) return Error{ErrorCode::kBadInput, "there is no source"};
+    if (!sources.edges.empty()) {
+      return Error{ErrorCode::kBadInput,
+                   "curves of mesh edges are sources of triangle meshes alone"};
+    }
+    GridMarch march(lattice_);
+    for (std::size_t i = 0; i < sources.points.size(); ++i) {
+      if (!sources.points[i].is_vertex()) {
+        return Error{ErrorCode::kBadInput,
+                     "points in faces are sources of triangle meshes alone; give samples or points "
+                     "of cells"};
+      }
+      const double offset = sources.offsets.empty() ? 0 : sources.offsets[i];
+      if (auto added = march.add_sample(sources.points[i].vertex, offset); !added) {
+        return added.error();
+      }
+    }
+    for (const CellPoint& point : sources.cell_points) {
+      if (auto added = march.add_point(point); !added) return added.error();
+    }
+    if (auto done = march.march(progress); !done) return done.error();
+    DistanceResult result;
+    result.distances = march.take_distances();
+    if (query.nearest) result.nearest_source = march.take_nearest();
+    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
+        result.distances, [](double distance) { return distance < kUnreached; }));
+    result.timing.query = watch.milliseconds();
+    if (query.quality) result.quality.eikonal_error_mean = eikonal_error(result.distances);
+    return result;
+  }
+
+  /// By measure, over the cells whose corners are all reached.
+  double eikonal_error(std::span<const double> distances) const {
+    double error = 0, measure = 0;
+    lattice_.for_each_cell(0, lattice_.layer_count(), [&](const GridCell& cell) {
+      double square = 0;
+      for (int e = 0; e < lattice_.dimension(); ++e) {
+        if (cell.axis >= 0 && cell.axis != e) continue;
+        double rise = 0;
+        for (int k = 0; k < cell.count; ++k) {
+          const bool far = cell.count == 2 ? k == 1 : (k >> e & 1) != 0;
+          rise += far ? distances[cell.corners[k]] : -distances[cell.corners[k]];
+        }
+        const double slope = rise * 2 / cell.count / (lattice_.spacing(e) * cell.slowness);
+        square += slope * slope;
+      }
+      if (!std::isfinite(square)) return;
+      double size = 1;
+      for (int e = 0; e < lattice_.dimension(); ++e) size *= cell.slowness;
+      error += size * std::abs(std::sqrt(square) - 1);
+      measure += size;
+    });
+    return measure > 0 ? error / measure : 0.0;
+  }
+
+  GridLattice lattice_;
+  SetThreads threads_;
+  SetupTiming timing_;
+  std::vector<Warning> warnings_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const DistanceMethod>> build_grid_marching(std::shared_ptr<const Grid> grid,
+                                                                  int threads,
+                                                                  const Progress& progress) {
+  if (auto valid = check_grid(*grid); !valid) return valid.error();
+  if (!report(progress, "operators", 0.0)) return cancelled_error();
+  const Stopwatch watch;
+  constexpr double kNanosecondsOfSample = 500;
+  const double nanoseconds = kNanosecondsOfSample * grid->sample_count();
+  GridLattice lattice(std::move(grid));
+  return std::shared_ptr<const DistanceMethod>(std::make_shared<const GridMarchingMethod>(
+      std::move(lattice), watch.milliseconds(), threads, nanoseconds));
+}
+
+}  // namespace geotherm

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Nearly raw raster data (Teem: https://teem.sourceforge.net/nrrd/format.html): lines of text up to
+// an empty one, then the samples, or in a file of their own. The first axis is the fastest.
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/text_scanner.h"
+
+namespace geotherm::io {
+namespace {
+
+constexpr struct {
+  std::string_view name;
+  VtkType type;
+} kNrrdTypes[] = {
+    {"signed char", VtkType::kInt8},
+    {"int8", VtkType::kInt8},
+    {"int8_t", VtkType::kInt8},
+    {"uchar", VtkType::kUint8},
+    {"unsigned char", VtkType::kUint8},
+    {"uint8", VtkType::kUint8},
+    {"uint8_t", VtkType::kUint8},
+    {"short", VtkType::kInt16},
+    {"short int", VtkType::kInt16},
+    {"signed short", VtkType::kInt16},
+    {"signed short int", VtkType::kInt16},
+    {"int16", VtkType::kInt16},
+    {"int16_t", VtkType::kInt16},
+    {"ushort", VtkType::kUint16},
+    {"unsigned short", VtkType::kUint16},
+    {"unsigned short int", VtkType::kUint16},
+    {"uint16", VtkType::kUint16},
+    {"uint16_t", VtkType::kUint16},
+    {"int", VtkType::kInt32},
+    {"signed int", VtkType::kInt32},
+    {"int32", VtkType::kInt32},
+    {"int32_t", VtkType::kInt32},
+    {"uint", VtkType::kUint32},
+    {"unsigned int", VtkType::kUint32},
+    {"uint32", VtkType::kUint32},
+    {"uint32_t", VtkType::kUint32},
+    {"longlong", VtkType::kInt64},
+    {"long long", VtkType::kInt64},
+    {"long long int", VtkType::kInt64},
+    {"signed long long", VtkType::kInt64},
+    {"signed long long int", VtkType::kInt64},
+    {"int64", VtkType::kInt64},
+    {"int64_t", VtkType::kInt64},
+    {"ulonglong", VtkType::kUint64},
+    {"unsigned long long", VtkType::kUint64},
+    {"unsigned long long int", VtkType::kUint64},
+    {"uint64", VtkType::kUint64},
+    {"uint64_t", VtkType::kUint64},
+    {"float", VtkType::kFloat32},
+    {"double", VtkType::kFloat64},
+};
+
+class NrrdHeaderReader {
+ public:
+  explicit NrrdHeaderReader(std::string_view text) : text_(text) {}
+
+  NrrdHeader read() {
+    if (!text_.starts_with("NRRD000")) {
+      fail_at_line(text_, text_.data(), "a file of NRRD starts with NRRD000");
+    }
+    next_line();
+    while (at_ < text_.size()) {
+      const std::string_view line = next_line();
+      if (line.empty()) break;
+      if (line.starts_with('#')) continue;
+      const std::size_t colon = line.find(':');
+      if (colon == line.npos) fail_at_line(text_, line.data(), "there is no : in the header");
+      if (line.substr(colon).starts_with(":=")) continue;  // a remark of the writer's
+      std::string_view value = line.substr(colon + 1);
+      value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size()));
+      while (value.ends_with(' ') || value.ends_with('\t')) value.remove_suffix(1);
+      take(line.substr(0, colon), value);
+    }
+    header_.data_begins = std::min(at_, text_.size());
+    if (!typed_ || sizes_ == 0) throw ReadFailure{"the header has no type or no sizes"};
+    return std::move(header_);
+  }
+
+ private:
+  std::string_view next_line() {
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+
+  [[noreturn]] void fail(std::string_view value, const std::string& cause, Hint hint = {}) const {
+    fail_at_line(text_, value.data(), cause, std::move(hint));
+  }
+
+  void take(std::string_view field, std::string_view value) {
+    if (field == "type") {
+      const auto* const known =
+          std::find_if(std::begin(kNrrdTypes), std::end(kNrrdTypes),
+                       [value](const auto& each) { return each.name == value; });
+      if (known == std::end(kNrrdTypes)) {
+        fail(value, "the type of numbers " + quoted(value, value.data()) + " is unknown");
+      }
+      header_.type = known->type;
+      typed_ = true;
+    } else if (field == "dimension") {
+      if (value != "2" && value != "3") {
+        fail(value, "the dimension is " + quoted(value, value.data()) + "; a grid has 2 or 3");
+      }
+    } else if (field == "sizes") {
+      read_sizes(value);
+    } else if (field == "encoding") {
+      using Encoding = NrrdHeader::Encoding;
+      if (value != "raw" && value != "gzip" && value != "gz" && value != "ascii" &&
+          value != "text" && value != "txt") {
+        fail(value, "the encoding " + quoted(value, value.data()) + " is not supported",
+             {"save it raw or gzip"});
+      }
+      header_.encoding = value == "raw"           ? Encoding::kRaw
+                         : value.starts_with('g') ? Encoding::kGzip
+                                                  : Encoding::kText;
+    } else if (field == "endian") {
+      header_.order = value == "big" ? std::endian::big : std::endian::little;
+    } else if (field == "spacings") {
+      for (std::size_t e = 0; double each : reals(value, 3)) {
+        if (!std::isnan(each)) header_.grid.spacing[e] = each;  // nan: not known
+        ++e;
+      }
+    } else if (field == "space directions") {
+      read_directions(value);
+    } else if (field == "space origin") {
+      for (int e = 0; double each : reals(value, 3)) header_.grid.origin[e++] = each;
+    } else if (field == "data file" || field == "datafile") {
+      if (value.starts_with("LIST") || value.find('%') != value.npos) {
+        fail(value, "the samples are in several files", {"save them as one"});
+      }
+      header_.data_file = std::string(value);
+    } else if (field == "line skip" || field == "lineskip") {
+      header_.line_skip = whole(value, 0);
+    } else if (field == "byte skip" || field == "byteskip") {
+      header_.byte_skip = whole(value, -1);
+    }
+  }
+
+  std::int64_t whole(std::string_view value, std::int64_t least) const {
+    std::int64_t out = 0;
+    if (parse_integer(value.data(), out) != value.data() + value.size() || out < least) {
+      fail(value, quoted(value, value.data()) + " is no number of lines or bytes");
+    }
+    return out;
+  }
+
+  void read_sizes(std::string_view value) {
+    const char* p = value.data();
+    const char* const end = p + value.size();
+    while (p < end) {
+      std::int64_t size = 0;
+      p = parse_integer(p, size);
+      if (p == nullptr || p > end || sizes_ == 3) fail(value, "the sizes cannot be read");
+      header_.grid.size[sizes_++] = size;
+      while (p < end && (*p == ' ' || *p == '\t')) ++p;
+    }
+    if (sizes_ < 2) fail(value, "there is one size; a grid has 2 or 3");
+  }
+
+  /// Numbers between blanks, commas and brackets, at most so many.
+  std::vector<double> reals(std::string_view value, std::size_t most) const {
+    std::vector<double> out;
+    const char* p = value.data();
+    const char* const end = p + value.size();
+    while (p < end) {
+      if (std::string_view(" \t(),").find(*p) != std::string_view::npos) {
+        ++p;
+        continue;
+      }
+      double number = 0;
+      p = parse_double(p, number);
+      if (p == nullptr || p > end || out.size() == most || std::isinf(number)) {
+        fail(value, quoted(value, value.data()) + " cannot be read; it has " +
+                        std::to_string(most) + " numbers at most");
+      }
+      out.push_back(number);
+    }
+    return out;
+  }
+
+  void read_directions(std::string_view value) {
+    const std::vector<double> all = reals(value, 9);
+    const std::size_t axes = all.size() == 4 ? 2 : 3;
+    bool along = all.size() == 4 || all.size() == 6 || all.size() == 9;
+    const std::size_t in_space = along ? (all.size() == 4 ? 2 : 3) : 1;
+    for (std::size_t i = 0; i < all.size() && along; ++i) {
+      const std::size_t e = i / in_space;
+      if (i % in_space != e) {
+        along = all[i] == 0;
+      } else if (e < axes) {
+        header_.grid.spacing[e] = all[i];
+      }
+    }
+    if (!along) {
+      fail(value, "the axes are not those of space", {"save it along the axes, or with spacings"});
+    }
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  bool typed_ = false;
+  std::size_t sizes_ = 0;
+  NrrdHeader header_;
+};
+
+/// So many bytes out of a stream of gzip.
+std::string unzipped(std::string_view packed, std::size_t bytes) {
+  constexpr std::size_t kMostTimes = 1100;  // no stream of deflate unpacks to more
+  if (bytes / kMostTimes > packed.size()) {
+    throw ReadFailure{"there are to be " + std::to_string(bytes) + " bytes, but only " +
+                      std::to_string(packed.size()) + " compressed ones follow"};
+  }
+  std::string out(bytes, '\0');
+  z_stream stream{};
+  constexpr int kGzip = 16 + MAX_WBITS;
+  if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
+  constexpr std::size_t kMostAtOnce = 1 << 30;
+  std::size_t taken = 0, made = 0;
+  int code = Z_OK;
+  while (code == Z_OK && made < bytes) {
+    stream.next_in =
+        reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));  // zlib's own const
+    stream.avail_in = static_cast<uInt>(std::min(kMostAtOnce, packed.size() - taken));
+    stream.next_out = reinterpret_cast<Bytef*>(out.data() + made);
+    stream.avail_out = static_cast<uInt>(std::min(kMostAtOnce, bytes - made));
+    const uInt in = stream.avail_in, room = stream.avail_out;
+    code = inflate(&stream, Z_NO_FLUSH);
+    taken += in - stream.avail_in;
+    made += room - stream.avail_out;
+    if (in == stream.avail_in && room == stream.avail_out) break;
+  }
+  inflateEnd(&stream);
+  if (code == Z_MEM_ERROR) throw std::bad_alloc();
+  if (made < bytes) {
+    throw ReadFailure{"the compressed samples are damaged or too few: " + std::to_string(made) +
+                      " bytes of " + std::to_string(bytes)};
+  }
+  return out;
+}
+
+}  // namespace
+
+NrrdHeader read_nrrd_header(std::string_view text) { return NrrdHeaderReader(text).read(); }
+
+RawGrid read_nrrd_data(const NrrdHeader& header, std::string_view data) {
+  RawGrid grid = header.grid;
+  const std::size_t count = count_samples(grid.size);
+  const std::size_t bytes = count * size_of(header.type);
+  for (std::int64_t line = 0; line < header.line_skip; ++line) {
+    const std::size_t end = data.find('\n');
+    if (end == data.npos) throw ReadFailure{"the file ends in the lines to be skipped"};
+    data.remove_prefix(end + 1);
+  }
+  if (header.byte_skip >= 0) {
+    data.remove_prefix(std::min(static_cast<std::size_t>(header.byte_skip), data.size()));
+  } else if (data.size() >= bytes && header.encoding == NrrdHeader::Encoding::kRaw) {
+    data.remove_prefix(data.size() - bytes);
+  }
+  switch (header.encoding) {
+    case NrrdHeader::Encoding::kRaw:
+      grid.values = decode_samples(data, count, header.type, header.order);
+      break;
+    case NrrdHeader::Encoding::kGzip:
+      grid.values = decode_samples(unzipped(data, bytes), count, header.type, header.order);
+      break;
+    case NrrdHeader::Encoding::kText: {
+      if (count > (data.size() + 1) / 2) {
+        throw ReadFailure{"there are to be " + std::to_string(count) + " samples, but only " +
+                          std::to_string(data.size()) + " bytes follow"};
+      }
+      TextScanner scanner(data, '\0');
+      scanner.now_reading("the samples");
+      grid.values.resize(count);
+      for (double& value : grid.values) value = scanner.number();
+      break;
+    }
+  }
+  grid.type = values_of(header.type);
+  return grid;
+}
+
+}  // namespace geotherm::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <png.h>
+
+#include <new>
+
+#include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/input_file.h"
+
+namespace geotherm::io {
+namespace {
+
+/// An image of libpng that is freed.
+struct PngImage {
+  PngImage() { png.version = PNG_IMAGE_VERSION; }
+  ~PngImage() { png_image_free(&png); }
+  PngImage(const PngImage&) = delete;
+  PngImage& operator=(const PngImage&) = delete;
+
+  png_image png{};
+};
+
+}  // namespace
+
+RawGrid read_png(std::string_view bytes) {
+  PngImage image;
+  if (png_image_begin_read_from_memory(&image.png, bytes.data(), bytes.size()) == 0) {
+    throw ReadFailure{"the picture cannot be read: " + std::string(image.png.message)};
+  }
+  RawGrid grid;
+  grid.size = {image.png.width, image.png.height, 1};
+  const std::size_t count = count_samples(grid.size);
+  // A byte of deflate unpacks to no more than 1032, and a byte holds 8 samples at most.
+  constexpr std::size_t kMostPixels = 8 * 1032;
+  if (count / kMostPixels > bytes.size()) {
+    throw ReadFailure{"there are to be " + std::to_string(image.png.width) + " x " +
+                      std::to_string(image.png.height) + " pixels, but the file has only " +
+                      std::to_string(bytes.size()) + " bytes"};
+  }
+  image.png.format = PNG_FORMAT_GRAY;
+  std::vector<unsigned char> gray(count);
+  const png_color white = {255, 255, 255};  // behind what is transparent
+  if (png_image_finish_read(&image.png, &white, gray.data(), 0, nullptr) == 0) {
+    throw ReadFailure{"the picture cannot be read: " + std::string(image.png.message)};
+  }
+  grid.values.assign(gray.begin(), gray.end());
+  grid.type = RawGrid::Values::kPixels;
+  // The first row is the top, and y points up: the lowest row of pixels is at 0.
+  grid.spacing[1] = -1;
+  grid.origin[1] = static_cast<double>(grid.size[1] - 1);
+  return grid;
+}
+
+}  // namespace geotherm::io

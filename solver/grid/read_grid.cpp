@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include "geotherm/domains.h"
+#include "geotherm/names.h"
+#include "solver/core/text.h"
+#include "solver/geometry/grid_mesh.h"
+#include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/input_file.h"
+
+namespace geotherm::io {
+namespace {
+
+template <class T>
+std::vector<double> decode(std::string_view bytes, std::size_t count, std::endian order) {
+  std::vector<double> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = static_cast<double>(load<T>(bytes.data() + i * sizeof(T), order));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t count_samples(const std::array<std::int64_t, 3>& size) {
+  std::int64_t count = 1;
+  for (const std::int64_t each : size) {
+    if (each < 1 || each > kMaxGridSamples / count) {
+      throw ReadFailure{"a grid of " + std::to_string(size[0]) + " x " + std::to_string(size[1]) +
+                        " x " + std::to_string(size[2]) +
+                        (each < 1 ? " samples is empty" : " samples has more than a billion")};
+    }
+    count *= each;
+  }
+  return static_cast<std::size_t>(count);
+}
+
+std::vector<double> decode_samples(std::string_view bytes, std::size_t count, VtkType type,
+                                   std::endian order) {
+  if (count > bytes.size() / size_of(type)) {
+    throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
+                      counted_text(size_of(type), "byte", "bytes") + ", but only " +
+                      std::to_string(bytes.size()) + " bytes follow"};
+  }
+  switch (type) {
+    case VtkType::kInt8:
+      return decode<std::int8_t>(bytes, count, order);
+    case VtkType::kUint8:
+      return decode<std::uint8_t>(bytes, count, order);
+    case VtkType::kInt16:
+      return decode<std::int16_t>(bytes, count, order);
+    case VtkType::kUint16:
+      return decode<std::uint16_t>(bytes, count, order);
+    case VtkType::kInt32:
+      return decode<std::int32_t>(bytes, count, order);
+    case VtkType::kUint32:
+      return decode<std::uint32_t>(bytes, count, order);
+    case VtkType::kInt64:
+      return decode<std::int64_t>(bytes, count, order);
+    case VtkType::kUint64:
+      return decode<std::uint64_t>(bytes, count, order);
+    case VtkType::kFloat32:
+      return decode<float>(bytes, count, order);
+    case VtkType::kFloat64:
+      break;
+  }
+  return decode<double>(bytes, count, order);
+}
+
+RawGrid::Values values_of(VtkType type) {
+  const bool real = type == VtkType::kFloat32 || type == VtkType::kFloat64;
+  return real ? RawGrid::Values::kReals : RawGrid::Values::kWholes;
+}
+
+}  // namespace geotherm::io
+
+namespace geotherm {
+namespace {
+
+struct GridFormat {
+  std::string_view extension;
+  io::RawGrid (*read)(std::string_view bytes);  ///< null: NRRD, which may have two files
+};
+constexpr GridFormat kGridFormats[] = {{".npy", io::read_npy},
+                                       {".png", io::read_png},
+                                       {".vti", io::read_vti},
+                                       {".nrrd", nullptr},
+                                       {".nhdr", nullptr}};
+
+const GridFormat* grid_format_of(std::string_view extension) {
+  const auto* const found = std::ranges::find(kGridFormats, extension, &GridFormat::extension);
+  return found == std::end(kGridFormats) ? nullptr : found;
+}
+
+/// "in column 3 of row 5", "in column 3 of row 5 of layer 7".
+std::string place_in(const std::array<std::int64_t, 3>& size, std::size_t sample) {
+  const auto i = static_cast<std::int64_t>(sample);
+  std::string place = "in column " + std::to_string(i % size[0]) + " of row " +
+                      std::to_string(i / size[0] % size[1]);
+  if (size[2] > 1) place += " of layer " + std::to_string(i / size[0] / size[1]);
+  return place;
+}
+
+/// Turns values into speeds, in place; returns what they mean. Throws ReadFailure.
+std::string to_speeds(io::RawGrid& raw, GridValues asked) {
+  using Values = io::RawGrid::Values;
+  const bool pixels = raw.type == Values::kPixels;
+  const bool speeds =
+      asked == GridValues::kSpeeds || (asked == GridValues::kAuto && raw.type == Values::kReals);
+  constexpr double kWhite = 255, kHalf = 128;
+  for (std::size_t i = 0; i < raw.values.size(); ++i) {
+    double& value = raw.values[i];
+    if (std::isnan(value)) value = 0;
+    if (!speeds) {
+      value = (pixels ? value >= kHalf : value != 0) ? 1 : 0;
+    } else if (!(value >= 0 && value <= std::numeric_limits<double>::max())) {
+      throw io::ReadFailure{"the speed " + place_in(raw.size, i) + " is " + rounded_text(value),
+                            0,
+                            {},
+                            {"speeds are 0 or more; ", SettingHint{"grid", {"mask"}},
+                             " takes what is not 0 as passable"}};
+    } else if (pixels) {
+      value /= kWhite;
+    }
+  }
+  if (speeds) return pixels ? "speed is brightness, black is wall" : "values are speeds, 0 is wall";
+  return pixels ? "brightness of at least half passes" : "0 is wall, all else passes";
+}
+
+GridFile finish_grid(io::RawGrid raw, GridValues values) {
+  GridFile out;
+  out.meaning = to_speeds(raw, values);
+  for (std::size_t e = 0; e < 3; ++e) {
+    out.grid.size[e] = static_cast<Index>(raw.size[e]);
+    out.grid.spacing[e] = raw.spacing[e];
+  }
+  out.grid.origin = raw.origin;
+  out.grid.speeds = std::move(raw.values);
+  out.notes = std::move(raw.notes);
+  if (auto valid = check_grid(out.grid); !valid) throw io::ReadFailure{valid.error().message};
+  return out;
+}
+
+/// The file beside the header that holds its samples.
+std::string data_path(const std::string& path, const std::string& data_file) {
+  const std::size_t slash = path.rfind('/');
+  if (data_file.starts_with('/') || slash == path.npos) return data_file;
+  return path.substr(0, slash + 1) + data_file;
+}
+
+/// Throws ReadFailure and std::bad_alloc, or gives the error of a file that cannot be opened.
+Result<io::RawGrid> read_nrrd(const std::string& path, std::string_view bytes) {
+  const io::NrrdHeader header = io::read_nrrd_header(bytes);
+  if (header.data_file.empty()) {
+    return io::read_nrrd_data(header, bytes.substr(header.data_begins));
+  }
+  const auto data = io::InputFile::open(data_path(path, header.data_file));
+  if (!data) return data.error();
+  io::RawGrid raw = io::read_nrrd_data(header, io::FileBytes(*data).bytes());
+  if (auto same = data->check_unchanged(); !same) return same.error();
+  return raw;
+}
+
+}  // namespace
+
+NamedValues<GridValues> named_values(GridValues) {
+  return {
+      "'*' is no meaning of a grid's values",
+      {{GridValues::kAuto, "auto"}, {GridValues::kMask, "mask"}, {GridValues::kSpeeds, "speeds"}}};
+}
+
+std::vector<std::string> grid_formats() {
+  std::vector<std::string> names;
+  for (const GridFormat& format : kGridFormats) names.emplace_back(format.extension.substr(1));
+  return names;
+}
+
+bool holds_grid(const std::string& path) {
+  return grid_format_of(io::file_extension(path)) != nullptr;
+}
+
+Result<GridFile> read_grid(const std::string& path, GridValues values) {
+  const std::string name = io::printable(path), extension = io::file_extension(path);
+  const auto file = io::InputFile::open(path);
+  if (!file) return file.error();
+  const GridFormat* const format = grid_format_of(extension);
+  if (format == nullptr) {
+    return Error{ErrorCode::kNotAvailable,
+                 name + ": unknown extension \"" + io::printable(extension) + "\"",
+                 {"there are .npy .png .vti .nrrd .nhdr"}};
+  }
+  try {
+    const io::FileBytes bytes(*file);
+    auto raw =
+        format->read != nullptr ? format->read(bytes.bytes()) : read_nrrd(path, bytes.bytes());
+    if (!raw) return raw.error();
+    auto made = finish_grid(*std::move(raw), values);
+    if (auto same = file->check_unchanged(); !same) return same.error();
+    return made;
+  } catch (const io::ReadFailure& failure) {
+    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the grid in its " +
+                                            std::to_string(file->size()) + " bytes"};
+}
+
+}  // namespace geotherm

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "solver/heat/grid_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/core/parallel.h"
+#include "solver/heat/field_kernels.h"
+#include "solver/heat/grid_domain.h"
+
+namespace geotherm {
+namespace {
+
+double norm_of(const std::array<double, 3>& g) {
+  return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
+/// Layers are cut into so many ranges of two or more, whatever the number of threads.
+std::vector<Index> cut_layers(Index layers) {
+  constexpr Index kMaxLayerRanges = 64;
+  const Index ranges = std::clamp<Index>(layers / 4, 1, kMaxLayerRanges);
+  std::vector<Index> cuts;
+  for (Index r = 0; r <= ranges; ++r) {
+    cuts.push_back(static_cast<Index>(std::int64_t{layers} * r / ranges));
+  }
+  return cuts;
+}
+
+}  // namespace
+
+struct GridField::Element {
+  std::array<Index, 8> rows;
+  int count;
+  int dimension;
+  double measure;
+  double width;
+  std::array<double, 3> weight;  ///< of the corners in the gradient; 0: nothing along this axis
+  std::array<double, 3> extent;  ///< along each axis
+
+  bool is_farther(int k, int e) const { return count == 2 ? k == 1 : (k >> e & 1) != 0; }
+
+  template <class Values>
+  Direction gradient(const Values& value) const {
+    Direction g{};
+    for (int k = 0; k < count; ++k) {
+      const double v = value(static_cast<std::size_t>(k));
+      for (int e = 0; e < dimension; ++e) g[e] += is_farther(k, e) ? v * weight[e] : -v * weight[e];
+    }
+    return g;
+  }
+};
+
+GridField::GridField(const GridDomain& domain, const HeatField& heat, const PerComponent& t,
+                     const Workspace& work)
+    : domain_(domain),
+      heat_(heat),
+      root_t_(t.map([](double each) { return std::sqrt(each); })),
+      shortens_(root_t_.most() > 0 && domain.lattice->dimension() > 1),
+      work_(work) {
+  if (!shortens_) return;
+  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
+  const double step = std::log(heat.step);
+  work_.for_rows(log_u_.size(), 1, [&](std::int64_t begin, std::int64_t end) {
+    logarithms(heat_.u.data() + begin, log_u_.data() + begin,
+               static_cast<std::size_t>(end - begin));
+    for (std::int64_t e = begin; e < end && !heat_.level.empty(); ++e) {
+      log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
+    }
+  });
+}
+
+GridField::Element GridField::element_of(const GridCell& cell) const {
+  const GridLattice& lattice = *domain_.lattice;
+  const int d = lattice.dimension();
+  Element out{{}, cell.count, d, 0, 0, {}, {}};
+  for (int k = 0; k < cell.count; ++k) {
+    out.rows[k] = domain_.row_of_vertex[cell.corners[k]];
+  }
+  out.measure = lattice.measure() / domain_.mean_measure;
+  for (int e = 0; e < d; ++e) out.measure *= cell.slowness;
+  out.width = lattice.width(cell) * cell.slowness / domain_.unit;
+  for (int e = 0; e < d; ++e) {
+    if (cell.axis >= 0 && cell.axis != e) continue;
+    out.extent[e] = lattice.spacing(e) * cell.slowness / domain_.unit;
+    out.weight[e] = 2 / (out.extent[e] * cell.count);
+  }
+  return out;
+}
+
+/// The length of X: the slope sqrt(t) |grad log u| relative to that of one front, at most 1.
+double GridField::length(const Element& element, Eigen::Index column) const {
+  const auto g = element.gradient([&](std::size_t k) { return log_u_(element.rows[k], column); });
+  const double size = norm_of(g);
+  if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
+  double reach = 0;
+  for (int k = 0; k < element.count; ++k) {
+    // At a border the slope falls, too: heat does not leave.
+    if (domain_.on_boundary[element.rows[k]] != 0) return 1;
+  }
+  for (int e = 0; e < element.dimension; ++e) reach += element.extent[e] * std::abs(g[e]) / size;
+  const double root_t = root_t_.of(domain_.matrix->components.of[element.rows[0]]);
+  return front_length(reach, size, root_t, 1 / root_t);
+}
+
+/// Turns the gradient of u to where heat comes from. On a lattice exp(-k x) solves the heat step
+/// for those k with sum (2 cosh(k_e h_e) - 2) / h_e^2 = 1 / t, and from a point the one arrives
+/// that is normal to this surface there: along sinh(k_e h_e) / h_e. The gradient has tanh(k_e h_e /
+/// 2) in its place, which lies up to 3 degrees beside it where t = h^2.
+void GridField::straighten(const Element& element, const std::array<double, 8>& value,
+                           Direction& g) const {
+  if (element.count == 2) return;
+  double total = 0;
+  Direction far{};
+  for (int k = 0; k < element.count; ++k) {
+    total += value[k];
+    for (int e = 0; e < element.dimension; ++e) far[e] += element.is_farther(k, e) ? value[k] : 0;
+  }
+  for (int e = 0; e < element.dimension; ++e) {
+    if (!(far[e] > 0 && total - far[e] > 0)) return;
+  }
+  for (int e = 0; e < element.dimension; ++e) {
+    g[e] *= total / far[e] * (total / (total - far[e]));
+  }
+}
+
+/// (0, 0, 0) where the gradient is zero or not finite.
+GridField::Direction GridField::of_cell(const Element& element, Eigen::Index column) const {
+  const auto level_of = [&](int k) {
+    return heat_.level.empty() ? 0
+                               : int{heat_.level[static_cast<std::size_t>(
+                                     element.rows[k] * heat_.u.cols() + column)]};
+  };
+  int least = level_of(0);
+  for (int k = 1; k < element.count; ++k) least = std::min(least, level_of(k));
+  std::array<double, 8> value{};
+  double largest = 0;
+  for (int k = 0; k < element.count; ++k) {  // to one exponent: the largest values'
+    const int above = level_of(k) - least;
+    const double u = heat_.u(element.rows[k], column);
+    value[k] = above > 0 ? u * std::pow(heat_.step, above) : u;
+    largest = std::max(largest, std::abs(value[k] - value[0]));
+  }
+  if (!(largest > kEquallyWarm * std::abs(value[0])) || !std::isfinite(largest)) return {};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double first = value[0];
+  auto g = element.gradient([&](std::size_t k) { return std::ldexp(value[k] - first, -exponent); });
+  straighten(element, value, g);
+  const double size = norm_of(g);
+  if (!(size > 0) || !std::isfinite(size)) return {};
+  const double scale = -(shortens_ ? length(element, column) : 1.0) / size;
+  return {g[0] * scale, g[1] * scale, g[2] * scale};
+}
+
+/// Cells whose lowest corners are in these layers.
+void GridField::add_layers(Index first, Index end, Block& b) const {
+  domain_.lattice->for_each_cell(first, end, [&](const GridCell& cell) {
+    const Element element = element_of(cell);
+    for (Eigen::Index column = 0; column < b.cols(); ++column) {
+      Direction flow = of_cell(element, column);
+      for (int e = 0; e < element.dimension; ++e) flow[e] *= element.measure * element.weight[e];
+      for (int k = 0; k < element.count; ++k) {
+        double sum = 0;
+        for (int e = 0; e < element.dimension; ++e) {
+          sum += element.is_farther(k, e) ? flow[e] : -flow[e];
+        }
+        b(element.rows[k], column) += sum;
+      }
+    }
+  });
+}
+
+Block GridField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
+  Block b = work_.take_zero(heat_.u.rows(), heat_.u.cols());
+  // Ranges write to layers of their own, then those cells follow that join two of them: each row
+  // has its sum in one order, with any number of threads.
+  const std::vector<Index> cuts = cut_layers(domain_.lattice->layer_count());
+  for (const bool joins : {false, true}) {
+    parallel_for(work_.threads, std::ssize(cuts) - 1, 1, [&](std::int64_t begin, std::int64_t end) {
+      for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
+        const Index last = cuts[r + 1] - 1;
+        add_layers(joins ? last : cuts[r], joins ? last + 1 : last, b);
+      }
+    });
+  }
+  return b;
+}
+
+CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
+                              const SourceAnchors& anchors, std::span<const char> held_at_zero,
+                              int threads, Quality& quality) const {
+  struct Sums {
+    double error = 0, measure = 0;
+    CellCounts counts;
+    Index lost = 0;
+  };
+  const Components& parts = domain_.matrix->components;
+  std::vector<char> held(phi.size(), 0);
+  std::ranges::copy(held_at_zero, held.begin());
+  for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
+  std::vector<char> holds(static_cast<std::size_t>(parts.count), 0);
+  for (const Index c : anchors.components) holds[c] = 1;
+  const std::vector<Index> cuts = cut_layers(domain_.lattice->layer_count());
+  std::vector<Sums> sums(cuts.size() - 1);
+  const auto inspect_cell = [&](const GridCell& cell, Sums& sum) {
+    const Element element = element_of(cell);
+    if (!holds[parts.of[element.rows[0]]]) return;
+    ++sum.counts.in_reach;
+    if (of_cell(element, column) == Direction{}) {
+      ++sum.counts.without_direction;
+      bool known = true;
+      for (int k = 0; k < element.count; ++k) known = known && held[element.rows[k]] != 0;
+      sum.lost += known ? 0 : 1;
+    }
+    const double slope =
+        norm_of(element.gradient([&](std::size_t k) { return phi[element.rows[k]]; }));
+    sum.error += element.measure * std::abs(slope - 1);
+    sum.measure += element.measure;
+  };
+  parallel_for(threads, std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
+    for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
+      domain_.lattice->for_each_cell(cuts[r], cuts[r + 1],
+                                     [&](const GridCell& cell) { inspect_cell(cell, sums[r]); });
+    }
+  });
+  Sums all;
+  for (const Sums& part : sums) {
+    all.error += part.error;
+    all.measure += part.measure;
+    all.counts.in_reach += part.counts.in_reach;
+    all.counts.without_direction += part.counts.without_direction;
+    all.lost += part.lost;
+  }
+  quality.zero_gradient_faces = all.lost;
+  quality.eikonal_error_mean = all.measure > 0 ? all.error / all.measure : 0.0;
+  return all.counts;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "solver/heat/diffuse.h"
+#include "solver/heat/domain.h"
+#include "solver/heat/linear_system.h"
+
+namespace geotherm {
+
+struct GridCell;
+struct GridDomain;
+
+/// X = -grad u / |grad u| at the middle of every cell of a grid, for K source sets. With t > 0 it
+/// is shortened where fronts meet, as CellField does it.
+class GridField final : public UnitField {
+ public:
+  /// `t` in squares of the unit, or 0 everywhere. Keeps references.
+  GridField(const GridDomain& domain, const HeatField& heat, const PerComponent& t,
+            const Workspace& work);
+  ~GridField() override { work_.pool.give(std::move(log_u_)); }
+  GridField(const GridField&) = delete;
+  GridField& operator=(const GridField&) = delete;
+
+  Block divergence(std::span<const SourceAnchors> anchors) const override;
+  CellCounts inspect(std::span<const double> phi, Eigen::Index column, const SourceAnchors& anchors,
+                     std::span<const char> held_at_zero, int threads,
+                     Quality& quality) const override;
+
+ private:
+  using Direction = std::array<double, 3>;
+  /// A cell with its rows and the weights 1 / (2^(D-1) h) of its gradient.
+  struct Element;
+
+  Element element_of(const GridCell& cell) const;
+  void straighten(const Element& element, const std::array<double, 8>& value, Direction& g) const;
+  Direction of_cell(const Element& element, Eigen::Index column) const;
+  double length(const Element& element, Eigen::Index column) const;
+  void add_layers(Index first, Index end, Block& b) const;
+
+  const GridDomain& domain_;
+  const HeatField& heat_;
+  PerComponent root_t_;
+  bool shortens_;
+  Workspace work_;
+  Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty where nothing shortens
+};
+
+}  // namespace geotherm
