@@ -108,7 +108,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   figures.vertices = mesh->vertex_count();
   figures.faces = mesh->face_count();
   warnings = model->notes;
-  PictureData data = picture_of(*mesh);
+  PictureData data = picture_of(*mesh, model->volume);
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_face_values(data, *mesh, view, nullptr);

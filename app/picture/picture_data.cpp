@@ -59,7 +59,7 @@ constexpr double kFullAngle = 90;
 
 }  // namespace
 
-PictureData picture_of(const TriangleMesh& mesh) {
+PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
   PictureData data;
   const SceneSpace scene(mesh);
   data.centre = scene.centre();
@@ -71,6 +71,11 @@ PictureData picture_of(const TriangleMesh& mesh) {
     for (const Index v : face) data.positions[v] = scene.of(mesh.positions()[v]);
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
+  }
+  data.volume = std::move(volume);
+  if (!data.volume) return data;
+  for (const Tet& tet : data.volume->tets()) {
+    for (const Index v : tet) data.positions[v] = scene.of(mesh.positions()[v]);
   }
   return data;
 }
@@ -91,6 +96,15 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
   return volume > 0;
 }
 
+Vec3 position_at(const TetMesh& volume, const CellPoint& point) {
+  Vec3 position = Vec3::Zero();
+  const Tet& tet = volume.tets()[static_cast<std::size_t>(point.cell)];
+  for (std::size_t k = 0; k < tet.size(); ++k) {
+    position += point.weights[k] * volume.positions()[static_cast<std::size_t>(tet[k])];
+  }
+  return position;
+}
+
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {
   data.sources.clear();
   const SceneSpace scene(data.centre, data.model_per_scene);
@@ -102,6 +116,10 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
     const PictureData::Vector place = scene.of(position_at(mesh, point));
+    data.sources.push_back({place, place});
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    const PictureData::Vector place = scene.of(position_at(*data.volume, point));
     data.sources.push_back({place, place});
   }
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "app/picture/picture_settings.h"
 #include "geotherm/distance_method.h"
+#include "geotherm/domains.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
 #include "geotherm/path.h"
@@ -32,6 +34,8 @@ struct PictureData {
   Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
+  /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.
+  std::shared_ptr<const TetMesh> volume;
   bool solid = false;  ///< closed, all faces counter-clockwise from outside
 
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
@@ -63,14 +67,18 @@ struct PictureData {
   std::string value_title;  ///< over the colour bar
 };
 
-/// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
-/// that belong to no face are put on one that does.
-PictureData picture_of(const TriangleMesh& mesh);
+/// The mesh alone, which may be the border of a volume. The box of the vertices that faces use
+/// decides where the scene lies; vertices that belong to no face and no tet are put on one that
+/// does.
+PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume = nullptr);
 
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
-/// Sets where distance is 0. Precondition: the sources lie on the mesh.
+/// Where a point of a tet is, model units.
+Vec3 position_at(const TetMesh& volume, const CellPoint& point);
+
+/// Sets where distance is 0. Precondition: the sources lie on the mesh, or in the data's volume.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
 
 /// sRGB of a line of this name: the fields that paths follow (geodesic, heat, distance) have

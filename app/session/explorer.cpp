@@ -104,7 +104,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   for (Warning& warning : surface ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
   }
-  auto base = std::make_shared<PictureData>(picture_of(*mesh));
+  auto base = std::make_shared<PictureData>(picture_of(*mesh, model->model.volume));
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
   Explored first;
