@@ -32,6 +32,13 @@ std::vector<Face> to_faces(const std::vector<std::array<std::uint32_t, 3>>& all)
 struct PlaneInScene {
   SlicePlane plane;
   double extent = 0;  ///< of the model along the normal
+
+  /// Whether a source or a point of a path goes with what is removed; on the cut they are seen.
+  bool removes(const PictureData::Vector& p) const {
+    constexpr double kSeen = 0.01;
+    const double height = plane.normal.dot(Vec3(p[0], p[1], p[2])) - plane.offset;
+    return height > kSeen * extent;
+  }
 };
 
 /// The plane of the settings; none where the model has no extent along its normal.
@@ -94,9 +101,9 @@ void separate(Parts& parts, std::size_t first, std::size_t last, std::size_t ver
   }
 }
 
-Parts parts_of(const PictureData& whole, const PictureSettings& settings) {
-  const std::vector<Vec3> positions = to_vectors(whole.positions);
-  const std::vector<Face> all = to_faces(whole.faces);
+Parts parts_of(const PictureData& whole, const PictureSettings& settings,
+               const std::vector<Vec3>& positions, const std::vector<Face>& all,
+               const std::optional<PlaneInScene>& cut) {
   Parts parts{{}, all, {}};
   for (std::size_t f = 0; f < all.size(); ++f) parts.origin.push_back(static_cast<Index>(f));
   std::vector<Tet> tets;
@@ -117,7 +124,7 @@ Parts parts_of(const PictureData& whole, const PictureSettings& settings) {
     std::erase_if(tets, [&](const Tet& tet) { return !threshold.keeps(tet); });
   }
   std::size_t sides = parts.faces.size();
-  if (const auto cut = plane_of(positions, all, settings)) {
+  if (cut) {
     SlicedSurface sliced = slice(positions, parts.faces, tets, cut->plane, kOnPlane * cut->extent);
     sides = 0;
     for (Index& from : sliced.origin) {
@@ -161,6 +168,18 @@ Index nearest_of(const PictureData& data, const EdgePoint& point) {
   return data.nearest[from_b < from_a ? b : a];
 }
 
+/// Takes away the sources and the points of paths that a slice would leave in the air.
+void remove_beyond(const PlaneInScene& cut, PictureData& data) {
+  std::erase_if(data.sources, [&cut](const PictureData::Segment& source) {
+    return cut.removes(source.from) || cut.removes(source.to);
+  });
+  for (PictureData::Line& line : data.lines) {
+    for (PictureData::Vector& point : line.points) {
+      if (cut.removes(point)) point.fill(std::numeric_limits<float>::quiet_NaN());
+    }
+  }
+}
+
 /// Of the faces that are left; where there is none inside `none`.
 template <class Value>
 std::vector<Value> left_of(const std::vector<Value>& all, const std::vector<Index>& origin,
@@ -181,9 +200,13 @@ bool is_cut(const PictureData& data, const PictureSettings& settings) {
 }
 
 CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings) {
-  const Parts parts = parts_of(whole, settings);
+  const std::vector<Vec3> positions = to_vectors(whole.positions);
+  const std::vector<Face> faces = to_faces(whole.faces);
+  const auto cut = plane_of(positions, faces, settings);
+  const Parts parts = parts_of(whole, settings, positions, faces, cut);
   CutPicture out{whole, parts.origin};
   PictureData& data = out.data;
+  if (cut) remove_beyond(*cut, data);
   data.faces.clear();
   for (const Face& face : parts.faces) {
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),

@@ -10,7 +10,8 @@ namespace geotherm::app {
 
 /// A picture of a model that is cut open. Its first V vertices are the model's; points on the cut
 /// follow, with values between those of the ends of their edges. Arrows and values of faces are
-/// those of the faces that are left; the inside has none.
+/// those of the faces that are left; the inside has none. Sources and paths beyond a slice are left
+/// out.
 struct CutPicture {
   PictureData data;
   std::vector<Index> origin;  ///< of each face: the model's face, kNoIndex inside

@@ -57,7 +57,7 @@ struct PictureData {
   std::vector<Index> nearest;  ///< V: group of the nearest source, or kNoIndex; empty: not known
   /// A line on the surface.
   struct Line {
-    std::vector<Vector> points;
+    std::vector<Vector> points;     ///< one that is not finite cuts it in two
     std::array<float, 3> colour{};  ///< sRGB
     std::string name;               ///< in the legend; the same name stands there once
   };

@@ -67,7 +67,7 @@ inline NamedValues<PictureFit> named_values(PictureFit) {
   return {"there is no fit '*'", {{kTight, "tight"}, {kSphere, "sphere"}}};
 }
 
-/// Which cells are drawn, by the mean of what is shown at their corners.
+/// Which cells are drawn: those with all corners on one side of a share of what is shown.
 enum class PeelSide { kOff, kBelow, kAbove };
 inline NamedValues<PeelSide> named_values(PeelSide) {
   using enum PeelSide;

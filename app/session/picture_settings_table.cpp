@@ -132,9 +132,9 @@ std::vector<Setting> picture_settings_table() {
       {.name = "slice",
        .group = kPicture,
        .value_name = "NORMAL",
-       .help = "what lies on this side of a plane is removed, and one sees into a volume",
-       .forms = "off, x, y, z, -x, -y, -z or NX:NY:NZ",
-       .detail = "A surface is cut open; nothing fills the opening.",
+       .help = "removes what lies on this side of a plane, so that one sees into a volume; also "
+               "NX:NY:NZ",
+       .detail = "A surface is cut open, and nothing fills the opening.",
        .get = [](const State& s) { return slice_text(s.picture); },
        .set = [](State& s, const Text& t) { return store(parse_slice(t), s.picture.slice); },
        .values = [] { return Names{"off", "x", "y", "z", "-x", "-y", "-z"}; }},
@@ -149,10 +149,11 @@ std::vector<Setting> picture_settings_table() {
        .group = kPicture,
        .value_name = "SIDE:SHARE",
        .help =
-           "draws only the tets (of a surface, the faces) whose distance is below or above this "
+           "draws only the tets (on a surface, the faces) whose distance is below or above this "
            "share of the largest",
        .forms = "off, below:SHARE or above:SHARE",
-       .detail = "The mean of the corners counts; where errors are shown, their size.",
+       .detail = "All corners count. Where errors are shown, their size takes the place of the "
+                 "distance.",
        .get = [](const State& s) { return peel_text(s.picture.peel); },
        .set = [](State& s, const Text& t) { return store(parse_peel(t), s.picture.peel); },
        .values =
