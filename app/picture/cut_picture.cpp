@@ -85,6 +85,7 @@ struct Parts {
   std::vector<EdgePoint> points;
   std::vector<Face> faces;
   std::vector<Index> origin;
+  std::vector<Index> tets;  ///< of the faces; empty on surfaces
 };
 
 /// Faces inside that are no cut are the sides of tets: each has points of its own, so that it is
@@ -104,18 +105,23 @@ void separate(Parts& parts, std::size_t first, std::size_t last, std::size_t ver
 Parts parts_of(const PictureData& whole, const PictureSettings& settings,
                const std::vector<Vec3>& positions, const std::vector<Face>& all,
                const std::optional<PlaneInScene>& cut) {
-  Parts parts{{}, all, {}};
+  Parts parts{{}, all, {}, whole.face_tets};
   for (std::size_t f = 0; f < all.size(); ++f) parts.origin.push_back(static_cast<Index>(f));
   std::vector<Tet> tets;
+  std::vector<Index> numbers;  // of tets, where some are peeled off
   if (whole.volume) tets.assign(whole.volume->tets().begin(), whole.volume->tets().end());
   if (settings.peel.side != PeelSide::kOff && !whole.values.empty()) {
     const Threshold threshold(whole, settings.peel);
     if (whole.volume) {
       std::vector<char> keep;
-      for (const Tet& tet : tets) keep.push_back(threshold.keeps(tet) ? 1 : 0);
+      for (std::size_t t = 0; t < tets.size(); ++t) {
+        keep.push_back(threshold.keeps(tets[t]) ? 1 : 0);
+        if (keep[t] != 0) numbers.push_back(static_cast<Index>(t));
+      }
       PeeledSurface peeled = peel(*whole.volume, all, keep);
       parts.faces = std::move(peeled.faces);
       parts.origin = std::move(peeled.origin);
+      parts.tets = std::move(peeled.tets);
     } else {
       std::erase_if(parts.origin, [&](Index f) { return !threshold.keeps(all[f]); });
       parts.faces.clear();
@@ -127,12 +133,19 @@ Parts parts_of(const PictureData& whole, const PictureSettings& settings,
   if (cut) {
     SlicedSurface sliced = slice(positions, parts.faces, tets, cut->plane, kOnPlane * cut->extent);
     sides = 0;
+    std::vector<Index> tets_of_faces;
     for (Index& from : sliced.origin) {
       if (from == kNoIndex) break;  // the cut comes last
-      from = parts.origin[static_cast<std::size_t>(from)];
+      const auto f = static_cast<std::size_t>(from);
+      if (!parts.tets.empty()) tets_of_faces.push_back(parts.tets[f]);
+      from = parts.origin[f];
       ++sides;
     }
-    parts = {std::move(sliced.points), std::move(sliced.faces), std::move(sliced.origin)};
+    for (const Index t : sliced.tets) {
+      tets_of_faces.push_back(numbers.empty() ? t : numbers[static_cast<std::size_t>(t)]);
+    }
+    parts = {std::move(sliced.points), std::move(sliced.faces), std::move(sliced.origin),
+             std::move(tets_of_faces)};
   }
   separate(parts, 0, sides, positions.size());
   return parts;
@@ -223,7 +236,12 @@ CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings
   data.face_values = left_of(whole.face_values, out.origin, kNoPictureValue);
   data.heat_directions = left_of(whole.heat_directions, out.origin, {});
   data.distance_gradients = left_of(whole.distance_gradients, out.origin, {});
-  if (!whole.volume) data.solid = false;  // one sees into it
+  data.face_tets = parts.tets;
+  if (whole.volume) {
+    show_tets(data);
+  } else {
+    data.solid = false;  // one sees into it
+  }
   return out;
 }
 

@@ -9,8 +9,9 @@
 namespace geotherm::app {
 
 /// A picture of a model that is cut open. Its first V vertices are the model's; points on the cut
-/// follow, with values between those of the ends of their edges. Arrows and values of faces are
-/// those of the faces that are left; the inside has none. Sources and paths beyond a slice are left
+/// follow, with values between those of the ends of their edges. Arrows, and
+/// values of a view about tets, are those of the tets; values of faces are those of the faces that
+/// are left, and the inside has none. Sources and paths beyond a slice are left
 /// out.
 struct CutPicture {
   PictureData data;

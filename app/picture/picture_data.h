@@ -36,7 +36,8 @@ struct PictureData {
 
   /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.
   std::shared_ptr<const TetMesh> volume;
-  bool solid = false;  ///< closed, all faces counter-clockwise from outside
+  std::vector<Index> face_tets;  ///< F: of a volume, the tet that each face belongs to
+  bool solid = false;            ///< closed, all faces counter-clockwise from outside
 
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
@@ -49,6 +50,9 @@ struct PictureData {
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error
+  /// T: the same of each tet of a volume, which faces show (show_tets()).
+  std::vector<Vec3> tet_heat, tet_gradients;
+  std::vector<float> tet_values;  ///< T: of a view about tets, instead of values of faces
   struct Segment {
     Vector from, to;
   };
@@ -101,6 +105,18 @@ void add_difference(PictureData& data, std::span<const double> difference);
 /// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
 /// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where
 /// a is the angle between both in degrees. 0 where either is missing. Cost: O(F).
+/// In a volume fields are those of its tets.
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result);
+
+/// Gradient of the linear function with these values (V) on every tet (T), value over model units;
+/// 0 where a tet is flat or a value is not finite.
+std::vector<Vec3> tet_gradients(const TetMesh& volume, std::span<const double> values);
+
+/// X on every tet, as heat_directions() on faces.
+std::vector<Vec3> tet_heat_directions(const TetMesh& volume, std::span<const double> log_heat);
+
+/// What the faces of a volume show of their tets: values, and the parts of vectors that lie in the
+/// face. Cost: O(F).
+void show_tets(PictureData& data);
 
 }  // namespace geotherm::app

@@ -122,6 +122,8 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.values.clear();
   data.heat_directions.clear();
   data.distance_gradients.clear();
+  data.tet_heat.clear();
+  data.tet_gradients.clear();
   data.value_unit = 1;
   data.largest_value = 0;
   data.is_signed = false;

@@ -25,10 +25,14 @@ class Slicer {
   void add_faces(std::span<const Face> faces) {
     for (std::size_t f = 0; f < faces.size(); ++f) add_face(faces[f], static_cast<Index>(f));
     numbers_.clear();  // of the cut, which shares no point with the faces
+    faces_ = out_.faces.size();
   }
 
   void add_tets(std::span<const Tet> tets) {
-    for (const Tet& tet : tets) add_cut(tet);
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      add_cut(tets[t]);
+      out_.tets.resize(out_.faces.size() - faces_, static_cast<Index>(t));
+    }
   }
 
   SlicedSurface take() { return std::move(out_); }
@@ -119,6 +123,7 @@ class Slicer {
   const SlicePlane& plane_;
   std::vector<double> heights_;
   std::unordered_map<std::uint64_t, Index> numbers_;  ///< of the points, by their edges
+  std::size_t faces_ = 0;                             ///< that are no cut
   SlicedSurface out_;
 };
 
@@ -141,8 +146,11 @@ PeeledSurface peel(const TetMesh& mesh, std::span<const Face> border, std::span<
   }
   std::ranges::sort(known);
   std::vector<Tet> kept;
+  std::vector<Index> numbers;
   for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (keep[t] != 0) kept.push_back(mesh.tets()[t]);
+    if (keep[t] == 0) continue;
+    kept.push_back(mesh.tets()[t]);
+    numbers.push_back(static_cast<Index>(t));
   }
   PeeledSurface out;
   if (kept.empty()) return out;
@@ -151,6 +159,7 @@ PeeledSurface peel(const TetMesh& mesh, std::span<const Face> border, std::span<
   auto found = boundary(*part);
   if (!found) throw std::bad_alloc();
   out.faces = std::move(found->faces);
+  for (const Index t : found->tets) out.tets.push_back(numbers[static_cast<std::size_t>(t)]);
   for (Face face : out.faces) {
     std::ranges::sort(face);
     const auto at = std::ranges::lower_bound(known, face, {}, &std::pair<Face, Index>::first);

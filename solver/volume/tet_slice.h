@@ -31,6 +31,7 @@ struct SlicedSurface {
   /// points of its own, which are vertices (share 0) where the plane passes through these.
   std::vector<Face> faces;
   std::vector<Index> origin;  ///< of each: the face that it is a part of, kNoIndex in the cut
+  std::vector<Index> tets;    ///< of the faces of the cut: the tet, by its place among those given
 };
 
 /// Removes what lies beyond a plane: faces are cut exactly at it, and the body of the tets shows
@@ -46,6 +47,7 @@ SlicedSurface slice(std::span<const Vec3> positions, std::span<const Face> faces
 struct PeeledSurface {
   std::vector<Face> faces;    ///< counter-clockwise as seen from outside
   std::vector<Index> origin;  ///< of each: the same face of the whole border, or kNoIndex
+  std::vector<Index> tets;    ///< of each: the tet that it belongs to
 };
 
 /// `keep`: T, 0 where the tet is removed. `border`: of the whole volume, as boundary() gives it.

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
+#include "app/picture/picture_scale.h"
 #include "bench/models/volumes.h"
 #include "tests/support/shapes.h"
 
@@ -157,6 +159,35 @@ TEST_F(CutPictures, HaveRegionsOnTheCutByTheNearerSource) {
     const double x = in_model(cut.data.positions[v]).x();
     if (std::abs(x - 1) < 1.0 / 3) continue;  // within a cell of where they meet
     EXPECT_EQ(cut.data.nearest[v], x < 1 ? 0 : 1) << x;
+  }
+}
+
+TEST_F(CutPictures, ShowTheFieldsOfTheTetsTheyGoThrough) {
+  // u and the distances are linear, so that their gradients are known in every tet.
+  const Vec3 slope(1, -0.5, 0.25);
+  DistanceResult result;
+  for (const Vec3& p : volume->positions()) {
+    result.distances.push_back(linear(p));
+    result.log_heat.push_back(std::log(linear(p)));
+  }
+  set_linear();
+  app::add_fields(whole, *mesh, result);
+  app::set_face_values(whole, *mesh, app::View::kEikonalError, &result);
+  PictureSettings settings = sliced({1, 1, 0}, 0.5);
+  settings.peel = {PeelSide::kBelow, 0.9};
+  for (const PictureData& data : {whole, app::cut_picture(whole, settings).data}) {
+    ASSERT_EQ(data.heat_directions.size(), data.faces.size());
+    ASSERT_EQ(data.face_values.size(), data.faces.size());
+    for (std::size_t f = 0; f < data.faces.size(); ++f) {
+      std::array<Vec3, 3> at;
+      for (std::size_t k = 0; k < 3; ++k) at[k] = in_model(data.positions[data.faces[f][k]]);
+      const Vec3 normal = (at[1] - at[0]).cross(at[2] - at[0]).normalized();
+      const Vec3 x = -slope.normalized();
+      const auto& [a, b, c] = data.heat_directions[f];
+      constexpr double kOfNormals = 1e-4;  // thin faces have normals of few digits
+      EXPECT_LT((Vec3(a, b, c) - (x - x.dot(normal) * normal)).norm(), kOfNormals);
+      EXPECT_NEAR(data.face_values[f], std::abs(slope.norm() - 1), 4 * kFloat);
+    }
   }
 }
 

@@ -125,6 +125,16 @@ TEST(TetSlices, HaveEveryPointOnThePlaneAndNoneOfTheirFacesSharesACornerWithTheB
         EXPECT_GE(height, sliced.in_cut(f) ? -kRounding : -2.0);
       }
     }
+    const std::size_t first = sliced.surface.faces.size() - sliced.surface.tets.size();
+    for (std::size_t c = 0; c < sliced.surface.tets.size(); ++c) {
+      ASSERT_TRUE(sliced.in_cut(first + c));
+      const Tet& tet = ball.tets()[static_cast<std::size_t>(sliced.surface.tets[c])];
+      for (const Index corner : sliced.surface.faces[first + c]) {
+        const EdgePoint& p =
+            sliced.surface.points[static_cast<std::size_t>(corner - ball.vertex_count())];
+        EXPECT_TRUE(std::ranges::count(tet, p.a) == 1 && std::ranges::count(tet, p.b) == 1);
+      }
+    }
     std::ranges::sort(in_border);
     std::ranges::sort(in_cut);
     std::vector<Index> both;
@@ -162,7 +172,9 @@ TEST(TetPeels, AreTheBorderOfTheTetsThatStay) {
     enclosed += at(0).dot(at(1).cross(at(2))) / 6;
     if (peeled.origin[f] == kNoIndex) continue;
     ++of_border;
-    Face same = border->faces[static_cast<std::size_t>(peeled.origin[f])], sorted = face;
+    const auto whole = static_cast<std::size_t>(peeled.origin[f]);
+    EXPECT_EQ(peeled.tets[f], border->tets[whole]);
+    Face same = border->faces[whole], sorted = face;
     std::ranges::sort(same);
     std::ranges::sort(sorted);
     EXPECT_EQ(same, sorted);
