@@ -46,7 +46,15 @@ Vec3 rounded(const Vec3& position, const Vec3& size) {
   constexpr double kDigits = 6;
   const double tens = std::pow(10, kDigits - std::floor(std::log10(size.maxCoeff())));
   if (!std::isnormal(tens)) return position;
-  return (position * tens).array().round() / tens;
+  return (position * tens).array().round() / tens + 0.0;  // no -0
+}
+
+std::optional<InsidePoint> inside_at(const Frame& frame, float x, float y) {
+  if (!frame.model()) return std::nullopt;
+  auto inside = frame.canvas.inside_at(x, y);
+  const MeshReport& mesh = frame.model()->mesh;
+  if (inside) inside->position = rounded(inside->position, mesh.box_max - mesh.box_min);
+  return inside;
 }
 
 /// What is in front under a pixel: where it is, model units, and how it is called as a source.
@@ -58,11 +66,9 @@ std::optional<Front> front_at(const Frame& frame, float x, float y) {
   if (const auto point = surface_at(frame, x, y)) {
     return Front{position_at(*frame.model()->model.mesh, *point), source_at(*point)};
   }
-  const auto inside = frame.canvas.inside_at(x, y);
-  if (!frame.model() || !inside) return std::nullopt;
-  const MeshReport& mesh = frame.model()->mesh;
-  const Vec3 position = rounded(inside->position, mesh.box_max - mesh.box_min);
-  return Front{position, app::SpacePoint{position}};
+  const auto inside = inside_at(frame, x, y);
+  if (!inside) return std::nullopt;
+  return Front{inside->position, app::SpacePoint{inside->position}};
 }
 
 }  // namespace
@@ -105,7 +111,7 @@ void CanvasInput::draw(Frame& frame) {
   if (button_ >= 0 && !io.MouseDown[button_]) end(frame);
   if (over && io.MouseWheel != 0) zoom_with_wheel(frame);
   if (over) hovered_ = surface_at(frame, io.MousePos.x, io.MousePos.y);
-  if (over && !hovered_) hovered_inside_ = frame.canvas.inside_at(io.MousePos.x, io.MousePos.y);
+  if (over && !hovered_) hovered_inside_ = inside_at(frame, io.MousePos.x, io.MousePos.y);
   if (over || action_) draw_marks(frame);
 }
 
