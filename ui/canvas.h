@@ -7,6 +7,7 @@
 
 #include "app/session/command.h"
 #include "app/session/explored.h"
+#include "ui/interface.h"
 #include "ui/key_map.h"
 
 // The picture's side of the window: the mouse on it, its menu, and what floats over it.
@@ -16,6 +17,9 @@ struct Frame;
 
 /// Sends what a click on a point of the surface does. Precondition: a model is shown.
 void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& point);
+
+/// The same for a point inside, where it means something: sources and the centre.
+void send_inside_command(Frame& frame, MouseAction action, const Vec3& position);
 
 /// The menu of a point, at the pointer; without one it has the entries that need none.
 void open_canvas_menu(Frame& frame, const std::optional<SurfacePoint>& point);
@@ -38,6 +42,7 @@ class CanvasInput {
   bool is_dragging() const { return action_.has_value(); }
   /// What lies under the pointer while it is over the picture.
   const std::optional<SurfacePoint>& hovered() const { return hovered_; }
+  const std::optional<InsidePoint>& hovered_inside() const { return hovered_inside_; }
 
   bool brush = false;  ///< left drags paint
 
@@ -66,6 +71,7 @@ class CanvasInput {
   std::optional<app::SourceSpec> moved_to_;
   Index painted_ = kNoIndex;  ///< the curve's last vertex
   std::optional<SurfacePoint> hovered_;
+  std::optional<InsidePoint> hovered_inside_;
   /// The sources before the last click set another one, for a double click.
   std::optional<std::vector<app::SourceSpec>> before_click_;
 };

@@ -41,14 +41,43 @@ std::optional<SurfacePoint> surface_at(const Frame& frame, float x, float y) {
   return fits ? point : std::nullopt;
 }
 
+/// With as many digits as a pixel can mean: sources inside are named by where they are.
+Vec3 rounded(const Vec3& position, const Vec3& size) {
+  constexpr double kDigits = 6;
+  const double tens = std::pow(10, kDigits - std::floor(std::log10(size.maxCoeff())));
+  if (!std::isnormal(tens)) return position;
+  return (position * tens).array().round() / tens + 0.0;  // no -0
+}
+
+std::optional<InsidePoint> inside_at(const Frame& frame, float x, float y) {
+  if (!frame.model()) return std::nullopt;
+  auto inside = frame.canvas.inside_at(x, y);
+  const MeshReport& mesh = frame.model()->mesh;
+  if (inside) inside->position = rounded(inside->position, mesh.box_max - mesh.box_min);
+  return inside;
+}
+
+/// What is in front under a pixel: where it is, model units, and how it is called as a source.
+struct Front {
+  Vec3 position;
+  app::SourceSpec source;
+};
+std::optional<Front> front_at(const Frame& frame, float x, float y) {
+  if (const auto point = surface_at(frame, x, y)) {
+    return Front{position_at(*frame.model()->model.mesh, *point), source_at(*point)};
+  }
+  const auto inside = inside_at(frame, x, y);
+  if (!inside) return std::nullopt;
+  return Front{inside->position, app::SpacePoint{inside->position}};
+}
+
 }  // namespace
 
 bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_at) {
-  const auto front = surface_at(frame, seen_at[0], seen_at[1]);
+  const auto front = front_at(frame, seen_at[0], seen_at[1]);
   if (!front) return false;
   const Vec3 size = frame.model()->mesh.box_max - frame.model()->mesh.box_min;
-  const Vec3 between = position_at(*frame.model()->model.mesh, *front) - place;
-  return between.norm() > kHidden * size.norm();
+  return (front->position - place).norm() > kHidden * size.norm();
 }
 
 std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
@@ -71,6 +100,7 @@ std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
 void CanvasInput::draw(Frame& frame) {
   const ImGuiIO& io = ImGui::GetIO();
   hovered_.reset();
+  hovered_inside_.reset();
   const bool over = is_over_canvas(frame);
   if (over && button_ < 0) {
     for (int button = 0; button < 3 && button_ < 0; ++button) {
@@ -81,6 +111,7 @@ void CanvasInput::draw(Frame& frame) {
   if (button_ >= 0 && !io.MouseDown[button_]) end(frame);
   if (over && io.MouseWheel != 0) zoom_with_wheel(frame);
   if (over) hovered_ = surface_at(frame, io.MousePos.x, io.MousePos.y);
+  if (over && !hovered_) hovered_inside_ = inside_at(frame, io.MousePos.x, io.MousePos.y);
   if (over || action_) draw_marks(frame);
 }
 
@@ -141,8 +172,8 @@ void CanvasInput::drag(Frame& frame, Mouse from, Mouse to) {
 }
 
 void CanvasInput::move_source(Frame& frame, Mouse to) {
-  const auto point = surface_at(frame, to.x, to.y);
-  if (!point) return;  // it waits where it was until the pointer is back
+  auto front = front_at(frame, to.x, to.y);
+  if (!front) return;  // it waits where it was until the pointer is back
   if (entry_ < 0) {
     const app::Explored& explored = frame.explored();
     if (*place_ >= explored.places.size()) return;
@@ -153,10 +184,9 @@ void CanvasInput::move_source(Frame& frame, Mouse to) {
       frame.send(app::command::SetSources{std::move(apart.sources)});
     }
   }
-  app::SourceSpec source = source_at(*point);
-  if (source == moved_to_) return;
-  moved_to_ = source;
-  frame.send(app::command::MoveSource{entry_, std::move(source)});
+  if (front->source == moved_to_) return;
+  moved_to_ = front->source;
+  frame.send(app::command::MoveSource{entry_, std::move(front->source)});
 }
 
 void CanvasInput::paint(Frame& frame, Mouse to) {
@@ -188,11 +218,13 @@ void CanvasInput::click(Frame& frame) {
   if (!action || !frame.model()) return;
   const auto point = surface_at(frame, press_.x, press_.y);
   if (*action == MouseAction::kMenu) return open_canvas_menu(frame, point);
-  if (!point) return;
+  const auto front = front_at(frame, press_.x, press_.y);
+  if (!front) return;
   if (*action == MouseAction::kCentre) give_back_sources(frame);
   before_click_.reset();
   if (*action == MouseAction::kSetSource) before_click_ = frame.state().sources;
-  send_point_command(frame, *action, *point);
+  if (point) return send_point_command(frame, *action, *point);
+  send_inside_command(frame, *action, front->position);
 }
 
 /// The first click of a double click has set a source that nobody wanted.

@@ -35,22 +35,32 @@ void send_point_command(Frame& frame, MouseAction action, const SurfacePoint& po
       return frame.send(app::command::SetSources{{source_at(point)}});
     case MouseAction::kAddSource:
       return frame.send(app::command::AddSources{{source_at(point)}});
-    case MouseAction::kRemoveSource:
-      // Places belong to what is shown: while other sources are on their way, none can be named.
-      if (frame.explored().sources != frame.state().sources) return;
-      if (const auto place = nearest_place(frame.explored(), position_at(mesh, point))) {
-        frame.send(removal(frame.explored(), *place));
-      }
-      return;
     case MouseAction::kPick:
       if (point.is_vertex()) return;  // the pointer is always on a face
       return frame.send(app::command::Pick{app::FacePoint{point.face, point.weights}});
     case MouseAction::kTarget:
       return frame.send(app::command::Target{source_at(point)});
-    case MouseAction::kCentre: {
-      const Vec3 at = position_at(mesh, point);
-      return frame.send(app::command::Centre{at.x(), at.y(), at.z()});
-    }
+    default:
+      return send_inside_command(frame, action, position_at(mesh, point));
+  }
+}
+
+void send_inside_command(Frame& frame, MouseAction action, const Vec3& position) {
+  const app::SourceSpec source = app::SpacePoint{position};
+  switch (action) {
+    case MouseAction::kSetSource:
+      return frame.send(app::command::SetSources{{source}});
+    case MouseAction::kAddSource:
+      return frame.send(app::command::AddSources{{source}});
+    case MouseAction::kRemoveSource:
+      // Places belong to what is shown: while other sources are on their way, none can be named.
+      if (frame.explored().sources != frame.state().sources) return;
+      if (const auto place = nearest_place(frame.explored(), position)) {
+        frame.send(removal(frame.explored(), *place));
+      }
+      return;
+    case MouseAction::kCentre:
+      return frame.send(app::command::Centre{position.x(), position.y(), position.z()});
     default:
       return;
   }

@@ -17,12 +17,20 @@
 // Everything comes from the current ImGui context, so that tests can play mouse and keys.
 namespace geotherm::ui {
 
+/// A point inside a model that is cut open.
+struct InsidePoint {
+  Vec3 position = Vec3::Zero();  ///< model units
+  std::optional<double> value;   ///< of what is shown, interpolated; none: not reached
+};
+
 /// The picture behind the panels.
 class Canvas {
  public:
   virtual ~Canvas() = default;
   /// The surface under a pixel of the window.
   virtual std::optional<SurfacePoint> surface_at(float x, float y) const = 0;
+  /// What a cut shows of the inside under a pixel; surface_at() has nothing there.
+  virtual std::optional<InsidePoint> inside_at(float /*x*/, float /*y*/) const { return {}; }
   /// Where a point (model units) is seen, pixels of the window; nothing behind the eye.
   virtual std::optional<std::array<float, 2>> place_of(const Vec3& point) const = 0;
   /// What zooming scales about, pixels of the window.

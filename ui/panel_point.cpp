@@ -16,6 +16,13 @@ std::string length_text(double value) {
   return std::isfinite(value) ? app::significant(value, 5) : "not reached";
 }
 
+void draw_position(Frame& frame, const Vec3& position) {
+  draw_value(frame, "position",
+             app::significant(position.x(), 4) + "  " + app::significant(position.y(), 4) + "  " +
+                 app::significant(position.z(), 4),
+             "", "x, y, z in model units.");
+}
+
 void draw_figures(Frame& frame, const SurfacePoint& point) {
   const app::PointFigures figures = app::figures_at(frame.explored(), frame.state().shown, point);
   draw_value(frame, "distance", figures.distance ? length_text(*figures.distance) : "\u2013", "",
@@ -36,11 +43,20 @@ void draw_figures(Frame& frame, const SurfacePoint& point) {
                    app::fixed(point.weights[2], 3),
                "", "Weights of the face's corners.");
   }
-  draw_value(frame, "position",
-             app::significant(figures.position.x(), 4) + "  " +
-                 app::significant(figures.position.y(), 4) + "  " +
-                 app::significant(figures.position.z(), 4),
-             "", "x, y, z in model units.");
+  draw_position(frame, figures.position);
+}
+
+/// Of a point that a cut shows.
+void draw_inside(Frame& frame, const InsidePoint& point) {
+  const bool error = frame.state().picture.view == app::View::kExactError;
+  const bool difference = frame.state().shown == app::Shown::kDifference;
+  draw_value(frame,
+             error        ? "error"
+             : difference ? "A \u2212 B"
+                          : "distance",
+             point.value ? length_text(*point.value) : "\u2013", "",
+             "On the cut, interpolated along the edges that it meets, model units.");
+  draw_position(frame, point.position);
 }
 
 void draw_picked(Frame& frame) {
@@ -88,6 +104,8 @@ void draw_point_panel(Frame& frame) {
   draw_heading(frame, "Under the pointer");
   if (const auto& hovered = frame.ui.input.hovered()) {
     draw_figures(frame, *hovered);
+  } else if (const auto& inside = frame.ui.input.hovered_inside()) {
+    draw_inside(frame, *inside);
   } else {
     draw_dim(frame, "Point at the model.");
   }

@@ -50,6 +50,50 @@ void draw_spacing(Frame& frame) {
   }
 }
 
+/// A slider from 0 to 1 with a field beside it. What it is moved to or what is typed.
+std::optional<std::string> draw_share_row(Frame& frame, std::string_view name, double current) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  constexpr double kLow = 0, kHigh = 1;
+  std::optional<std::string> chosen;
+  double share = current;
+  ImGui::SetNextItemWidth(width * 0.6F - gap);
+  if (ImGui::SliderScalar(("##slider " + std::string(name)).c_str(), ImGuiDataType_Double, &share,
+                          &kLow, &kHigh, "", ImGuiSliderFlags_NoInput)) {
+    const std::string text = app::significant(share, 3);
+    if (app::number_in<double>(text) != current) chosen = text;
+  }
+  frame.mark(std::string(name) + " slider");
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (const auto typed = draw_field(frame, name, exact(current))) chosen = typed;
+  return chosen;
+}
+
+void draw_slice_at(Frame& frame, const app::Setting& setting) {
+  const app::PictureSettings& picture = frame.state().picture;
+  draw_setting_label(frame, setting);
+  ImGui::BeginDisabled(!picture.slice.has_value());
+  const auto chosen = draw_share_row(frame, setting.name, picture.slice_at);
+  ImGui::EndDisabled();
+  if (chosen) frame.set(setting.name, *chosen);
+}
+
+void draw_peel(Frame& frame, const app::Setting& setting) {
+  draw_setting_label(frame, setting);
+  const app::Peel& peel = frame.state().picture.peel;
+  const std::string side = geotherm::to_text(peel.side);
+  const auto sides = all_names<app::PeelSide>();
+  if (const auto chosen = draw_choice(frame, setting.name, side, sides)) {
+    frame.set(setting.name, *chosen == "off" ? *chosen : *chosen + ":" + exact(peel.share));
+  }
+  if (peel.side == app::PeelSide::kOff) return;
+  draw_label(frame, "peel at", "Share of the largest distance.");
+  if (const auto share = draw_share_row(frame, "peel-at", peel.share)) {
+    frame.set(setting.name, side + ":" + *share);
+  }
+}
+
 /// The switches, two side by side.
 void draw_switches(Frame& frame) {
   const float second = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x / 2;
@@ -131,6 +175,10 @@ void draw_view_panel(Frame& frame) {
       draw_range(frame);
     } else if (setting.name == "spacing") {
       draw_spacing(frame);
+    } else if (setting.name == "slice-at") {
+      draw_slice_at(frame, setting);
+    } else if (setting.name == "peel") {
+      draw_peel(frame, setting);
     } else {
       draw_setting(frame, setting, setting.name == "view" ? "Keys 1 to 9, 0, g, t and n." : "");
     }

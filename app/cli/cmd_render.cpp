@@ -108,7 +108,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   figures.vertices = mesh->vertex_count();
   figures.faces = mesh->face_count();
   warnings = model->notes;
-  PictureData data = picture_of(*mesh);
+  PictureData data = picture_of(*mesh, model->volume);
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_face_values(data, *mesh, view, nullptr);
@@ -226,7 +226,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
   command.footer(
       "Examples:\n"
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
-      "  geotherm render bunny -s 0 --path 2000 -o path.png\n"
+      "  geotherm render bunny -s 0 --path 1500 -o path.png\n"
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png");
 }

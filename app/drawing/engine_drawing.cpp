@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/drawing/picture_scene.h"
+#include "app/picture/cut_picture.h"
 #include "app/picture/drawing.h"
 #include "app/picture/picture_settings.h"
 #include "engine/device.h"
@@ -63,7 +64,13 @@ class EngineDrawing final : public Drawing {
                     const TakeFrame& frame) override {
     if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
     const std::vector<glm::vec3> positions = scene_vectors(data.positions);
-    if (auto done = upload_picture(*renderer_, data, settings, positions); !done) return done;
+    if (is_cut(data, settings)) {
+      const PictureData cut = cut_picture(data, settings).data;
+      const std::vector<glm::vec3> places = scene_vectors(cut.positions);
+      if (auto done = upload_picture(*renderer_, cut, settings, places); !done) return done;
+    } else if (auto done = upload_picture(*renderer_, data, settings, positions); !done) {
+      return done;
+    }
     const PictureScale scale = picture_scale(data, settings);
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);

@@ -210,11 +210,25 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
 
 namespace {
 
+/// Triangles that join what is side by side: in a volume also inside, so that regions keep their
+/// colours while a slice moves.
+std::vector<std::array<std::uint32_t, 3>> joining_triangles(const PictureData& data) {
+  if (!data.volume) return data.faces;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const Tet& tet : data.volume->tets()) {
+    const auto v = [&tet](std::size_t k) { return static_cast<std::uint32_t>(tet[k]); };
+    triangles.push_back({v(0), v(1), v(2)});
+    triangles.push_back({v(0), v(1), v(3)});
+    triangles.push_back({v(1), v(2), v(3)});
+  }
+  return triangles;
+}
+
 /// The colours of a view, and what they stand for where that is no value.
 Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
                             const PictureSettings& settings) {
   if (shows_regions(data, settings)) {
-    const auto places = engine::region_colour_places(data.faces, data.nearest);
+    const auto places = engine::region_colour_places(joining_triangles(data), data.nearest);
     if (auto done = renderer.set_regions(places); !done) return done;
     return renderer.set_colours(engine::region_table());
   }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "app/picture/picture_data.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "geotherm/quality_fields.h"
 #include "solver/geometry/face_gradient.h"
+#include "solver/volume/clean_tets.h"
 
 namespace geotherm::app {
 namespace {
@@ -59,7 +61,7 @@ constexpr double kFullAngle = 90;
 
 }  // namespace
 
-PictureData picture_of(const TriangleMesh& mesh) {
+PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
   PictureData data;
   const SceneSpace scene(mesh);
   data.centre = scene.centre();
@@ -72,6 +74,12 @@ PictureData picture_of(const TriangleMesh& mesh) {
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
   }
+  data.volume = std::move(volume);
+  if (!data.volume) return data;
+  for (const Tet& tet : data.volume->tets()) {
+    for (const Index v : tet) data.positions[v] = scene.of(mesh.positions()[v]);
+  }
+  if (auto border = boundary(*data.volume)) data.face_tets = std::move(border->tets);
   return data;
 }
 
@@ -91,6 +99,15 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
   return volume > 0;
 }
 
+Vec3 position_at(const TetMesh& volume, const CellPoint& point) {
+  Vec3 position = Vec3::Zero();
+  const Tet& tet = volume.tets()[static_cast<std::size_t>(point.cell)];
+  for (std::size_t k = 0; k < tet.size(); ++k) {
+    position += point.weights[k] * volume.positions()[static_cast<std::size_t>(tet[k])];
+  }
+  return position;
+}
+
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {
   data.sources.clear();
   const SceneSpace scene(data.centre, data.model_per_scene);
@@ -102,6 +119,10 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
     const PictureData::Vector place = scene.of(position_at(mesh, point));
+    data.sources.push_back({place, place});
+  }
+  for (const CellPoint& point : sources.cell_points) {
+    const PictureData::Vector place = scene.of(position_at(*data.volume, point));
     data.sources.push_back({place, place});
   }
 }
@@ -154,17 +175,98 @@ void add_difference(PictureData& data, std::span<const double> difference) {
   add_error(data, difference, "d_A \u2212 d_B (model\u00a0units)");
 }
 
+namespace {
+
+/// The direction of grad phi, as long as its angle to X says.
+Vec3 with_angle_as_length(const Vec3& gradient, double angle) {
+  const double length = std::min(std::isfinite(angle) ? angle / kFullAngle : 0, 1.0);
+  return gradient.stableNormalized() * length;
+}
+
+void add_tet_fields(PictureData& data, const DistanceResult& result) {
+  data.tet_heat = tet_heat_directions(*data.volume, result.log_heat);
+  data.tet_gradients = tet_gradients(*data.volume, result.distances);
+  const std::vector<double> angles = angles_between(data.tet_heat, data.tet_gradients);
+  for (std::size_t t = 0; t < angles.size(); ++t) {
+    data.tet_gradients[t] = with_angle_as_length(data.tet_gradients[t], angles[t]);
+  }
+  show_tets(data);
+}
+
+/// The gradient of u on a tet; `values` gives u at a vertex.
+template <class Values>
+Vec3 gradient_on(const TetMesh& volume, const Tet& tet, const Values& values) {
+  const auto at = [&](std::size_t k) -> const Vec3& {
+    return volume.positions()[static_cast<std::size_t>(tet[k])];
+  };
+  const TetGradient tets = tet_gradient(at(0), at(1), at(2), at(3));
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) sum += values(tet[k]) * tets.gradients[k];
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Vec3> tet_gradients(const TetMesh& volume, std::span<const double> values) {
+  std::vector<Vec3> out;
+  out.reserve(volume.tets().size());
+  for (const Tet& tet : volume.tets()) {
+    const bool known = std::ranges::all_of(tet, [&](Index v) { return std::isfinite(values[v]); });
+    out.push_back(known ? gradient_on(volume, tet, [&](Index v) { return values[v]; })
+                        : Vec3(Vec3::Zero()));
+  }
+  return out;
+}
+
+std::vector<Vec3> tet_heat_directions(const TetMesh& volume, std::span<const double> log_heat) {
+  std::vector<Vec3> out;
+  out.reserve(volume.tets().size());
+  for (const Tet& tet : volume.tets()) {
+    double largest = -kUnreached;
+    for (const Index v : tet) largest = std::max(largest, log_heat[v]);
+    out.emplace_back(Vec3::Zero());
+    if (!std::isfinite(largest)) continue;
+    // As in heat_directions(): what all corners share does not turn the gradient.
+    const auto heat = [&](Index v) { return std::exp(log_heat[v] - largest); };
+    out.back() = -gradient_on(volume, tet, heat).stableNormalized();
+  }
+  return out;
+}
+
+void show_tets(PictureData& data) {
+  const auto corner = [&data](std::size_t f, std::size_t k) {
+    const auto& [x, y, z] = data.positions[data.faces[f][k]];
+    return Vec3(x, y, z);
+  };
+  const auto in_faces = [&](const std::vector<Vec3>& of_tets) {
+    std::vector<PictureData::Vector> out;
+    for (std::size_t f = 0; f < data.faces.size() && !of_tets.empty(); ++f) {
+      const Vec3 normal = (corner(f, 1) - corner(f, 0)).cross(corner(f, 2) - corner(f, 0));
+      const Vec3& all = of_tets[static_cast<std::size_t>(data.face_tets[f])];
+      const Vec3 unit = normal.stableNormalized();
+      out.push_back(to_float(all - all.dot(unit) * unit));
+    }
+    return out;
+  };
+  data.heat_directions = in_faces(data.tet_heat);
+  data.distance_gradients = in_faces(data.tet_gradients);
+  if (data.tet_values.empty()) return;
+  data.face_values.clear();
+  for (const Index t : data.face_tets) {
+    data.face_values.push_back(data.tet_values[static_cast<std::size_t>(t)]);
+  }
+}
+
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result) {
+  if (data.volume) return add_tet_fields(data, result);
   const std::vector<Vec3> heat = heat_directions(mesh, result.log_heat);
   const std::vector<Vec3> distance = face_gradients(mesh, result.distances);
   const std::vector<double> angles = angles_between(heat, distance);
   data.heat_directions.clear();
   data.distance_gradients.clear();
   for (std::size_t f = 0; f < heat.size(); ++f) {
-    const double angle = std::isfinite(angles[f]) ? angles[f] : 0;
-    const double length = std::min(angle / kFullAngle, 1.0);
     data.heat_directions.push_back(to_float(heat[f]));
-    data.distance_gradients.push_back(to_float(distance[f].stableNormalized() * length));
+    data.distance_gradients.push_back(to_float(with_angle_as_length(distance[f], angles[f])));
   }
 }
 

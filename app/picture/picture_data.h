@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "app/picture/picture_settings.h"
 #include "geotherm/distance_method.h"
+#include "geotherm/domains.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
 #include "geotherm/path.h"
@@ -32,7 +34,10 @@ struct PictureData {
   Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
-  bool solid = false;  ///< closed, all faces counter-clockwise from outside
+  /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.
+  std::shared_ptr<const TetMesh> volume;
+  std::vector<Index> face_tets;  ///< F: of a volume, the tet that each face belongs to
+  bool solid = false;            ///< closed, all faces counter-clockwise from outside
 
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
@@ -45,6 +50,9 @@ struct PictureData {
 
   std::vector<Vector> heat_directions;     ///< F: X = -grad u / |grad u|; 0 where there is none
   std::vector<Vector> distance_gradients;  ///< F: grad phi, scaled for the view gradient-error
+  /// T: the same of each tet of a volume, which faces show (show_tets()).
+  std::vector<Vec3> tet_heat, tet_gradients;
+  std::vector<float> tet_values;  ///< T: of a view about tets, instead of values of faces
   struct Segment {
     Vector from, to;
   };
@@ -53,7 +61,7 @@ struct PictureData {
   std::vector<Index> nearest;  ///< V: group of the nearest source, or kNoIndex; empty: not known
   /// A line on the surface.
   struct Line {
-    std::vector<Vector> points;
+    std::vector<Vector> points;     ///< one that is not finite cuts it in two
     std::array<float, 3> colour{};  ///< sRGB
     std::string name;               ///< in the legend; the same name stands there once
   };
@@ -63,14 +71,18 @@ struct PictureData {
   std::string value_title;  ///< over the colour bar
 };
 
-/// The mesh alone. The box of the vertices that faces use decides where the scene lies; vertices
-/// that belong to no face are put on one that does.
-PictureData picture_of(const TriangleMesh& mesh);
+/// The mesh alone, which may be the border of a volume. The box of the vertices that faces use
+/// decides where the scene lies; vertices that belong to no face and no tet are put on one that
+/// does.
+PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume = nullptr);
 
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
-/// Sets where distance is 0. Precondition: the sources lie on the mesh.
+/// Where a point of a tet is, model units.
+Vec3 position_at(const TetMesh& volume, const CellPoint& point);
+
+/// Sets where distance is 0. Precondition: the sources lie on the mesh, or in the data's volume.
 void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
 
 /// sRGB of a line of this name: the fields that paths follow (geodesic, heat, distance) have
@@ -93,6 +105,18 @@ void add_difference(PictureData& data, std::span<const double> difference);
 /// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
 /// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where
 /// a is the angle between both in degrees. 0 where either is missing. Cost: O(F).
+/// In a volume fields are those of its tets.
 void add_fields(PictureData& data, const TriangleMesh& mesh, const DistanceResult& result);
+
+/// Gradient of the linear function with these values (V) on every tet (T), value over model units;
+/// 0 where a tet is flat or a value is not finite.
+std::vector<Vec3> tet_gradients(const TetMesh& volume, std::span<const double> values);
+
+/// X on every tet, as heat_directions() on faces.
+std::vector<Vec3> tet_heat_directions(const TetMesh& volume, std::span<const double> log_heat);
+
+/// What the faces of a volume show of their tets: values, and the parts of vectors that lie in the
+/// face. Cost: O(F).
+void show_tets(PictureData& data);
 
 }  // namespace geotherm::app

@@ -34,19 +34,38 @@ double scale_end(QualityField field, const std::vector<double>& values) {
 }
 
 /// "(12 faces)", which stays on one line.
-std::string counted_faces(const std::vector<double>& values) {
+std::string counted_cells(const std::vector<double>& values, const std::string& cell) {
   const auto some = std::ranges::count_if(values, [](double x) { return x > 0; });
-  return '(' + grouped(some) + (some == 1 ? "\u00a0face)" : "\u00a0faces)");
+  return '(' + grouped(some) + "\u00a0" + cell + (some == 1 ? ")" : "s)");
 }
 
-std::string title_of(QualityField field, const std::vector<double>& values) {
+/// Of the tets, where a view is about the gradients in them; empty where it is about faces.
+std::vector<double> values_of_tets(QualityField field, const TetMesh& volume,
+                                   const DistanceResult& answer) {
+  std::vector<double> out;
+  const std::vector<Vec3> gradients = tet_gradients(volume, answer.distances);
+  if (field == QualityField::kEikonalError) {
+    for (const Vec3& gradient : gradients) {
+      out.push_back(gradient.isZero(0) ? kUnreached : std::abs(gradient.norm() - 1));
+    }
+  }
+  if (field != QualityField::kLostGradients) return out;
+  const std::vector<Vec3> heat = tet_heat_directions(volume, answer.log_heat);
+  for (std::size_t t = 0; t < heat.size(); ++t) {
+    out.push_back(heat[t].isZero(0) && !gradients[t].isZero(0) ? 1 : 0);
+  }
+  return out;
+}
+
+std::string title_of(QualityField field, const std::vector<double>& values,
+                     const std::string& cell) {
   switch (field) {
     case QualityField::kLostGradients:
-      return "no heat direction " + counted_faces(values);
+      return "no heat direction " + counted_cells(values, cell);
     case QualityField::kTriangleQuality:
       return "triangle quality (1:\u00a0equilateral)";
     case QualityField::kNonDelaunay:
-      return "edges that are not Delaunay " + counted_faces(values);
+      return "edges that are not Delaunay " + counted_cells(values, cell);
     default:
       return "| |\u2207\u03c6| \u2212 1 |";
   }
@@ -79,18 +98,23 @@ void set_face_values(PictureData& data, const TriangleMesh& mesh, View view,
   const bool is_there = !data.face_values.empty() && data.face_view == view;
   if (field && is_there && !needs_distances(view)) return;
   data.face_values.clear();
+  data.tet_values.clear();
   if (!field) return;
   if (needs_distances(view) && answer == nullptr) return;
   if (needs_heat(*field) && answer->log_heat.empty()) return;
-  const DataField made =
-      quality_field(*field, mesh, answer != nullptr ? *answer : DistanceResult());
-  data.face_values.reserve(made.values.size());
-  for (const double x : made.values) {
-    data.face_values.push_back(std::isfinite(x) ? static_cast<float>(x) : kNoPictureValue);
+  const bool of_tets = data.volume && needs_distances(view);
+  const std::vector<double> made =
+      of_tets ? values_of_tets(*field, *data.volume, *answer)
+              : quality_field(*field, mesh, answer != nullptr ? *answer : DistanceResult()).values;
+  auto& shown = of_tets ? data.tet_values : data.face_values;
+  shown.reserve(made.size());
+  for (const double x : made) {
+    shown.push_back(std::isfinite(x) ? static_cast<float>(x) : kNoPictureValue);
   }
-  data.largest_face_value = static_cast<float>(scale_end(*field, made.values));
+  if (of_tets) show_tets(data);
+  data.largest_face_value = static_cast<float>(scale_end(*field, made));
   data.face_view = view;
-  data.face_title = title_of(*field, made.values);
+  data.face_title = title_of(*field, made, of_tets ? "tet" : "face");
 }
 
 std::optional<double> face_tick_step(View view) {

@@ -67,6 +67,20 @@ inline NamedValues<PictureFit> named_values(PictureFit) {
   return {"there is no fit '*'", {{kTight, "tight"}, {kSphere, "sphere"}}};
 }
 
+/// Which cells are drawn: those with all corners on one side of a share of what is shown.
+enum class PeelSide { kOff, kBelow, kAbove };
+inline NamedValues<PeelSide> named_values(PeelSide) {
+  using enum PeelSide;
+  return {"there is no peeling '*'", {{kOff, "off"}, {kBelow, "below"}, {kAbove, "above"}}};
+}
+
+struct Peel {
+  PeelSide side = PeelSide::kOff;
+  double share = 0.5;  ///< of the largest distance, or of the largest error where that is shown
+
+  bool operator==(const Peel&) const = default;
+};
+
 struct CameraSettings {
   double azimuth = 30, elevation = 20;  ///< degrees
   double zoom = 1;
@@ -91,6 +105,10 @@ struct PictureSettings {
   PictureLight light = PictureLight::kThreePoint;
   PictureBackground background = PictureBackground::kLight;
   bool bar = true, caption = true, markers = true;
+  /// The normal of a plane; what lies on its side of it is removed. Absent: nothing is.
+  std::optional<std::array<double, 3>> slice;
+  double slice_at = 0.5;  ///< where it is: 0 to 1 of the model's extent along the normal
+  Peel peel;
   CameraSettings camera;
   int turntable = 0;   ///< frames of one turn; 0: one picture
   std::string device;  ///< part of its name; empty: the best

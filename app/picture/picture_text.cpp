@@ -26,6 +26,30 @@ std::string centre_text(const CameraSettings& camera) {
 
 namespace {
 
+constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+
+}  // namespace
+
+std::string slice_text(const PictureSettings& settings) {
+  if (!settings.slice) return "off";
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::array<double, 3> axis{};
+    for (const double side : {1.0, -1.0}) {
+      axis[k] = side;
+      if (*settings.slice == axis) return (side < 0 ? "-" : "") + std::string(kAxes[k]);
+    }
+  }
+  const auto& [x, y, z] = *settings.slice;
+  return number_text(x) + ":" + number_text(y) + ":" + number_text(z);
+}
+
+std::string peel_text(const Peel& peel) {
+  const std::string side = geotherm::to_text(peel.side);
+  return peel.side == PeelSide::kOff ? side : side + ":" + number_text(peel.share);
+}
+
+namespace {
+
 Result<double> number_between(const std::string& text, double least, double most,
                               const std::string& why, const std::string& hint) {
   const auto value = number_in<double>(text);
@@ -128,20 +152,62 @@ Result<bool> parse_projection(const std::string& text) {
                {"there are perspective, orthographic"}};
 }
 
-Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text) {
-  if (text.empty() || text == "auto") return std::optional<std::array<double, 3>>();
-  std::array<double, 3> centre{};
+namespace {
+
+/// X:Y:Z.
+std::optional<std::array<double, 3>> three_numbers(const std::string& text) {
+  std::array<double, 3> numbers{};
   std::string rest = text;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t end = k < 2 ? rest.find(':') : rest.size();
     const auto value = number_in<double>(rest.substr(0, end));
-    if (end == std::string::npos || !value || !std::isfinite(*value)) {
-      return bad_value(text, "is no point", "give X:Y:Z in model units, such as 0:1.5:-2, or auto");
-    }
-    centre[k] = *value;
+    if (end == std::string::npos || !value || !std::isfinite(*value)) return std::nullopt;
+    numbers[k] = *value;
     rest.erase(0, k < 2 ? end + 1 : end);
   }
-  return std::optional(centre);
+  return numbers;
+}
+
+}  // namespace
+
+Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text) {
+  if (text.empty() || text == "auto") return std::optional<std::array<double, 3>>();
+  const auto centre = three_numbers(text);
+  if (centre) return centre;
+  return bad_value(text, "is no point", "give X:Y:Z in model units, such as 0:1.5:-2, or auto");
+}
+
+Result<std::optional<std::array<double, 3>>> parse_slice(const std::string& text) {
+  if (text.empty() || text == "off") return std::optional<std::array<double, 3>>();
+  const bool turned = text.front() == '-';
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (text.substr(turned ? 1 : 0) != kAxes[k]) continue;
+    std::array<double, 3> axis{};
+    axis[k] = turned ? -1 : 1;
+    return std::optional(axis);
+  }
+  const auto normal = three_numbers(text);
+  if (normal && *normal != std::array<double, 3>{}) return normal;
+  return bad_value(text, "is no direction",
+                   "give x, y, z, -x, -y, -z or NX:NY:NZ, such as 1:1:0, or off");
+}
+
+Result<double> parse_slice_at(const std::string& text) {
+  return number_between(text, 0, 1, "is no place of the slice",
+                        "give a share of the model's extent, 0 to 1");
+}
+
+Result<Peel> parse_peel(const std::string& text) {
+  if (text.empty() || text == "off") return Peel{};
+  const auto parts = halves(text, ":");
+  const auto side = parse<PeelSide>(parts ? parts->first : text);
+  const auto share = parts ? number_in<double>(parts->second) : Peel().share;
+  if (side && *side != PeelSide::kOff && share && *share >= 0 && *share <= 1) {
+    return Peel{*side, *share};
+  }
+  return bad_value(text, "is no peeling",
+                   "give below:SHARE or above:SHARE with a share of the largest distance, 0 to 1, "
+                   "such as below:0.5, or off");
 }
 
 Result<bool> parse_switch(const std::string& text) {

@@ -19,6 +19,12 @@ std::string range_text(const PictureSettings& settings);
 /// "0:1.5:-2", or "auto" where the middle of the model is the centre.
 std::string centre_text(const CameraSettings& camera);
 
+/// "x", "-y" or "1:0.5:0", or "off" where nothing is sliced.
+std::string slice_text(const PictureSettings& settings);
+
+/// "below:0.5", "above:0.5" or "off".
+std::string peel_text(const Peel& peel);
+
 struct Size {
   int width = 0, height = 0;
 };
@@ -39,7 +45,11 @@ Result<double> parse_zoom(const std::string& text);                    // factor
 Result<Pan> parse_pan(const std::string& text);                        // RIGHT:UP
 Result<bool> parse_projection(const std::string& text);                // true: orthographic
 Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text);  // X:Y:Z | auto
-Result<bool> parse_switch(const std::string& text);                                  // on | off
+Result<std::optional<std::array<double, 3>>> parse_slice(
+    const std::string& text);                            // x | X:Y:Z | off
+Result<Peel> parse_peel(const std::string& text);        // below:SHARE | above:SHARE | off
+Result<double> parse_slice_at(const std::string& text);  // 0 to 1
+Result<bool> parse_switch(const std::string& text);      // on | off
 inline std::string switch_text(bool on) { return on ? "on" : "off"; }
 Result<int> whole_between(const std::string& text, int least, int most, const std::string& why);
 

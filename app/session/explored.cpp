@@ -43,6 +43,15 @@ double diffusion_time(const TimeStep& step, const MeshReport& mesh) {
   return step.absolute;
 }
 
+std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* heat) {
+  if (step.rule == TimeRule::kAbsolute) return step.absolute;
+  if (heat == nullptr || heat->t_range()[0] < heat->t_range()[1]) return std::nullopt;
+  const TimeStep& known = heat->options().time_step;
+  if (step.rule == known.rule) return heat->t() / known.factor * step.factor;
+  if (step.rule != TimeRule::kMeanEdge) return std::nullopt;
+  return step.factor * heat->grading() * heat->t() / heat->relative_t();
+}
+
 const Answer* shown_answer(const Explored& explored, Shown shown) {
   return shown == Shown::kB ? explored.b.get() : explored.a.get();
 }
@@ -113,6 +122,8 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.values.clear();
   data.heat_directions.clear();
   data.distance_gradients.clear();
+  data.tet_heat.clear();
+  data.tet_gradients.clear();
   data.value_unit = 1;
   data.largest_value = 0;
   data.is_signed = false;

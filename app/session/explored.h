@@ -12,6 +12,7 @@
 #include "app/session/answer.h"
 #include "app/session/model.h"
 #include "app/session/state.h"
+#include "geotherm/heat_method.h"
 #include "solver/mesh/ray_tree.h"
 
 // What the session has worked out; immutable, shared by threads.
@@ -28,8 +29,8 @@ struct ExploredModel {
 
 /// A place on the model under one entry of the list of sources.
 struct SourcePlace {
-  int entry = 0;  ///< of ViewerState::sources
-  SurfacePoint point;
+  int entry = 0;                 ///< of ViewerState::sources
+  SurfacePoint point;            ///< none of a point inside a tet
   Vec3 position = Vec3::Zero();  ///< model units
   bool alone = false;            ///< the entry is this point and nothing else
 };
@@ -58,6 +59,10 @@ struct Explored {
 /// The t that a time step means on a mesh, model units squared. Precondition: it has one component;
 /// of several each has its own.
 double diffusion_time(const TimeStep& step, const MeshReport& mesh);
+
+/// The same in a volume, whose edges inside nobody has measured but a method: from the mean edge
+/// and the mean cell of `heat`, null: none has. Nothing where they do not tell.
+std::optional<double> time_in_volume(const TimeStep& step, const HeatMethod* heat);
 
 /// A or B (for the difference: A); null while there is none.
 const Answer* shown_answer(const Explored& explored, Shown shown);

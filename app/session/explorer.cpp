@@ -32,8 +32,12 @@ std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const
 }
 
 /// Adds the places of one entry.
-void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& mesh,
+void add_places(const ResolvedSources& placed, int entry, const Model& model,
                 std::vector<SourcePlace>& places) {
+  const TriangleMesh& mesh = *model.mesh;
+  for (const CellPoint& point : placed.set.cell_points) {  // each an entry of its own
+    places.push_back({entry, {}, position_at(*model.volume, point), true});
+  }
   const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
   for (const SurfacePoint& point : placed.set.points) {
     places.push_back({entry, point, position_at(mesh, point), alone});
@@ -51,7 +55,6 @@ void add_places(const ResolvedSources& placed, int entry, const TriangleMesh& me
 /// anew: a curve is a walk over the mesh, a point in space a search over all faces.
 Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
                                                      Explored& explored) {
-  const TriangleMesh& mesh = *model_->model.mesh;
   std::vector<Placed> placed;
   SetUnion all;
   std::vector<Warning> warnings;
@@ -72,7 +75,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
     for (const Warning& warning : places.warnings) {
       if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
-    add_places(places, static_cast<int>(i), mesh, explored.places);
+    add_places(places, static_cast<int>(i), model_->model, explored.places);
     all.add(places.set);
   }
   placed_ = std::move(placed);
@@ -105,7 +108,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
        model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
   }
-  auto base = std::make_shared<PictureData>(picture_of(*mesh));
+  auto base = std::make_shared<PictureData>(picture_of(*mesh, model->model.volume));
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
   Explored first;

@@ -129,6 +129,37 @@ std::vector<Setting> picture_settings_table() {
                                                 "the line about model, t and backend"),
       picture_switch<&PictureSettings::markers>("markers", "--no-markers", "off",
                                                 "marks where the sources are"),
+      {.name = "slice",
+       .group = kPicture,
+       .value_name = "NORMAL",
+       .help = "removes what lies on this side of a plane, so that one sees into a volume; also "
+               "NX:NY:NZ",
+       .detail = "A surface is cut open, and nothing fills the opening.",
+       .get = [](const State& s) { return slice_text(s.picture); },
+       .set = [](State& s, const Text& t) { return store(parse_slice(t), s.picture.slice); },
+       .values = [] { return Names{"off", "x", "y", "z", "-x", "-y", "-z"}; }},
+      {.name = "slice-at",
+       .group = kPicture,
+       .kind = kNumber,
+       .value_name = "SHARE",
+       .help = "where the plane of the slice is, 0 to 1 of the model's extent along its normal",
+       .get = [](const State& s) { return number_text(s.picture.slice_at); },
+       .set = [](State& s, const Text& t) { return store(parse_slice_at(t), s.picture.slice_at); }},
+      {.name = "peel",
+       .group = kPicture,
+       .value_name = "SIDE:SHARE",
+       .help =
+           "draws only the tets (on a surface, the faces) whose distance is below or above this "
+           "share of the largest",
+       .forms = "off, below:SHARE or above:SHARE",
+       .detail = "All corners count. Where errors are shown, their size takes the place of the "
+                 "distance.",
+       .get = [](const State& s) { return peel_text(s.picture.peel); },
+       .set = [](State& s, const Text& t) { return store(parse_peel(t), s.picture.peel); },
+       .values =
+           [] {
+             return Names{"off", "below:0.5", "above:0.5"};
+           }},
       {.name = "azimuth",
        .group = kCamera,
        .kind = kNumber,

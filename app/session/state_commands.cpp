@@ -52,7 +52,9 @@ UndoRule undo_rule(const Command& command) {
     for (const char* camera : {"azimuth", "elevation", "zoom", "pan", "centre", "fit"}) {
       if (set->name == camera) return {};
     }
-    return {true, set->name == "time-factor"};  // a slider
+    const bool slider =
+        set->name == "time-factor" || set->name == "slice-at" || set->name == "peel";
+    return {true, slider};
   }
   const auto is = [&command]<class... Kinds>(std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(command) || ...);

@@ -68,18 +68,50 @@ Result<void> SceneScreen::update_data(const Session& session) {
     if (auto done = upload_surface(renderer_, *explored.model->base, positions); !done) return done;
     base_ = explored.model->base;
     data_ = *base_;
+    cut_.reset();
     positions_ = std::move(positions);
     uploaded_.reset();
   }
   const PictureSettings& settings = state.picture;
-  const Uploaded now{explored.version, state.shown, settings.view, settings.colour_map,
-                     settings.reverse};
+  const Uploaded now{explored.version, state.shown,    settings.view,     settings.colour_map,
+                     settings.reverse, settings.slice, settings.slice_at, settings.peel};
   if (uploaded_ == now) return {};
   set_explored(data_, explored, state.shown, settings.view);
-  if (auto done = upload_answer(renderer_, data_, settings); !done) return done;
+  if (auto done = upload_data(settings); !done) return done;
   uploaded_ = now;
   laid_out_.reset();
   return {};
+}
+
+/// The whole model stays on the device as it is; what is cut is uploaded with each change.
+Result<void> SceneScreen::upload_data(const PictureSettings& settings) {
+  cut_rays_.reset();
+  if (is_cut(data_, settings)) {
+    cut_ = cut_picture(data_, settings);
+    return upload_picture(renderer_, cut_->data, settings, scene_vectors(cut_->data.positions));
+  }
+  if (cut_) {
+    if (auto done = upload_surface(renderer_, data_, positions_); !done) return done;
+    cut_.reset();
+  }
+  return upload_answer(renderer_, data_, settings);
+}
+
+std::optional<RayHit> SceneScreen::hit_cut(const Vec3& origin, const Vec3& direction) const {
+  if (!cut_rays_) {
+    std::vector<Vec3> positions;
+    for (const auto& [x, y, z] : cut_->data.positions) positions.emplace_back(x, y, z);
+    std::vector<Face> faces;
+    for (const auto& [a, b, c] : cut_->data.faces) {
+      faces.push_back({static_cast<Index>(a), static_cast<Index>(b), static_cast<Index>(c)});
+    }
+    auto mesh = TriangleMesh::build(std::move(positions), std::move(faces));
+    if (!mesh) return std::nullopt;  // nothing is left
+    auto rays = RayTree::build(std::make_shared<const TriangleMesh>(*std::move(mesh)));
+    if (!rays) return std::nullopt;
+    cut_rays_ = *std::move(rays);
+  }
+  return cut_rays_->first_hit(origin, direction);
 }
 
 /// Letters cost milliseconds: what does not change is not laid out again.

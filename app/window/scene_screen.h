@@ -6,12 +6,14 @@
 #include <memory>
 #include <optional>
 
+#include "app/picture/cut_picture.h"
 #include "app/picture/drawing.h"
 #include "app/session/session.h"
 #include "engine/overlay/overlay.h"
 #include "engine/renderer.h"
 #include "engine/target.h"
 #include "engine/window/window_target.h"
+#include "solver/mesh/ray_tree.h"
 
 namespace geotherm::app {
 
@@ -51,6 +53,11 @@ class SceneScreen {
   const PictureArea& area() const { return area_; }
   const engine::Camera& camera() const { return scene_.camera; }
   const PictureData& data() const { return data_; }
+  /// Null where the whole model is drawn.
+  const CutPicture* cut() const { return cut_ ? &*cut_ : nullptr; }
+  /// What a ray in scene space meets first of what a cut leaves. Precondition: cut() is there.
+  /// Cost: the first time after a change that of RayTree::build().
+  std::optional<RayHit> hit_cut(const Vec3& origin, const Vec3& direction) const;
   const engine::Insets& insets() const { return legend_.insets; }
   DrawingDevice device() const;
   std::vector<std::string> validation_messages() const;
@@ -60,6 +67,7 @@ class SceneScreen {
   SceneScreen(engine::Device device, engine::Renderer renderer);
   static Result<std::unique_ptr<SceneScreen>> prepare(const engine::DeviceOptions& options);
   Result<void> update_data(const Session& session);
+  Result<void> upload_data(const PictureSettings& settings);
   void update_legend(const PictureSettings& settings);
 
   // In the order of creation; the last go first.
@@ -78,9 +86,14 @@ class SceneScreen {
     View view = View::kContours;
     std::string colour_map;
     bool reverse = false;
+    std::optional<std::array<double, 3>> slice;
+    double slice_at = 0;
+    Peel peel;
     bool operator==(const Uploaded&) const = default;
   };
   std::optional<Uploaded> uploaded_;
+  std::optional<CutPicture> cut_;
+  mutable std::optional<RayTree> cut_rays_;  ///< of cut_, made when a ray first asks
 
   std::optional<PictureSettings> laid_out_;  ///< what the legend was made for
   engine::LegendLayout legend_;

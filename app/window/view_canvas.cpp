@@ -31,22 +31,54 @@ std::array<float, 2> ViewCanvas::in_window(const glm::dvec2& pixel) const {
   return {static_cast<float>(p.x), static_cast<float>(p.y)};
 }
 
-std::optional<SurfacePoint> ViewCanvas::surface_at(float x, float y) const {
-  const auto& model = explored_.model;
-  if (!model || !model->rays || !screen_.has_model()) return std::nullopt;
+ViewCanvas::Ray ViewCanvas::ray_at(float x, float y) const {
   const engine::Camera& camera = screen_.camera();
   const glm::dvec2 clip = 2.0 * in_picture(x, y) / glm::dvec2(camera.extent) - 1.0;
   const glm::dmat4 back = glm::inverse(to_clip(camera));
   const glm::dvec3 near = divided(back * glm::dvec4(clip, 1, 1));
-  const glm::dvec3 far = divided(back * glm::dvec4(clip, 0, 1));
+  const glm::dvec3 along = divided(back * glm::dvec4(clip, 0, 1)) - near;
+  return {{near.x, near.y, near.z}, {along.x, along.y, along.z}};
+}
+
+Vec3 ViewCanvas::in_model(const Vec3& scene) const {
   const PictureData& data = screen_.data();
-  const auto in_model = [&data](const glm::dvec3& p) {
-    return Vec3(data.centre + data.model_per_scene * Vec3(p.x, p.y, p.z));
-  };
-  const Vec3 origin = in_model(near);
-  const auto hit = model->rays->first_hit(origin, in_model(far) - origin);
+  return data.centre + data.model_per_scene * scene;
+}
+
+std::optional<SurfacePoint> ViewCanvas::surface_at(float x, float y) const {
+  const auto& model = explored_.model;
+  if (!model || !model->rays || !screen_.has_model()) return std::nullopt;
+  Ray ray = ray_at(x, y);
+  if (const CutPicture* cut = screen_.cut()) {
+    const auto front = screen_.hit_cut(ray.origin, ray.direction);
+    if (!front || cut->origin[static_cast<std::size_t>(front->point.face)] == kNoIndex) return {};
+    constexpr double kBefore = 1e-5;  // scene units: what is removed lies farther in front
+    ray.origin += front->distance * ray.direction - kBefore * ray.direction.normalized();
+  }
+  const Vec3 origin = in_model(ray.origin);
+  const auto hit = model->rays->first_hit(origin, in_model(ray.origin + ray.direction) - origin);
   if (!hit) return std::nullopt;
   return hit->point;
+}
+
+std::optional<ui::InsidePoint> ViewCanvas::inside_at(float x, float y) const {
+  const CutPicture* cut = screen_.cut();
+  if (cut == nullptr || !explored_.model) return std::nullopt;
+  const Ray ray = ray_at(x, y);
+  const auto hit = screen_.hit_cut(ray.origin, ray.direction);
+  if (!hit) return std::nullopt;
+  const auto face = static_cast<std::size_t>(hit->point.face);
+  if (cut->origin[face] != kNoIndex) return std::nullopt;
+  ui::InsidePoint inside{in_model(ray.origin + hit->distance * ray.direction), std::nullopt};
+  if (cut->data.values.empty()) return inside;
+  double value = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float corner = cut->data.values[cut->data.faces[face][k]];
+    if (corner == kNoPictureValue) return inside;
+    value += hit->point.weights[k] * double{corner};
+  }
+  inside.value = value * cut->data.value_unit;
+  return inside;
 }
 
 std::optional<std::array<float, 2>> ViewCanvas::place_of(const Vec3& point) const {

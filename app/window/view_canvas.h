@@ -16,6 +16,7 @@ class ViewCanvas final : public ui::Canvas {
              float pixels_per_point);
 
   std::optional<SurfacePoint> surface_at(float x, float y) const override;
+  std::optional<ui::InsidePoint> inside_at(float x, float y) const override;
   std::optional<std::array<float, 2>> place_of(const Vec3& point) const override;
   std::array<float, 2> lens_centre() const override;
   double fps() const override { return fps_; }
@@ -23,6 +24,11 @@ class ViewCanvas final : public ui::Canvas {
   std::string device() const override;
 
  private:
+  struct Ray {
+    Vec3 origin, direction;  ///< scene space
+  };
+  Ray ray_at(float x, float y) const;
+  Vec3 in_model(const Vec3& scene) const;
   glm::dvec2 in_picture(float x, float y) const;
   std::array<float, 2> in_window(const glm::dvec2& pixel) const;
 

@@ -30,26 +30,19 @@ TEST(PictureOptions, AreTheDefaultsOfTheSettingsWhenNothingIsTyped) {
 }
 
 TEST(PictureOptions, ReachTheSettings) {
-  const SettingArguments typed{{{"view", "gradient-error"},
-                                {"size", "8192x17"},
-                                {"samples", "1"},
-                                {"colour-map", "viridis"},
-                                {"reverse", "on"},
-                                {"bar", "off"},
-                                {"caption", "off"},
-                                {"markers", "off"},
-                                {"range", "-0.5:2e3"},
-                                {"spacing", "0"},
-                                {"light", "headlight"},
-                                {"background", "transparent"},
-                                {"azimuth", "-400"},
-                                {"elevation", "-90"},
-                                {"zoom", "2.5"},
-                                {"pan", "0.1:-.25"},
-                                {"fit", "sphere"},
-                                {"projection", "orthographic"}}};
+  const SettingArguments typed{
+      {{"view", "gradient-error"}, {"size", "8192x17"},     {"samples", "1"},
+       {"colour-map", "viridis"},  {"reverse", "on"},       {"bar", "off"},
+       {"caption", "off"},         {"markers", "off"},      {"range", "-0.5:2e3"},
+       {"spacing", "0"},           {"light", "headlight"},  {"background", "transparent"},
+       {"azimuth", "-400"},        {"elevation", "-90"},    {"zoom", "2.5"},
+       {"pan", "0.1:-.25"},        {"fit", "sphere"},       {"slice", "-y"},
+       {"slice-at", "0.25"},       {"peel", "above:0.125"}, {"projection", "orthographic"}}};
   const auto s = picture_settings(typed, {"12", "llvm"}, kMaps);
   ASSERT_TRUE(s) << s.error().message;
+  EXPECT_EQ(s->slice, (std::array<double, 3>{0, -1, 0}));
+  EXPECT_EQ(s->slice_at, 0.25);
+  EXPECT_EQ(s->peel, (app::Peel{app::PeelSide::kAbove, 0.125}));
   EXPECT_EQ(s->view, app::View::kGradientError);
   EXPECT_EQ(s->width, 8192);
   EXPECT_EQ(s->height, 17);
@@ -103,11 +96,25 @@ void expect_read_back() {
   for (const std::string& name : all_names<Enum>()) EXPECT_EQ(to_text(*parse<Enum>(name)), name);
 }
 
+TEST(PictureText, OfSliceAndPeelReadsBack) {
+  for (const char* text : {"off", "x", "-z", "1:0.5:-2"}) {
+    PictureSettings settings;
+    settings.slice = *app::parse_slice(text);
+    EXPECT_EQ(app::slice_text(settings), text);
+  }
+  EXPECT_EQ(app::parse_slice("0:-1:0")->value(), app::parse_slice("-y")->value());
+  for (const char* text : {"off", "below:0.25", "above:1"}) {
+    EXPECT_EQ(app::peel_text(*app::parse_peel(text)), text);
+  }
+  EXPECT_EQ(app::peel_text(*app::parse_peel("below")), "below:0.5");
+}
+
 TEST(PictureText, ReadsBack) {
   expect_read_back<app::View>();
   expect_read_back<app::PictureLight>();
   expect_read_back<app::PictureBackground>();
   expect_read_back<PictureFit>();
+  expect_read_back<app::PeelSide>();
   EXPECT_EQ(all_names<app::View>().front(), "contours");
   EXPECT_EQ(all_names<app::View>().size(), 13U);
 }
@@ -165,6 +172,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"PanText", "pan", "1:up", {"--pan"}},
                     Wrong{"Fit", "fit", "loose", {"--fit", "tight, sphere"}},
                     Wrong{"Projection", "projection", "fisheye", {"--projection", "orthographic"}},
+                    Wrong{"Slice", "slice", "w", {"--slice", "NX:NY:NZ", "off"}},
+                    Wrong{"SliceZero", "slice", "0:0:0", {"--slice", "1:1:0"}},
+                    Wrong{"SliceNan", "slice", "1:nan:0", {"--slice"}},
+                    Wrong{"SliceAt", "slice-at", "1.5", {"--slice-at", "0 to 1"}},
+                    Wrong{"Peel", "peel", "near:0.5", {"--peel", "below:SHARE", "above:SHARE"}},
+                    Wrong{"PeelOff", "peel", "off:0.5", {"--peel"}},
+                    Wrong{"PeelShare", "peel", "below:2", {"--peel", "0 to 1"}},
                     Wrong{"Turntable", "turntable", "0", {"--turntable", "1 to 3600"}}),
     [](const auto& test) { return std::string(test.param.name); });
 

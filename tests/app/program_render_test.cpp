@@ -77,6 +77,100 @@ TEST_F(ProgramRender, DrawsWhatHasNoSizeOrAnySize) {
   }
 }
 
+/// The distance that a pixel of the map `grey` stands for, of the largest: black is far.
+double shade(const PngContent& picture, int x, int y) {
+  const auto at = static_cast<std::size_t>(picture.channels * (y * picture.width + x));
+  return picture.pixels[at] / 255.0;
+}
+
+TEST_F(ProgramRender, ASliceThroughABallShowsTheDistanceFromItsCentre) {
+  run({"generate", "ball-tets", "--tets", "20000", "-o", "ball.mesh"});
+  const std::vector<std::string> plain = {"ball.mesh",
+                                          "-s",
+                                          "0",
+                                          "--method",
+                                          "fast-marching",
+                                          "--colour-map",
+                                          "grey",
+                                          "--light",
+                                          "none",
+                                          "--spacing",
+                                          "0",
+                                          "--no-bar",
+                                          "--no-caption",
+                                          "--no-markers",
+                                          "--azimuth",
+                                          "0",
+                                          "--elevation",
+                                          "0",
+                                          "--projection",
+                                          "orthographic",
+                                          "--fit",
+                                          "sphere"};
+  const PngContent whole = picture(plain).first;
+  std::vector<std::string> cut = plain;
+  cut.insert(cut.end(), {"--slice", "z"});
+  const PngContent sliced = picture(cut).first;
+  const int x = whole.width / 2, y = whole.height / 2;
+  // A ball of radius 1 fills the height but for the margins.
+  int radius = 0;
+  while (shade(sliced, x + radius + 1, y) < 1) ++radius;
+  ASSERT_GT(radius, 60);
+  const double at_centre = shade(sliced, x, y), at_border = shade(whole, x, y);
+  EXPECT_GT(std::abs(at_centre - at_border), 0.5);
+  constexpr double kPixel = 1.5, kGrey = 2.0 / 255;
+  for (const double share : {0.25, 0.5, 0.75}) {
+    const int away = static_cast<int>(share * radius);
+    const double expected = at_centre + (at_border - at_centre) * away / radius;
+    const double slack = kGrey + std::abs(at_border - at_centre) * kPixel / radius;
+    EXPECT_NEAR(shade(sliced, x + away, y), expected, slack) << share;
+    EXPECT_NEAR(shade(sliced, x, y - away), expected, slack) << share;
+    EXPECT_NEAR(shade(whole, x + away, y), at_border, kGrey)
+        << share;  // the border's distance is 1
+  }
+}
+
+TEST_F(ProgramRender, SlicesAndPeelsEveryViewOfVolumesAndSurfaces) {
+  run({"generate", "box-tets", "--tets", "1000", "-o", "box.mesh"});
+  for (const char* view : {"contours", "wireframe", "flat", "regions", "heat-gradient",
+                           "eikonal-error", "triangle-quality"}) {
+    for (const char* model : {"box.mesh", "bunny"}) {
+      const auto [content, colours] =
+          picture({model, "-s", "0", "-s", "17", "--view", view, "--slice", "-1:0.5:0",
+                   "--slice-at", "0.6", "--peel", "above:0.1"});
+      EXPECT_GT(colours, 10U) << model << " " << view;
+    }
+  }
+  // Nothing is left, which is no failure.
+  const auto [content, colours] = picture({"box.mesh", "-s", "0", "--slice", "x", "--slice-at", "0",
+                                           "--no-bar", "--no-caption", "--no-markers"});
+  EXPECT_EQ(colours, 1U);
+}
+
+TEST_F(ProgramRender, ShowsASourceInsideWhereASliceOpensTheBody) {
+  run({"generate", "box-tets", "--tets", "1000", "-o", "box.mesh"});
+  const std::vector<std::string> plain = {
+      "box.mesh",  "-s", "xyz:1.03:0.71:0.5", "--slice", "z", "--no-bar", "--no-caption",
+      "--azimuth", "0",  "--elevation",       "0"};
+  const PngContent marked = picture(plain).first;
+  std::vector<std::string> without = plain;
+  without.emplace_back("--no-markers");
+  const PngContent bare = picture(without).first;
+  int changed = 0, white = 0;
+  for (int y = 0; y < marked.height; ++y) {
+    for (int x = 0; x < marked.width; ++x) {
+      const auto at = static_cast<std::size_t>(marked.channels * (y * marked.width + x));
+      const bool differs =
+          !std::equal(&marked.pixels[at], &marked.pixels[at] + 3, &bare.pixels[at]);
+      changed += differs;
+      // Inside of markers is white where it is not hidden.
+      white += differs && marked.pixels[at] > 240 && marked.pixels[at + 2] > 240;
+    }
+  }
+  EXPECT_GT(changed, 10);
+  EXPECT_GT(white, 3);
+}
+
 TEST_F(ProgramRender, SaysInOneLineThatADeviceIsNotThere) {
   const ProgramRun run = run_program(
       folder.path("."), {"render", "bunny", "-s", "17", "--device", "no such", "-o", "a.png"});

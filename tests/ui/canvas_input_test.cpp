@@ -105,6 +105,15 @@ TEST_F(CanvasMouse, ClickSetsASourceExactlyThere) {
   EXPECT_EQ(back.weights, point->weights);  // every bit
 }
 
+TEST_F(CanvasMouse, ClickOnACutSetsASourceInside) {
+  canvas_.inside = InsidePoint{{0.25, 1.0 / 3, -0.5}, 0.125};
+  click(seen(0.4, 0.4).x, seen(0.4, 0.4).y);
+  EXPECT_EQ(sent(), Texts{"source set xyz:0.25:0.333333:-0.5"});
+  hold(false, true, false);
+  click(seen(0.4, 0.4).x, seen(0.4, 0.4).y);
+  EXPECT_EQ(sent(), Texts{"source add xyz:0.25:0.333333:-0.5"});
+}
+
 TEST_F(CanvasMouse, ClickWithASmallTremorIsAClick) {
   const ImVec2 at = seen(0.43, 0.71);
   move(at.x, at.y);

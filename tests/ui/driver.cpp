@@ -39,6 +39,7 @@ std::optional<SurfacePoint> FlatCanvas::surface_at(float x, float y) const {
   const Square square = square_on(*panels);
   const double u = (x - square.left) / square.side * kCells;
   const double v = (square.bottom - y) / square.side * kCells;
+  if (inside) return std::nullopt;
   if (front) return front;
   if (!(u >= 0 && v >= 0 && u < kCells && v < kCells)) return std::nullopt;
   const int i = static_cast<int>(u), j = static_cast<int>(v);

@@ -25,7 +25,10 @@ class FlatCanvas : public Canvas {
   const Interface* panels = nullptr;
   std::optional<SurfacePoint> front;  ///< lies under every pixel, before all else
 
+  std::optional<InsidePoint> inside;  ///< lies under every pixel, and no surface does
+
   std::optional<SurfacePoint> surface_at(float x, float y) const override;
+  std::optional<InsidePoint> inside_at(float, float) const override { return inside; }
   std::optional<std::array<float, 2>> place_of(const Vec3& point) const override;
   std::array<float, 2> lens_centre() const override;
   double fps() const override { return 60; }

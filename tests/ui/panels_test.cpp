@@ -133,6 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
         Typing{"range 0.5:2", "View/range max", "", {"range 0.5:"}},
         Typing{"", "View/spacing", "0.125", {"spacing 0.125"}},
         Typing{"spacing 0.5", "View/spacing", "", {"spacing auto"}},
+        Typing{"slice x", "View/slice-at", "0.25", {"slice-at 0.25"}},
+        Typing{"peel above:0.5", "View/peel-at", "0.75", {"peel above:0.75"}},
         Typing{"", "View/azimuth", "75", {"azimuth 75"}},
         Typing{"", "View/elevation", "-10", {"elevation -10"}},
         Typing{"", "View/zoom", "3", {"zoom 3"}},
@@ -208,6 +210,21 @@ TEST_F(Panels, SliderMovesTheTimeFactorThroughItsDecades) {
   for (const std::string& text : texts) EXPECT_EQ(text.rfind("time-factor ", 0), 0U) << text;
   EXPECT_GT(session_.state().options.time_step.factor, 3);
   EXPECT_LT(session_.state().options.time_step.factor, 1000);
+}
+
+TEST_F(Panels, SlidersMoveTheSliceAndThePeel) {
+  open_square();
+  run("slice x");
+  run("peel below:0.5");
+  frame();
+  for (const std::string name : {"slice-at ", "peel below:"}) {
+    const bool slice = name == "slice-at ";
+    const ImVec2 at = middle_of(slice ? "View/slice-at slider" : "View/peel-at slider");
+    drag(at, {at.x + 15, at.y});
+    for (const std::string& text : sent()) EXPECT_EQ(text.rfind(name, 0), 0U) << text;
+    const auto& picture = session_.state().picture;
+    EXPECT_GT(slice ? picture.slice_at : picture.peel.share, 0.5);
+  }
 }
 
 TEST_F(Panels, AbsoluteTimeBeginsWithTheOneThatHolds) {

@@ -100,5 +100,26 @@ TEST_F(Mouse, DragsASource) {
   quit();
 }
 
+TEST_F(Mouse, SetsAndDragsASourceInsideAVolumeThatIsCutOpen) {
+  ASSERT_EQ(
+      run_program(path("."), {"generate", "ball-tets", "--tets", "2000", "-o", "ball.mesh"}).code,
+      0);
+  start({"ball.mesh", "--azimuth", "0", "--elevation", "0", "--slice", "z"}, 4);
+  click(kBody);
+  drag(kBody, {kBody.x + 60, kBody.y - 50});
+  run({"peel below:0.5", "save picture p.png"});
+  const std::vector<std::string> lines = log();
+  EXPECT_EQ(line_with(lines, "source set xyz:").substr(0, 15), "source set xyz:");
+  const std::string moved = line_with(lines, "source move 0 xyz:");
+  EXPECT_EQ(moved.substr(moved.rfind(':')), ":0") << "on the plane z = 0";
+  const Picture saved = picture_in(path("p.png"));
+  const std::string size = std::to_string(saved.width) + "x" + std::to_string(saved.height);
+  const ProgramRun replay = run_program(
+      path("."), {"view", "--replay", "log1.geotherm", "--size", size, "-o", "replayed.png"});
+  ASSERT_EQ(replay.code, 0) << replay.err;
+  EXPECT_LE(share_that_differs(saved, picture_in(path("replayed.png"))), kSamePicture);
+  quit();
+}
+
 }  // namespace
 }  // namespace geotherm::test

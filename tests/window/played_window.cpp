@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/window/played_window.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -230,6 +231,13 @@ Picture PlayedWindow::canvas_on_screen() {
 
 bool PlayedWindow::is_there(const std::string& name) const {
   return std::filesystem::exists(path(name));
+}
+
+std::string line_with(const std::vector<std::string>& lines, const std::string& beginning) {
+  const auto found = std::find_if(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.starts_with(beginning);
+  });
+  return found == lines.end() ? "" : *found;
 }
 
 }  // namespace geotherm::test

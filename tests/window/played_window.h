@@ -81,6 +81,9 @@ class PlayedWindow : public testing::Test {
   bool in_field_ = false;  ///< letters go to the field under the log
 };
 
+/// The line that begins like this; empty where there is none.
+std::string line_with(const std::vector<std::string>& lines, const std::string& beginning);
+
 // Where things are in a window of 1280 x 800 with the log shown.
 inline constexpr Spot kEar{640, 150}, kHead{530, 340}, kBody{600, 420};
 inline constexpr Spot kConstraintChoice{195, 560}, kTimeFactorField{248, 494};

@@ -14,14 +14,6 @@ bool contains(const std::vector<std::string>& lines, const std::string& line) {
   return std::find(lines.begin(), lines.end(), line) != lines.end();
 }
 
-/// The line that begins like this; empty where there is none.
-std::string line_with(const std::vector<std::string>& lines, const std::string& beginning) {
-  const auto found = std::find_if(lines.begin(), lines.end(), [&](const std::string& line) {
-    return line.starts_with(beginning);
-  });
-  return found == lines.end() ? "" : *found;
-}
-
 /// Of a .csv: one line of names, then vertex and distance.
 std::vector<double> distances_in(const std::string& path) {
   std::istringstream text(bytes_of(path));
