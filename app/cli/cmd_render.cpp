@@ -108,7 +108,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   figures.vertices = mesh->vertex_count();
   figures.faces = mesh->face_count();
   warnings = model->notes;
-  PictureData data = picture_of(*mesh, model->volume);
+  PictureData data = picture_of(*mesh, tets_of(*model));
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_face_values(data, *mesh, view, nullptr);
@@ -133,7 +133,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
                   std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
   }
-  add_sources(data, *mesh, solved->sources);
+  add_sources(data, *mesh, solved->sources, places_in_cells(*model, solved->sources));
   add_distances(data, solved->result.distances);
   data.nearest = solved->result.nearest_source;
   if (view == View::kExactError) {

@@ -99,16 +99,8 @@ bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
   return volume > 0;
 }
 
-Vec3 position_at(const TetMesh& volume, const CellPoint& point) {
-  Vec3 position = Vec3::Zero();
-  const Tet& tet = volume.tets()[static_cast<std::size_t>(point.cell)];
-  for (std::size_t k = 0; k < tet.size(); ++k) {
-    position += point.weights[k] * volume.positions()[static_cast<std::size_t>(tet[k])];
-  }
-  return position;
-}
-
-void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources) {
+void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources,
+                 std::span<const Vec3> in_cells) {
   data.sources.clear();
   const SceneSpace scene(data.centre, data.model_per_scene);
   std::set<Index> on_curves;
@@ -121,8 +113,8 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
     const PictureData::Vector place = scene.of(position_at(mesh, point));
     data.sources.push_back({place, place});
   }
-  for (const CellPoint& point : sources.cell_points) {
-    const PictureData::Vector place = scene.of(position_at(*data.volume, point));
+  for (const Vec3& at : in_cells) {
+    const PictureData::Vector place = scene.of(at);
     data.sources.push_back({place, place});
   }
 }

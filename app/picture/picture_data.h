@@ -79,11 +79,9 @@ PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> 
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
-/// Where a point of a tet is, model units.
-Vec3 position_at(const TetMesh& volume, const CellPoint& point);
-
-/// Sets where distance is 0. Precondition: the sources lie on the mesh, or in the data's volume.
-void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources);
+/// Sets where distance is 0. `in_cells`: where those are that lie in cells of a space.
+void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& sources,
+                 std::span<const Vec3> in_cells = {});
 
 /// sRGB of a line of this name: the fields that paths follow (geodesic, heat, distance) have
 /// colours that are found on all of the colour maps, others are white.

@@ -94,8 +94,9 @@ std::string caption_of(const Explored& explored, Shown shown) {
 
 void set_answer(PictureData& data, const Explored& explored, Shown shown, View view,
                 const Answer& answer) {
-  const TriangleMesh& mesh = *explored.model->model.mesh;
-  add_sources(data, mesh, explored.set);
+  const Model& model = explored.model->model;
+  const TriangleMesh& mesh = *model.mesh;
+  add_sources(data, mesh, explored.set, places_in_cells(model, explored.set));
   add_paths(data, mesh, explored.paths);
   if (view == View::kExactError) {  // nothing, where nothing is known of the error
     if (answer.error && !answer.error->values.empty()) {

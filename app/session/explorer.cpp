@@ -35,8 +35,8 @@ std::shared_ptr<const Explored::Difference> difference_of(const Answer& a, const
 void add_places(const ResolvedSources& placed, int entry, const Model& model,
                 std::vector<SourcePlace>& places) {
   const TriangleMesh& mesh = *model.mesh;
-  for (const CellPoint& point : placed.set.cell_points) {  // each an entry of its own
-    places.push_back({entry, {}, position_at(*model.volume, point), true});
+  for (const Vec3& place : places_in_cells(model, placed.set)) {  // each an entry of its own
+    places.push_back({entry, {}, place, true});
   }
   const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
   for (const SurfacePoint& point : placed.set.points) {
@@ -108,7 +108,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
        model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
   }
-  auto base = std::make_shared<PictureData>(picture_of(*mesh, model->model.volume));
+  auto base = std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
   Explored first;

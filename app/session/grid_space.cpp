@@ -87,6 +87,11 @@ Result<TriangleMesh> GridSpace::drawn() const try {
   return Error{ErrorCode::kOutOfMemory, "the memory ended while the squares of a grid were made"};
 }
 
+std::vector<Index> GridSpace::corners_of(Index cell) const {
+  const auto& corners = lattice_->cell(cell).corners;
+  return {corners.begin(), corners.begin() + (1 << lattice_->dimension())};
+}
+
 std::string GridSpace::described() const {
   const Grid& grid = *grid_;
   std::string size, spacing;

@@ -27,6 +27,7 @@ class GridSpace final : public Space {
   Result<TriangleMesh> drawn() const;
 
   Index cell_count() const override { return lattice_->cell_count(); }
+  std::vector<Index> corners_of(Index cell) const override;
   std::array<Index, 3> size() const override { return grid_->size; }
   std::string described() const override;
   std::vector<Index> boundary_vertices() const override;

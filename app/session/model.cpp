@@ -62,7 +62,7 @@ Model model_of(MeshFile file, std::string name, const std::string& path, double 
 Result<Model> model_of_volume(TetFile file, std::string name, const std::string& path) {
   auto space = TetSpace::build(std::move(file.mesh));
   if (!space) return space.error();
-  const auto positions = (*space)->volume().positions();
+  const auto positions = (*space)->tets()->positions();
   auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
   if (!mesh) return mesh.error();
   Model model{std::move(name), path, std::make_shared<const TriangleMesh>(*std::move(mesh)), 0, {}};
@@ -305,6 +305,22 @@ std::vector<std::filesystem::path> folders() {
 
 std::string_view domain_name(const Model& model) {
   return model.space ? model.space->words().domain : model.from_points ? "points" : "triangles";
+}
+
+std::vector<Vec3> places_in_cells(const Model& model, const SourceSet& sources) {
+  std::vector<Vec3> out;
+  for (const CellPoint& point : sources.cell_points) {
+    const std::vector<Index> corners = model.space->corners_of(point.cell);
+    Vec3& place = out.emplace_back(Vec3::Zero());
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      place += point.weights[k] * model.mesh->positions()[corners[k]];
+    }
+  }
+  return out;
+}
+
+std::shared_ptr<const TetMesh> tets_of(const Model& model) {
+  return model.space ? model.space->tets() : nullptr;
 }
 
 Result<void> refuse_space(const Model& model, std::string_view what) {

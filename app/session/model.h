@@ -42,8 +42,6 @@ struct ModelReading {
   ModelDomain domain = ModelDomain::kAuto;
   std::string format;          ///< obj, ply, off or stl; empty: what the extension says
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
-
-  ModelDomain domain = ModelDomain::kAuto;  ///< kAuto: what the file holds
   GridValues grid = GridValues::kAuto;
 
   bool operator==(const ModelReading&) const = default;
@@ -95,6 +93,12 @@ struct BundledModel {
 
 /// "triangles", "points" or what its space is called: what a model's file holds.
 std::string_view domain_name(const Model& model);
+
+/// Where the sources in cells of its space are, model units.
+std::vector<Vec3> places_in_cells(const Model& model, const SourceSet& sources);
+
+/// The tets that slices cut; null where there are none.
+std::shared_ptr<const TetMesh> tets_of(const Model& model);
 
 /// Refuses what is done on triangle meshes alone. `what`: "paths are". Errors: kBadInput, where the
 /// model is another space.

@@ -6,6 +6,7 @@
 
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
+#include "geotherm/heat_method.h"
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::app {

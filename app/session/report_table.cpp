@@ -72,7 +72,7 @@ std::string sources_in_words(const SourceSet& sources) {
     text += (text.empty() ? "" : ", ") + counted(inside, "point in a face", "points in faces");
   if (!sources.cell_points.empty()) {
     text += (text.empty() ? "" : ", ") +
-            counted(std::ssize(sources.cell_points), "point in a tet", "points in tets");
+            counted(std::ssize(sources.cell_points), "point in a cell", "points in cells");
   }
   if (!sources.edges.empty()) {
     text += ", " + counted(static_cast<std::int64_t>(sources.edges.size()), "edge", "edges");

@@ -40,6 +40,11 @@ Result<std::shared_ptr<const TetSpace>> TetSpace::build(TetMesh volume) {
       std::make_shared<const TetMesh>(std::move(volume)), *std::move(border), std::move(used)));
 }
 
+std::vector<Index> TetSpace::corners_of(Index cell) const {
+  const Tet& tet = volume_->tets()[static_cast<std::size_t>(cell)];
+  return {tet.begin(), tet.end()};
+}
+
 std::string TetSpace::described() const {
   return grouped(cell_count()) + " tets; faces and edges are its border's";
 }
@@ -90,6 +95,12 @@ Result<std::shared_ptr<const PolygonSpace>> PolygonSpace::build(const PolygonMes
   return std::shared_ptr<const PolygonSpace>(new PolygonSpace(
       std::make_shared<const CellComplex>(*std::move(cells)),
       std::make_shared<const TriangleMesh>(*std::move(triangles)), std::move(used)));
+}
+
+std::vector<Index> PolygonSpace::corners_of(Index cell) const {
+  const auto place = std::ranges::lower_bound(cells_->numbers, cell) - cells_->numbers.begin();
+  const auto corners = cells_->corners_of(static_cast<Index>(place));
+  return {corners.begin(), corners.end()};
 }
 
 std::string PolygonSpace::described() const {

@@ -46,6 +46,10 @@ class Space {
   MethodKind rival() const { return rival_; }
 
   virtual Index cell_count() const = 0;
+  /// The vertices of a cell as sources number it, in the order of their weights.
+  virtual std::vector<Index> corners_of(Index cell) const = 0;
+  /// What slices cut, where that is tets: drawn as Model::mesh otherwise.
+  virtual std::shared_ptr<const TetMesh> tets() const { return nullptr; }
   /// Samples along x, y and z; zeros where vertices are no samples of a grid.
   virtual std::array<Index, 3> size() const { return {}; }
   /// What `info` says of it.
@@ -88,7 +92,8 @@ class TetSpace final : public Space {
   /// Errors: those of boundary().
   static Result<std::shared_ptr<const TetSpace>> build(TetMesh volume);
 
-  const TetMesh& volume() const { return *volume_; }
+  std::vector<Index> corners_of(Index cell) const override;
+  std::shared_ptr<const TetMesh> tets() const override { return volume_; }
   const TetBoundary& border() const { return border_; }
 
   Index cell_count() const override { return volume_->tet_count(); }
@@ -118,6 +123,7 @@ class PolygonSpace final : public Space {
   const std::shared_ptr<const TriangleMesh>& triangles() const { return triangles_; }
 
   Index cell_count() const override { return cells_->cell_count(); }
+  std::vector<Index> corners_of(Index cell) const override;
   std::string described() const override;
   std::vector<Index> boundary_vertices() const override;
   /// The nearest vertex of the nearest triangle.
