@@ -19,18 +19,21 @@ TextTable two_columns() {
 std::string ms(double value) { return milliseconds(value) + " ms"; }
 std::string mb(double value) { return milliseconds(value) + " MB"; }
 
-/// `refined`: the method's faces are not those of the mesh.
-std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, bool refined) {
+/// `other`: the method works on other cells than the faces of the mesh.
+std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, bool other) {
   const TimeStep& step = method.options().time_step;
   const std::string factor = significant(step.factor);
   const auto [least, most] = method.t_range();
   const bool several = least < most;
-  const bool other_edge = several || refined;
+  const bool other_edge = several || other;
   const std::string of = several ? " of the largest component; " + significant(least) + " to " +
                                        significant(most) + " in all"
                                  : "";
   const std::string for_sizes =
-      method.grading() == 1 ? "" : ", for m = " + factor + " and faces of many sizes";
+      method.grading() == 1
+          ? ""
+          : ", for m = " + factor +
+                (method.refinement().points > 0 ? " and faces of many sizes" : "");
   switch (step.rule) {
     case TimeRule::kMeanEdge:
       return significant(method.t()) + " = " + significant(step.factor * method.grading()) +
@@ -105,7 +108,8 @@ void add_heat_rows(TextTable& table, const Answer& figures, const HeatMethod& me
   const HeatOptions& options = method.options();
   table.add_row({"backend", figures.result.backend + ", " +
                                 counted(thread_count(options.threads), "thread", "threads")});
-  table.add_row({"t", time_in_words(method, mesh, figures.options.refine > 0)});
+  table.add_row({"t", time_in_words(method, mesh,
+                                    figures.options.refine > 0 || figures.model.space != nullptr)});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
                                ", boundary " + to_text(method.boundary()) + ", " +
                                to_text(options.variant) + ", " + to_text(options.precision) +

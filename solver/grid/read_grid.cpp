@@ -141,7 +141,8 @@ GridFile finish_grid(io::RawGrid raw, GridValues values) {
     out.grid.spacing[e] = raw.spacing[e];
   }
   out.grid.origin = raw.origin;
-  out.grid.speeds = std::move(raw.values);
+  const bool one = std::ranges::all_of(raw.values, [](double speed) { return speed == 1; });
+  if (!one) out.grid.speeds = std::move(raw.values);
   out.notes = std::move(raw.notes);
   if (auto valid = check_grid(out.grid); !valid) throw io::ReadFailure{valid.error().message};
   return out;

@@ -19,6 +19,12 @@ namespace {
 /// Share of the work at which the analysis begins, and ends.
 constexpr double kGridAnalyzedFrom = 0.4, kGridAnalyzedTo = 0.7;
 
+/// The time in squares of the spacing where speeds are the same: directions are right for short
+/// times, too (GridField::straighten()), and heat turns corners of walls the closer the shorter
+/// they are: 3.3 % of error in a maze, in place of 6.4 %. Where speeds differ, slow samples need
+/// longer ones: with 1/4 the error of two half planes is 1 % in place of 0.6 %.
+constexpr double kUniformTime = 0.25;
+
 class GridInput final : public Domain::Input {
  public:
   explicit GridInput(std::shared_ptr<const GridLattice> lattice) : lattice_(std::move(lattice)) {}
@@ -99,7 +105,10 @@ class GridInput final : public Domain::Input {
       size.mean_edge += width;
       size.area += width * width;
     });
-    for (ComponentSize& size : out.components) size.mean_edge /= size.cells;
+    for (ComponentSize& size : out.components) {
+      size.mean_edge /= size.cells;
+      if (lattice_->is_uniform()) size.grading = kUniformTime;
+    }
   }
 
   std::shared_ptr<const GridLattice> lattice_;

@@ -6,13 +6,14 @@
 
 #include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
+#include "solver/linear/multigrid.h"
 
 namespace geotherm {
 namespace {
 
 constexpr const char* kCgName = "cg";
 
-/// Relative residual, in the norm of the diagonal preconditioner, at which a column is solved.
+/// Relative residual, in the norm of the preconditioner, at which a column is solved.
 constexpr double kCgTolerance = 1e-13;
 /// Iterations allowed: conjugate gradients need about the square root of the condition number,
 /// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
@@ -43,7 +44,7 @@ double share_done(double fallen_to) {
 class ConjugateGradient final : public Factorization {
  public:
   explicit ConjugateGradient(std::shared_ptr<const SymmetricOperator> matrix)
-      : matrix_(std::move(matrix)) {}
+      : matrix_(std::move(matrix)), multigrid_(Multigrid::build(*matrix_)) {}
 
   Result<SolveReport> solve(Block& x, std::span<const Index> /*support*/, const Progress& progress,
                             int /*threads*/) const override {
@@ -67,8 +68,8 @@ class ConjugateGradient final : public Factorization {
   Index size() const override { return matrix_->size(); }
 
  private:
-  /// Solves for one right side, in place. The preconditioner is the diagonal; the norm that is
-  /// watched is that of the preconditioned residual, which is scaled like the unknowns.
+  /// Solves for one right side, in place. The preconditioner is multigrid or the diagonal; the norm
+  /// that is watched is that of the preconditioned residual, which is scaled like the unknowns.
   Result<SolveReport> solve_one(std::vector<double>& b, const Progress& progress) const {
     const auto n = static_cast<std::size_t>(size());
     const std::span<const double> diagonal = matrix_->diagonal();
@@ -76,6 +77,7 @@ class ConjugateGradient final : public Factorization {
     project(kernel, b);
     std::vector<double> r = b, z(n), p(n), q(n), x(n, 0.0);
     const auto precondition = [&] {
+      if (multigrid_) return multigrid_->apply(r, z);
       for (std::size_t i = 0; i < n; ++i) z[i] = r[i] / diagonal[i];
       project(kernel, z);
     };
@@ -118,7 +120,11 @@ class ConjugateGradient final : public Factorization {
       }
       precondition();
       const double next = std::inner_product(r.begin(), r.end(), z.begin(), 0.0);
-      const double beta = next / rho;
+      // Flexible: what z has of the step before is taken off, not only where the preconditioner is
+      // linear. r became less by step q.
+      const double beta = multigrid_
+                              ? -step * std::inner_product(z.begin(), z.end(), q.begin(), 0.0) / rho
+                              : next / rho;
       for (std::size_t i = 0; i < n; ++i) p[i] = z[i] + beta * p[i];
       rho = next;
     }
@@ -128,6 +134,7 @@ class ConjugateGradient final : public Factorization {
   }
 
   std::shared_ptr<const SymmetricOperator> matrix_;
+  std::unique_ptr<const Multigrid> multigrid_;  ///< null: the diagonal
 };
 
 class CgAnalysis final : public Analysis {

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "app/picture/picture_scale.h"
+#include "app/session/model.h"
+#include "app/session/space.h"
 #include "bench/models/volumes.h"
 #include "tests/support/shapes.h"
 

@@ -93,7 +93,8 @@ TEST_F(ProgramOnGrids, RowsAndPairsAreThoseOfOneSource) {
   const auto one = distances({"-s", "900"});
   constexpr double kBlocks = 1e-9;  // blocks of two columns round otherwise
   for (std::size_t v = 0; v < one.size(); ++v) {
-    if (one[v] < kUnreached) EXPECT_NEAR(rows[one.size() + v], one[v], kBlocks);
+    if (one[v] == kUnreached) continue;
+    EXPECT_NEAR(rows[one.size() + v], one[v], kBlocks);
   }
   run({"solve", "maze.npy", "-s", "5", "-s", "900", "--pairs", "-o", "pairs.csv"});
 }

@@ -153,9 +153,6 @@ TEST_P(GridDistances, AreThoseOfTheClosedForm) {
     const GridError error = error_of(c.grid, found, c.exact);
     const double most = method == MethodKind::kHeat ? c.most_heat : c.most_marching;
     EXPECT_LE(error.mean, most) << to_text(method) << ", largest " << error.largest;
-    RecordProperty(to_text(method), std::to_string(error.mean));
-    std::printf("%s %s mean %.3g largest %.3g\n", c.name.c_str(), to_text(method).c_str(),
-                error.mean, error.largest);
   }
 }
 

@@ -52,8 +52,8 @@ class HeatMethod final : public DistanceMethod {
   static Result<HeatMethod> build(std::shared_ptr<const CellComplex> cells,
                                   const HeatOptions& options = {}, const Progress& progress = {});
 
-  /// The same on a grid. Errors: the same, and those of check_grid(). Cost: by a backend without
-  /// factors some 200 bytes a sample.
+  /// The same on a grid. Errors: the same, and those of check_grid(). Cost: by the backend cg some
+  /// 400 bytes a sample.
   static Result<HeatMethod> build(std::shared_ptr<const Grid> grid, const HeatOptions& options = {},
                                   const Progress& progress = {});
 
@@ -76,7 +76,8 @@ class HeatMethod final : public DistanceMethod {
   /// faces (of several, the first).
   double t() const;
   double relative_t() const;  ///< the same in squares of that component's mean edge
-  /// Of that component, Refinement::grading: with m = 1 what relative_t() is.
+  /// Of that component, Refinement::grading: with m = 1 what relative_t() is. 1/4 on grids with one
+  /// speed.
   double grading() const;
   /// The least and the largest time of a component, model units squared.
   std::array<double, 2> t_range() const;
