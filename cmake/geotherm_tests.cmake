@@ -25,9 +25,9 @@ elseif("address" IN_LIST GEOTHERM_SANITIZE)
        "UBSAN_OPTIONS=print_stacktrace=1")
 endif()
 
-# Under the address sanitizer a process takes longer to start than most tests take to run.
+# Under a sanitizer a process takes longer to start than most tests take to run.
 set(GEOTHERM_TEST_SHARDS 0)
-if("address" IN_LIST GEOTHERM_SANITIZE)
+if(GEOTHERM_SANITIZE)
   set(GEOTHERM_TEST_SHARDS 8)
 endif()
 

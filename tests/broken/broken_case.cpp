@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "tests/support/sanitized.h"
+
 namespace geotherm::test {
 namespace {
 
@@ -93,13 +95,7 @@ int broken_mesh_count(int many, int few) {
   if (const char* const asked = std::getenv("GEOTHERM_BROKEN_MESHES")) {
     return static_cast<int>(std::clamp(std::strtol(asked, nullptr, 10), 0L, 1'000'000'000L));
   }
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(many);
-  return few;
-#else
-  static_cast<void>(few);
-  return many;
-#endif
+  return kSanitized ? few : many;
 }
 
 }  // namespace geotherm::test

@@ -6,18 +6,13 @@
 
 #include <vector>
 
+#include "tests/support/sanitized.h"
+
 namespace geotherm {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 #ifdef __GLIBC__
-constexpr bool kOfGlibc = !kSanitized;
+constexpr bool kOfGlibc = !test::kSanitized;
 #else
 constexpr bool kOfGlibc = false;
 #endif

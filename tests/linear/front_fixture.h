@@ -6,6 +6,7 @@
 #include "solver/linear/multifrontal/front_factor.h"
 #include "tests/linear/backend_fixture.h"
 #include "tests/support/mesh_zoo.h"
+#include "tests/support/sanitized.h"
 
 namespace geotherm::test {
 
@@ -66,6 +67,6 @@ inline std::vector<double> random_numbers(Index count, unsigned seed) {
 }
 
 /// Large enough for several tasks, with fronts of one to many blocks of columns.
-inline Draft many_tasks() { return torus(150, 100, 0.4); }
+inline Draft many_tasks() { return kSanitized ? torus(90, 60, 0.4) : torus(150, 100, 0.4); }
 
 }  // namespace geotherm::test

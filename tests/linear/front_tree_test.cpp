@@ -126,7 +126,8 @@ TEST(FrontTree, StoresFewZeros) {
 }
 
 TEST(FrontTree, IsTheSameForAnyNumberOfThreads) {
-  const Fronts one(many_tasks(), 1), three(many_tasks(), 3);
+  const Draft draft = torus(150, 100, 0.4);
+  const Fronts one(draft, 1), three(draft, 3);
   EXPECT_EQ(one.tree.place_in_parent, three.tree.place_in_parent);
   EXPECT_EQ(one.tree.entry_offset, three.tree.entry_offset);
 }

@@ -10,11 +10,12 @@
 
 #include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
+#include "tests/support/sanitized.h"
 
 namespace geotherm::test {
 namespace {
 
-constexpr int kInterruptions = 25;
+constexpr int kInterruptions = kSanitized ? 8 : 25;
 constexpr std::uint64_t kSeed = 20252;
 constexpr std::size_t kBytes = 4 << 20;  // most of the time of a write lies between begin and end
 

@@ -158,7 +158,7 @@ TEST(ThrowingProgressParallel, PassesThroughPathsTreesAndGenerators) {
   EXPECT_THROW(static_cast<void>(finder.find(ends, {}, refusing)), std::system_error);
   expect_passed_on([&](const Progress& progress) { EXPECT_TRUE(RayTree::build(mesh, progress)); });
   expect_passed_on(
-      [&](const Progress& progress) { EXPECT_TRUE(generate_model("gargoyle", 5000, progress)); });
+      [&](const Progress& progress) { EXPECT_TRUE(generate_model("bunny", 1000, progress)); });
 }
 
 }  // namespace

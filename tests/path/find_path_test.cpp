@@ -14,6 +14,7 @@
 #include "solver/path/streamline.h"
 #include "tests/path/path_support.h"
 #include "tests/support/mesh_zoo.h"
+#include "tests/support/sanitized.h"
 
 namespace geotherm::test {
 namespace {
@@ -26,7 +27,7 @@ TEST(Geodesic, IsTheStraightLineOnAPlane) {
   const PathFinder finder = finder_on(mesh);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> share(0.05, 0.45);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < (kSanitized ? 5 : 20); ++i) {
     const auto place = [&] {
       const double a = share(random), b = share(random);
       return SurfacePoint::in_face(static_cast<Index>(random() % 800), {a, b, 1 - a - b});
@@ -222,7 +223,7 @@ TEST_P(GeodesicOn, IsSoundBetweenAnyTwoPoints) {
   const PathFinder finder = finder_on(mesh);
   std::mt19937 random(8);
   std::uniform_real_distribution<double> share(0, 0.5);
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < (kSanitized ? 2 : 6); ++i) {
     const auto place = [&](bool bare) {
       if (bare) return vertex(static_cast<Index>(random() % mesh->positions().size()));
       const double a = share(random), b = share(random);

@@ -166,7 +166,7 @@ TEST(PointSurfaces, DependNeitherOnUnitsNorOnWhereTheyLie) {
 }
 
 TEST(PointSurfaces, HaveTheSameBitsWithAnyNumberOfThreads) {
-  SamplePoints points = sphere_points(40000);  // enough for four threads
+  SamplePoints points = sphere_points(33000);  // enough for two threads
   add_noise(points, 0.002, 3);
   const PointCloud cloud = cloud_of(points.positions);
   const auto one = surface_of(cloud, {}, {}, 1), four = surface_of(cloud, {}, {}, 4);

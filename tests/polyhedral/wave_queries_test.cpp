@@ -8,7 +8,6 @@
 #include <limits>
 #include <span>
 
-#include "bench/models/generate.h"
 #include "tests/polyhedral/wave_fixture.h"
 #include "tests/support/compare.h"
 
@@ -77,9 +76,7 @@ TEST_P(WaveQueries, LeaveNothingBehind) {
 }
 
 TEST_P(WaveQueries, StopWhenTheyAreToldTo) {
-  auto big = generate_model("bunny", 60000);
-  ASSERT_TRUE(big) << big.error().message;
-  const auto large = method_of(std::make_shared<const TriangleMesh>(*std::move(big)), GetParam());
+  const auto large = method_of(finish(torus(300, 100, 0.4)), GetParam());
   const SourceSet set = SourceSet::of_vertices({0});
   const auto before = solve(*large, set).distances;
   int calls = 0;
