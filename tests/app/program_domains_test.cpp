@@ -105,13 +105,21 @@ TEST_F(ProgramInVolumes, RowsOfManySourcesAreThoseOfOne) {
 
 TEST_F(ProgramInVolumes, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"path", "ball.mesh", "--from", "0", "--to", "5", "-o", "p.obj"},
-                 "paths are of surfaces, and ball is a volume");
-  expect_refused({"study", "ball.mesh"}, "studies are of surfaces");
-  expect_refused({"sample", "ball.mesh", "-n", "3"}, "samples are of surfaces");
-  expect_refused({"solve", "ball.mesh", "-s", "0", "--method", "exact"}, "of surfaces");
+                 "paths are of triangle meshes, and ball is a volume");
+  expect_refused({"study", "ball.mesh"}, "studies are of triangle meshes");
+  expect_refused({"sample", "ball.mesh", "-n", "3"}, "samples are of triangle meshes");
+  expect_refused({"solve", "ball.mesh", "-s", "0", "--method", "exact"}, "is of surfaces");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--refine", "1"}, "refined");
   expect_refused({"solve", "ball.mesh", "-s", "0", "--weld", "0"}, "welded vertices are");
   expect_refused({"solve", "bunny", "-s", "0", "-o", "d.vtu"}, "holds tets");
+}
+
+TEST_F(ProgramInVolumes, AsTrianglesAreTheirBorder) {
+  const std::string source = std::to_string(boundary(*volume)->vertices.front());
+  const Json report =
+      json({"solve", "ball.mesh", "--domain", "triangles", "-s", source, "--json", "-"});
+  EXPECT_FALSE(report["model"].contains("domain"));
+  EXPECT_EQ(report["model"]["faces"], std::ssize(boundary(*volume)->faces));
 }
 
 TEST_F(ProgramInVolumes, CompareHoldsBackendsAgainstFastMarching) {
@@ -121,6 +129,47 @@ TEST_F(ProgramInVolumes, CompareHoldsBackendsAgainstFastMarching) {
   for (const Json& row : rows) {
     EXPECT_EQ(row["error_reference"], "fast-marching") << row;
     EXPECT_LE(row["mean_error"].get<double>(), 0.1) << row;
+  }
+}
+
+TEST_F(Program, FacesStayPolygonsWhereTheyAreAskedFor) {
+  constexpr int kSquares = 30;
+  std::string text;
+  for (int i = 0; i <= kSquares; ++i) {
+    for (int j = 0; j <= kSquares; ++j) {
+      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\n";
+    }
+  }
+  for (int i = 0; i < kSquares; ++i) {
+    for (int j = 1; j <= kSquares; ++j) {
+      const int a = i * (kSquares + 1) + j, b = a + kSquares + 1;
+      text += "f";
+      for (const int corner : {a, b, b + 1, a + 1}) text += " " + std::to_string(corner);
+      text += "\n";
+    }
+  }
+  folder.write("quads.obj", text);
+  const std::vector<std::string> words = {"--domain", "polygons", "--json", "-"};
+  std::vector<std::string> solve = {"solve", "quads.obj", "-s", "xyz:15.2:14.9:0"};
+  solve.insert(solve.end(), words.begin(), words.end());
+  const Json report = json(solve);
+  EXPECT_EQ(report["model"]["domain"], "polygons");
+  EXPECT_EQ(report["model"]["polygons"], kSquares * kSquares);
+  EXPECT_EQ(report["sources"][0], 15 * (kSquares + 1) + 15);
+  EXPECT_EQ(report["error"]["reference"], "wavefront");
+  EXPECT_LE(report["error"]["mean_relative"].get<double>(), 0.03);
+  EXPECT_NE(run({"info", "quads.obj", "--domain", "polygons"}).out.find("900 polygons"),
+            std::string::npos);
+  for (const auto& [arguments, says] :
+       {std::pair<std::vector<std::string>, std::string>{
+            {"path", "quads.obj", "--from", "0", "--to", "9", "--domain", "polygons"},
+            "with --domain triangles its triangulation is one"},
+        {{"solve", "quads.obj", "-s", "0", "--domain", "points"}, "of points"},
+        {{"solve", "quads.obj", "-s", "0", "--domain", "polygons", "--refine", "1"},
+         "polygons cannot be refined"}}) {
+    const ProgramRun refused = run_program(folder.path("."), arguments);
+    EXPECT_NE(refused.code, 0);
+    EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
   }
 }
 

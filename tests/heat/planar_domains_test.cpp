@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
 #include "tests/support/cells.h"
 #include "tests/support/mesh_zoo.h"
 #include "tests/support/solve.h"
@@ -63,6 +68,107 @@ TEST(Domains, OnQuadsErrorsFallWithTheSides) {
     before = error;
   }
   EXPECT_LE(before, 0.02);
+}
+
+/// A torus of quads, none of them planar.
+PolygonMesh quad_torus() {
+  constexpr Index kRound = 64, kAcross = 28;
+  PolygonMesh out{{}, {0}, {}};
+  for (Index i = 0; i < kRound; ++i) {
+    for (Index j = 0; j < kAcross; ++j) {
+      const double a = 2 * std::numbers::pi * i / kRound, b = 2 * std::numbers::pi * j / kAcross;
+      const double r = 1 + 0.4 * std::cos(b);
+      out.positions.emplace_back(r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b));
+      const Index next = (i + 1) % kRound, above = (j + 1) % kAcross;
+      out.corners.insert(out.corners.end(), {i * kAcross + j, next * kAcross + j,
+                                             next * kAcross + above, i * kAcross + above});
+      out.start.push_back(std::ssize(out.corners));
+    }
+  }
+  return out;
+}
+
+/// Of every four squares of a plane three are one face, which is concave.
+PolygonMesh corner_tiles() {
+  constexpr Index kSquares = 40;
+  PolygonMesh out = quads(kSquares, 0);
+  out.start = {0};
+  out.corners.clear();
+  const auto at = [](Index i, Index j) { return i * (kSquares + 1) + j; };
+  for (Index i = 0; i < kSquares; i += 2) {
+    for (Index j = 0; j < kSquares; j += 2) {
+      out.corners.insert(out.corners.end(),
+                         {at(i, j), at(i + 1, j), at(i + 2, j), at(i + 2, j + 1), at(i + 1, j + 1),
+                          at(i + 1, j + 2), at(i, j + 2), at(i, j + 1)});
+      out.start.push_back(std::ssize(out.corners));
+      out.corners.insert(out.corners.end(),
+                         {at(i + 1, j + 1), at(i + 2, j + 1), at(i + 2, j + 2), at(i + 1, j + 2)});
+      out.start.push_back(std::ssize(out.corners));
+    }
+  }
+  return out;
+}
+
+/// Hexagons over a wave.
+PolygonMesh honeycomb() {
+  constexpr int kRows = 26;
+  PolygonMesh out{{}, {0}, {}};
+  std::map<std::pair<int, int>, Index> numbers;  // by thirds and halves of a side
+  for (int row = 0; row < kRows; ++row) {
+    for (int column = 0; column < kRows; ++column) {
+      const int x = 3 * column, y = 2 * row + column % 2;
+      for (const auto& [dx, dy] : {std::pair{2, 0}, {1, 1}, {-1, 1}, {-2, 0}, {-1, -1}, {1, -1}}) {
+        const auto [found, is_new] =
+            numbers.try_emplace({x + dx, y + dy}, static_cast<Index>(out.positions.size()));
+        if (is_new) {
+          const double u = (x + dx) / 2.0 / kRows, v = (y + dy) * std::sqrt(0.75) / kRows;
+          out.positions.emplace_back(u, v, 0.05 * std::sin(3 * u) * std::cos(2 * v));
+        }
+        out.corners.push_back(found->second);
+      }
+      out.start.push_back(std::ssize(out.corners));
+    }
+  }
+  return out;
+}
+
+class Polygons : public testing::TestWithParam<PolygonMesh (*)()> {};
+
+TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
+  const PolygonMesh polygons = GetParam()();
+  const auto triangles = std::make_shared<const TriangleMesh>(*triangulated(polygons));
+  const auto as_polygons = HeatMethod::build(shared(cells_of(polygons)));
+  const auto as_triangles = HeatMethod::build(triangles);
+  const auto wavefront = WavefrontMethod::build(triangles);
+  ASSERT_TRUE(as_polygons && as_triangles && wavefront);
+  double of_polygons = 0, of_triangles = 0;
+  for (const Index source : {5, 400, 900}) {
+    const auto sources = SourceSet::of_vertices({source});
+    const auto exact = wavefront->solve(sources)->distances;
+    const auto add = [&exact](const std::vector<double>& distances, double& sum) {
+      for (std::size_t v = 0; v < exact.size(); ++v) {
+        if (exact[v] > 0) sum += std::abs(distances[v] - exact[v]) / exact[v];
+      }
+    };
+    add(as_polygons->solve(sources)->distances, of_polygons);
+    add(as_triangles->solve(sources)->distances, of_triangles);
+  }
+  EXPECT_LE(of_polygons, 1.3 * of_triangles);  // users ask for no more
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Polygons, testing::Values(quad_torus, corner_tiles, honeycomb));
+
+TEST(Domains, PolygonsWithTooManyCornersAreOneLine) {
+  PolygonMesh disc{{}, {0, 1200}, {}};
+  for (Index k = 0; k < 1200; ++k) {
+    const double a = 2 * std::numbers::pi * k / 1200;
+    disc.positions.emplace_back(std::cos(a), std::sin(a), 0);
+    disc.corners.push_back(k);
+  }
+  const auto made = cells_of(disc);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message.find("has 1200 corners"), std::string::npos);
+  EXPECT_EQ(triangulated(disc)->face_count(), 1198);
 }
 
 TEST(Domains, QuadsThatAreNotPlanarKeepTheirDistances) {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "geotherm/domains.h"
 #include "solver/mesh/io/raw_mesh.h"
 #include "tests/mesh/mesh_files.h"
 
@@ -166,6 +168,39 @@ TEST(Polygons, ThatAreTooMuchWorkAreRefused) {
   EXPECT_NE(sentence(file.error()).find("a polygon with 60000 corners"), std::string::npos)
       << file.error().message;
   EXPECT_EQ(sentence(file.error()).find('\n'), std::string::npos);
+}
+
+class PolygonFiles : public testing::TestWithParam<Sample> {};
+
+TEST_P(PolygonFiles, KeepTheirFaces) {
+  const TemporaryDirectory folder;
+  const auto mesh = read_polygons(folder.write(GetParam().file, GetParam().bytes));
+  ASSERT_TRUE(mesh) << sentence(mesh.error());
+  if (GetParam().file.ends_with(".stl")) {  // triangles alone
+    EXPECT_EQ(mesh->start.size(), 7U);
+    return;
+  }
+  EXPECT_EQ(mesh->positions, pyramid_positions());
+  ASSERT_EQ(mesh->start.size(), 6U);
+  std::vector<std::int64_t> corners;
+  for (std::size_t f = 1; f < 6; ++f) corners.push_back(mesh->start[f] - mesh->start[f - 1]);
+  EXPECT_EQ(std::ranges::count(corners, 3), 4);
+  EXPECT_EQ(std::ranges::count(corners, 4), 1);
+  const auto triangles = triangulated(*mesh);
+  ASSERT_TRUE(triangles);
+  EXPECT_TRUE(std::ranges::equal(triangles->faces(), pyramid_faces()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, PolygonFiles, testing::ValuesIn(pyramid_samples()),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(PolygonFile, ThatCannotBeReadAreOneLine) {
+  const TemporaryDirectory folder;
+  EXPECT_EQ(read_polygons(folder.path("none.obj")).error().code, ErrorCode::kBadFile);
+  EXPECT_EQ(read_polygons(folder.write("a.foo", "x")).error().code, ErrorCode::kNotAvailable);
+  EXPECT_EQ(read_polygons(folder.write("a.obj", "v 0 0 0\n")).error().code, ErrorCode::kBadFile);
+  const PolygonMesh bad{{Vec3::Zero()}, {0, 3}, {0, 1, 2}};
+  EXPECT_NE(triangulated(bad).error().message.find("face 0 has the corner 1"), std::string::npos);
 }
 
 }  // namespace
