@@ -93,6 +93,11 @@ GridLattice::GridLattice(std::shared_ptr<const Grid> grid) : grid_(std::move(gri
     stride *= length;
   }
   uniform_ = std::ranges::all_of(grid_->speeds, [](double f) { return f == 0 || f == 1; });
+  double first = 0;
+  for (const double speed : grid_->speeds) {
+    if (first == 0) first = speed;
+    one_speed_ = one_speed_ && (speed == 0 || speed == first);
+  }
   bits_.assign(static_cast<std::size_t>(stride), 0);
   for (Index v = 0; v < stride; ++v) {
     bool whole = true;

@@ -55,6 +55,8 @@ class GridLattice {
   GridCell cell(Index sample) const;
   /// Whether every sample that passes has speed 1.
   bool is_uniform() const { return uniform_; }
+  /// Whether all samples that pass have the same speed.
+  bool has_one_speed() const { return one_speed_; }
   /// The sum of slowness^(D - 2) over the cells at the edge from here along e, each divided by the
   /// number of its edges along e.
   double edge_weight(Index sample, int e) const;
@@ -90,7 +92,7 @@ class GridLattice {
   std::array<Index, 3> stride_{}, length_{};
   std::vector<std::uint8_t> bits_;  ///< 1: a whole cell begins here; 2 << e: an edge along e
   Index cells_ = 0;
-  bool uniform_ = true;
+  bool uniform_ = true, one_speed_ = true;
 };
 
 /// The passing samples that have a neighbour, and which are neighbours: the pattern of every

@@ -23,7 +23,7 @@ constexpr double kGridAnalyzedFrom = 0.4, kGridAnalyzedTo = 0.7;
 /// times, too (GridField::straighten()), and heat turns corners of walls the closer the shorter
 /// they are: 3.3 % of error in a maze, in place of 6.4 %. Where speeds differ, slow samples need
 /// longer ones: with 1/4 the error of two half planes is 1 % in place of 0.6 %.
-constexpr double kUniformTime = 0.25;
+constexpr double kOneSpeedTime = 0.25;
 
 class GridInput final : public Domain::Input {
  public:
@@ -107,7 +107,7 @@ class GridInput final : public Domain::Input {
     });
     for (ComponentSize& size : out.components) {
       size.mean_edge /= size.cells;
-      if (lattice_->is_uniform()) size.grading = kUniformTime;
+      if (lattice_->has_one_speed()) size.grading = kOneSpeedTime;
     }
   }
 

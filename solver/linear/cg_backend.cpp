@@ -176,7 +176,8 @@ class CgBackend final : public Backend {
  public:
   std::string_view name() const override { return kCgName; }
   std::string_view description() const override {
-    return "conjugate gradients, matrix-free: least memory, slow queries, for comparison";
+    return "conjugate gradients, with multigrid where systems are large: least memory, slow "
+           "queries";
   }
   bool iterative() const override { return true; }
 

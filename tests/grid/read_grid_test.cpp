@@ -322,6 +322,12 @@ TEST(GridFiles, DistancesReadBackInTheShapeOfTheGrid) {
                        "Direction=\"1 0 0 0 -1 0 0 0 1\""),
             std::string::npos);
   EXPECT_FALSE(write_distances(directory.path("e.npy"), grid, std::vector<double>(5)));
+  ASSERT_TRUE(write_distances(directory.path("f.vti"), grid, std::vector<double>(6, 0.5)));
+  const auto back = read_grid(directory.path("f.vti"));
+  ASSERT_TRUE(back) << sentence(back.error());
+  EXPECT_EQ(back->grid.size, grid.size);
+  EXPECT_EQ(back->grid.spacing, grid.spacing);
+  EXPECT_EQ(back->grid.origin, grid.origin);
 }
 
 TEST(GridPoints, AreTheNearestThatPass) {

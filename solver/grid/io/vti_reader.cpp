@@ -110,9 +110,12 @@ class VtiFile {
     grid_.spacing = numbers<3>(tag, "Spacing", {1, 1, 1});
     const auto origin = numbers<3>(tag, "Origin", {0, 0, 0});
     const auto direction = numbers<9>(tag, "Direction", {1, 0, 0, 0, 1, 0, 0, 0, 1});
-    if (direction != std::array<double, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1}) {
+    for (std::size_t k = 0; k < 9; ++k) {
+      const bool along = k % 4 == 0;
+      if (along ? std::abs(direction[k]) == 1 : direction[k] == 0) continue;
       fail_at_tag(bytes_, tag, "the image is turned (Direction)", {"save it along the axes"});
     }
+    for (std::size_t e = 0; e < 3; ++e) grid_.spacing[e] *= direction[4 * e];
     for (std::size_t e = 0; e < 3; ++e) {
       const double count = whole_[2 * e + 1] - whole_[2 * e] + 1;
       constexpr double kMost = 1e9;
