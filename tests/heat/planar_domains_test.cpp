@@ -139,12 +139,14 @@ TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
   const auto triangles = std::make_shared<const TriangleMesh>(*triangulated(polygons));
   const auto as_polygons = HeatMethod::build(shared(cells_of(polygons)));
   const auto as_triangles = HeatMethod::build(triangles);
-  const auto wavefront = WavefrontMethod::build(triangles);
+  MethodOptions near_exact;
+  near_exact.method = MethodKind::kWavefront;
+  const auto wavefront = build_method(triangles, near_exact);
   ASSERT_TRUE(as_polygons && as_triangles && wavefront);
   double of_polygons = 0, of_triangles = 0;
   for (const Index source : {5, 400, 900}) {
     const auto sources = SourceSet::of_vertices({source});
-    const auto exact = wavefront->solve(sources)->distances;
+    const auto exact = (*wavefront)->solve(sources)->distances;
     const auto add = [&exact](const std::vector<double>& distances, double& sum) {
       for (std::size_t v = 0; v < exact.size(); ++v) {
         if (exact[v] > 0) sum += std::abs(distances[v] - exact[v]) / exact[v];

@@ -192,7 +192,7 @@ TEST_P(PolygonFiles, KeepTheirFaces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, PolygonFiles, testing::ValuesIn(pyramid_samples()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& sample) { return sample.param.name; });
 
 TEST(PolygonFile, ThatCannotBeReadAreOneLine) {
   const TemporaryDirectory folder;
