@@ -127,16 +127,16 @@ namespace {
 Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
-    // What a volume writes beside is known when the model is.
-    const bool known_of_volume = check_tet_distances_path(path).has_value();
-    if (auto known = check_distance_path(path); !known && !known_of_volume) return known;
+    // What a space writes beside is known when the model is.
+    const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
+    if (auto known = check_distance_path(path); !known && !known_of_space) return known;
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
 }
 
-/// .vtu holds tets alone. Errors: kBadInput.
+/// .vtu holds tets alone, .vti grids. Errors: kBadInput, kNotAvailable.
 Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (check_distance_path(path)) continue;
@@ -144,8 +144,10 @@ Result<void> check_outputs_of(const Model& model, const std::vector<std::string>
       if (auto known = model.space->check_path(path); !known) return known;
       continue;
     }
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + " holds tets, and " +
-                                           one_line(model.name) + " is a surface; write .vtp"};
+    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + " holds " +
+                                           (check_tet_distances_path(path) ? "tets" : "a grid") +
+                                           ", and " + one_line(model.name) +
+                                           " is a surface; write .vtp"};
   }
   return {};
 }
@@ -173,7 +175,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_source_options(command, arguments.sources);
   command
       .add_option("-o,--output", arguments.outputs,
-                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, or - for CSV on "
+                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
+                  "or - for CSV on "
                   "standard output; "
                   "may be repeated; with --each .npy, with --pairs .npy and .csv")
       ->type_name("FILE")

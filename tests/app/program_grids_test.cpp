@@ -135,6 +135,15 @@ TEST_F(ProgramOnGrids, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"solve", "bunny", "-s", "sample:0:0"}, "of grids alone");
 }
 
+TEST_F(ProgramOnGrids, DistancesReadBackFromVti) {
+  run({"solve", "box.npy", "-s", "0", "-o", "d.vti"});
+  const auto back = read_grid(folder.path("d.vti"));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->grid.size, (std::array<Index, 3>{11, 10, 9}));
+  expect_refused({"solve", "bunny", "-s", "0", "-o", "d.vti"},
+                 "holds a grid, and bunny is a surface");
+}
+
 class DrawingProgramOnGrids : public DrawingProgram {};
 
 TEST_F(DrawingProgramOnGrids, AGridIsDrawnByItsSquares) {
