@@ -133,7 +133,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
                   std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
     return data;
   }
-  add_sources(data, *mesh, solved->sources, places_in_cells(*model, solved->sources));
+  add_sources(data, *mesh, solved->sources, places_in_cells(solver.model(), solved->sources));
   add_distances(data, solved->result.distances);
   data.nearest = solved->result.nearest_source;
   if (view == View::kExactError) {

@@ -276,7 +276,8 @@ std::vector<Setting> method_settings() {
            .value_name = "KIND",
            .help = "what distance is computed in, where the file does not say or says otherwise",
            .detail = "auto takes what the file holds; polygons takes faces as they are; triangles "
-                     "cuts polygons up and takes the border of tets; points leaves faces out."}),
+                     "cuts polygons up and takes the border of tets and grids; points leaves faces "
+                     "out."}),
       {.name = "weld",
        .group = kModel,
        .value_name = "EPS",

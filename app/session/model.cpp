@@ -121,7 +121,7 @@ ModelDomain find_domain(const std::string& path, const ModelReading& reading) {
 }
 
 /// The options that only files of some domains have.
-Result<void> check_reading(const ModelReading& reading, ModelDomain domain) {
+Result<void> check_reading(const ModelReading& reading, ModelDomain domain, ModelDomain holds) {
   const auto refused = [&](const char* option, const std::string& is_of) {
     return Error{ErrorCode::kBadInput,
                  is_of + ", and the model is read as " + to_text(domain),
@@ -131,7 +131,8 @@ Result<void> check_reading(const ModelReading& reading, ModelDomain domain) {
   if (!reading.format.empty() && !of_faces) {
     return refused("format", "the format " + reading.format + " is of faces");
   }
-  if (reading.grid != GridValues::kAuto && domain != ModelDomain::kGrid) {
+  if (reading.grid != GridValues::kAuto && domain != ModelDomain::kGrid &&
+      holds != ModelDomain::kGrid) {
     return refused("grid", "what values mean is asked of grids");
   }
   return {};
@@ -142,7 +143,7 @@ Result<Model> read_model(const std::string& path, const std::string& name,
                          const ModelReading& reading, const Progress& progress) {
   const ModelDomain holds = find_domain(path, reading);
   const ModelDomain domain = reading.domain == ModelDomain::kAuto ? holds : reading.domain;
-  if (auto fits = check_reading(reading, domain); !fits) return fits.error();
+  if (auto fits = check_reading(reading, domain, holds); !fits) return fits.error();
   const auto with = [&](auto file, auto make) -> Result<Model> {
     if (!file) return file.error();
     return make(*std::move(file), name, path);
@@ -163,9 +164,10 @@ Result<Model> read_model(const std::string& path, const std::string& name,
     case ModelDomain::kTriangles:
       break;
   }
-  if (holds == ModelDomain::kTets) {
-    auto model = with(read_tets(path), model_of_volume);
-    if (model) model->space = nullptr;
+  if (holds == ModelDomain::kTets || holds == ModelDomain::kGrid) {
+    auto model = holds == ModelDomain::kTets ? with(read_tets(path), model_of_volume)
+                                             : with(read_grid(path, reading.grid), model_of_grid);
+    if (model) model->space = nullptr;  // what is drawn of it is the surface
     return model;
   }
   auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
@@ -222,7 +224,8 @@ Result<Model> bundled(const std::string& name, const ModelReading& reading,
 
 Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
   const std::string name = "standard input";
-  if (auto fits = check_reading(reading, ModelDomain::kTriangles); !fits) return fits.error();
+  if (auto fits = check_reading(reading, ModelDomain::kTriangles, ModelDomain::kTriangles); !fits)
+    return fits.error();
   if (reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles) {
     return Error{ErrorCode::kBadInput,
                  "standard input holds triangles alone",

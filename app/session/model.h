@@ -21,7 +21,7 @@ namespace geotherm::app {
 /// What a file is taken for, and distance computed in.
 enum class ModelDomain {
   kAuto,       ///< what the file holds: tets, a grid, points without faces, else triangles
-  kTriangles,  ///< polygons are triangulated, of tets the border is taken
+  kTriangles,  ///< polygons are triangulated; of tets and grids what is drawn of them is taken
   kPolygons,   ///< faces as they are
   kPoints,     ///< faces are left out
   kTets,

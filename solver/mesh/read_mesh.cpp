@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/domains.h"
 #include "geotherm/io.h"
 
 #include <algorithm>

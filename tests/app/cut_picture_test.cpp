@@ -209,7 +209,7 @@ TEST_F(CutPictures, HaveNoSourceAndNoPathInTheAir) {
 TEST_F(CutPictures, MarkSourcesInsideTetsWhereTheyAre) {
   SourceSet sources;
   sources.cell_points.push_back({7, {0.1, 0.2, 0.3, 0.4}});
-  app::Model model{"box", {}, mesh};
+  app::Model model{"box", {}, mesh, 0, {}};
   model.space = *app::TetSpace::build(*volume);
   app::add_sources(whole, *mesh, sources, app::places_in_cells(model, sources));
   ASSERT_EQ(whole.sources.size(), 1U);

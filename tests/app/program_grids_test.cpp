@@ -118,14 +118,14 @@ TEST_F(ProgramOnGrids, OptionsOfReadingDecide) {
   expect_refused({"info", "bunny", "--domain", "grid"}, "unknown extension \".ply\"");
   expect_refused({"info", "bunny", "--grid", "mask"}, "asked of grids");
   expect_refused({"info", "maze.npy", "--domain", "tets"}, "unknown extension \".npy\"");
-  expect_refused({"info", "maze.npy", "--format", "obj", "--domain", "grid"}, "of triangles");
+  expect_refused({"info", "maze.npy", "--format", "obj", "--domain", "grid"}, "is of faces");
 }
 
 TEST_F(ProgramOnGrids, WhatIsOfSurfacesIsRefusedInOneLine) {
   expect_refused({"path", "maze.npy", "--from", "0", "--to", "5", "-o", "p.obj"},
-                 "paths are of surfaces, and maze is a grid of");
-  expect_refused({"study", "maze.npy"}, "studies are of surfaces");
-  expect_refused({"sample", "maze.npy", "-n", "3"}, "samples are of surfaces");
+                 "paths are of triangle meshes, and maze is a grid of");
+  expect_refused({"study", "maze.npy"}, "studies are of triangle meshes");
+  expect_refused({"sample", "maze.npy", "-n", "3"}, "samples are of triangle meshes");
   expect_refused({"solve", "maze.npy", "-s", "0", "--method", "exact"}, "this is a grid");
   expect_refused({"solve", "maze.npy", "-s", "0", "--refine", "1"}, "refined");
   expect_refused({"solve", "maze.npy", "-s", "0", "--weld", "0"}, "welded vertices are");

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <random>
 
-#include "geotherm/domains.h"
 #include "solver/mesh/io/raw_mesh.h"
 #include "tests/mesh/mesh_files.h"
 

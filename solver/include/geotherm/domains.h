@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -76,26 +75,6 @@ struct Graph {
 /// A graph as a space of one dimension: each edge is a cell. Errors (kBadInput, with the number):
 /// no edge, an end out of range, both ends the same, a length that is not above 0. Cost: one pass.
 Result<CellComplex> cells_of(const Graph& graph);
-
-/// Faces with any number of corners, as modelling programs write them: V vertices, faces one after
-/// the other. They may be concave, and need not be planar; nothing cuts them into triangles.
-struct PolygonMesh {
-  std::vector<Vec3> positions;      ///< V, model units
-  std::vector<std::int64_t> start;  ///< faces + 1: face f has the corners start[f] to start[f + 1]
-  std::vector<Index> corners;       ///< round each face
-};
-
-/// Reads the faces of `.obj`, `.ply` or `.off` as they are; otherwise as read_mesh(). `format`: one
-/// of mesh_formats(), empty: the extension's. `notes` gets one sentence each, for people. Errors:
-/// those of read_mesh().
-Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format = {},
-                                  std::vector<std::string>* notes = nullptr);
-
-/// A polygon mesh as triangles with the same vertices, for what needs such: faces of more than
-/// three corners become fans, or, where these would fold over, triangles that cover them once;
-/// faces with fewer than three none. Errors (kBadInput): a corner out of range, a coordinate that
-/// is not finite, no face. Cost: O(corners) for convex faces.
-Result<TriangleMesh> triangulated(const PolygonMesh& mesh);
 
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of

@@ -49,6 +49,12 @@ Result<MeshFile> read_mesh(const std::string& path, std::string_view format);
 /// bytes are held in memory while they are parsed: at most half of what is free. Errors: the same.
 Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name);
 
+/// Reads the faces of `.obj`, `.ply` or `.off` as they are; otherwise as read_mesh(). `format`: one
+/// of mesh_formats(), empty: the extension's. `notes` gets one sentence each, for people. Errors:
+/// those of read_mesh().
+Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format = {},
+                                  std::vector<std::string>* notes = nullptr);
+
 /// Numbers on the vertices or faces of a mesh, as files hold them beside the distances.
 struct DataField {
   enum class Place { kVertices, kFaces };

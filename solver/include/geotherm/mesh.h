@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -109,5 +110,19 @@ SurfacePoint subdivided_point(SurfacePoint point, int times);
 /// The vertices along side k of face f of the mesh that became `faces`, from corner k to the next:
 /// 2^times + 1. Precondition: the face repeats no corner.
 std::vector<Index> subdivided_side(std::span<const Face> faces, Index f, int k, int times);
+
+/// Faces with any number of corners, as modelling programs write them: V vertices, faces one after
+/// the other. They may be concave, and need not be planar; nothing cuts them into triangles.
+struct PolygonMesh {
+  std::vector<Vec3> positions;      ///< V, model units
+  std::vector<std::int64_t> start;  ///< faces + 1: face f has the corners start[f] to start[f + 1]
+  std::vector<Index> corners;       ///< round each face
+};
+
+/// A polygon mesh as triangles with the same vertices, for what needs such: faces of more than
+/// three corners become fans, or, where these would fold over, triangles that cover them once;
+/// faces with fewer than three none. Errors (kBadInput): a corner out of range, a coordinate that
+/// is not finite, no face. Cost: O(corners) for convex faces.
+Result<TriangleMesh> triangulated(const PolygonMesh& mesh);
 
 }  // namespace geotherm
