@@ -29,6 +29,7 @@ class GridSpace final : public Space {
   Index cell_count() const override { return lattice_->cell_count(); }
   std::vector<Index> corners_of(Index cell) const override;
   std::array<Index, 3> size() const override { return grid_->size; }
+  bool has_walls() const override { return true; }
   std::string described() const override;
   std::vector<Index> boundary_vertices() const override;
   Result<PlacedPoint> closest_point(const Vec3& place) const override;

@@ -142,9 +142,10 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
 
 void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
-  const Index unreached = answer.distance.unreached;
+  Index unreached = answer.distance.unreached;
   if (!model_.space) return add(answer.warnings, unreached_notes(*summary_, unreached));
-  if (unreached == 0) return;
+  if (model_.space->has_walls()) unreached -= model_.space->unused_vertices();
+  if (unreached <= 0) return;
   answer.warnings.push_back({counted(unreached, "vertex is", "vertices are") + " in no " +
                              model_.space->words().cell +
                              " that a source reaches; their distance is infinite"});

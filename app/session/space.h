@@ -41,6 +41,8 @@ class Space {
   const SpaceWords& words() const { return words_; }
   /// V: flags the vertices that belong to a cell, where distance can start.
   const std::vector<char>& used() const { return used_; }
+  /// Whether vertices in no cell are meant: walls.
+  virtual bool has_walls() const { return false; }
   Index unused_vertices() const { return static_cast<Index>(std::ranges::count(used_, 0)); }
   /// Near-exact, and there is nothing better: what heat is held against.
   MethodKind rival() const { return rival_; }

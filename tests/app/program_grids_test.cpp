@@ -70,6 +70,16 @@ TEST_F(ProgramOnGrids, WhatTheyAreIsSaid) {
   EXPECT_NE(told.out.find("0 is wall, all else passes"), std::string::npos) << told.out;
 }
 
+TEST_F(ProgramOnGrids, WallsAreMeantAndRoomsWithoutASourceAreSaid) {
+  EXPECT_EQ(run({"solve", "maze.npy", "-s", "sample:0:0"}).err.find("infinite"), std::string::npos);
+  std::string rooms(kWidth * kHeight, '\1');
+  for (Index y = 0; y < kHeight; ++y) rooms[number(9, y)] = 0;
+  folder.write("rooms.npy", npy_of_bytes({kHeight, kWidth}, rooms));
+  const ProgramRun solved = run({"solve", "rooms.npy", "-s", "sample:30:20"});
+  EXPECT_NE(solved.err.find("360 vertices are in no cell that a source reaches"), std::string::npos)
+      << solved.err;
+}
+
 TEST_F(ProgramOnGrids, HeatIsHeldAgainstFastMarching) {
   const Json report = json({"solve", "maze.npy", "-s", "random:2:5", "--check", "--json", "-"});
   EXPECT_EQ(report["error"]["reference"], "fast-marching");

@@ -166,7 +166,7 @@ TEST_P(Polygons, HaveErrorsLikeThoseOfTheirTriangles) {
 INSTANTIATE_TEST_SUITE_P(Shapes, Polygons,
                          testing::Values(PolygonCase{quad_torus, 1.3}, PolygonCase{honeycomb, 1.3},
                                          // One gradient in place of six triangles'.
-                                         PolygonCase{corner_tiles, 2}));
+                                         PolygonCase{corner_tiles, 2.5}));
 
 TEST(Domains, PolygonsWithTooManyCornersAreOneLine) {
   PolygonMesh disc{{}, {0, 1200}, {}};
