@@ -162,7 +162,8 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
 Result<std::vector<Index>> vertices_of_each(const EachSource& each) {
   std::vector<Index> vertices;
   for (const SourceSet& set : each.sets) {
-    const bool is_vertex = set.edges.empty() && set.points.front().is_vertex();
+    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
+                           set.points.front().is_vertex();
     if (!is_vertex || !set.offsets.empty()) {
       return Error{ErrorCode::kBadInput,
                    "--pairs: source " + std::to_string(vertices.size() + 1) +

@@ -167,10 +167,15 @@ std::string unreached_note(const ManySources& work, std::int64_t unreached) {
 Json many_json(const ManySources& work, const ManyFigures& figures) {
   Json sources = Json::array();
   for (const SourceSet& set : work.sources.sets) {
-    if (set.edges.empty()) {
-      sources.push_back(point_json(set.points.front()));
-    } else {
+    if (!set.edges.empty()) {
       sources.push_back({{"edges", set.edges.size()}});
+      continue;
+    }
+    Json points = sources_json(set);
+    if (points.size() == 1) {
+      sources.push_back(std::move(points[0]));
+    } else {
+      sources.push_back({{"points", points.size()}});
     }
   }
   const SetupTiming& setup = figures.method->timing();

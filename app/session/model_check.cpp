@@ -117,44 +117,17 @@ Result<AccuracyReport> ModelSolver::hold(const CheckedAnswers& answers, MethodKi
 Result<void> ModelSolver::find_remedy(AccuracyReport& report, const CheckedAnswers& answers,
                                       Check check, const Progress& progress) try {
   if (!report.measured) return {};
-  if (model_.space) return find_remedy_in_space(report, answers, progress);
+  if (model_.space) {  // its rival is what is better than heat
+    const SettingHint rival{"method", {to_text(model_.space->rival())}};
+    if (report.is_poor()) report.advice = {"use ", rival};
+    return {};
+  }
   const bool further = is_thorough(check) && use_ == Use::kOneAnswer;
   return geotherm::find_remedy(report, model_.mesh, answers, reference_->answers,
                                further ? RemedySearch::kWhereNotGood : RemedySearch::kWherePoor,
                                progress);
 } catch (const std::bad_alloc&) {
   return {};  // the figures stand without it
-}
-
-/// Tries the boundary rule that helps where most cells are near the boundary, and else names the
-/// reference. Errors: kCancelled.
-Result<void> ModelSolver::find_remedy_in_space(AccuracyReport& report,
-                                               const CheckedAnswers& answers,
-                                               const Progress& progress) {
-  if (!report.is_poor()) return {};
-  report.advice = {"use ", SettingHint{"method", {to_text(model_.space->rival())}}};
-  MethodOptions options = answers.options;
-  if (options.method != MethodKind::kHeat ||
-      answers.method.heat()->boundary() == BoundaryRule::kAverage) {
-    return {};
-  }
-  options.boundary = BoundaryRule::kAverage;
-  const auto tried = make(options, &answers.method, part_of(progress, 0.0, 0.5));
-  if (!tried) return tried.error().code == ErrorCode::kCancelled ? tried.error() : Result<void>();
-  const auto results =
-      (*tried)->solve_each(answers.sources, {.quality = false}, part_of(progress, 0.5, 1.0));
-  if (!results) {
-    return results.error().code == ErrorCode::kCancelled ? results.error() : Result<void>();
-  }
-  std::vector<std::vector<double>> distances;
-  for (const DistanceResult& result : *results) distances.push_back(result.distances);
-  const DistanceError error = joint_error(distances, reference_->answers.distances).figures;
-  if (grade_of(error) == Grade::kPoor) return {};
-  report.remedy = {"boundary", to_text(options.boundary), error.mean_relative, error.max_of_range,
-                   report.reference};
-  report.tried = {*report.remedy};
-  report.advice = {"with ", setting_of(*report.remedy), " " + percent_text(error.mean_relative)};
-  return {};
 }
 
 /// Searches a remedy, applies OnPoor, and stores the report in the answer. Errors:

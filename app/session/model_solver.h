@@ -101,9 +101,6 @@ class ModelSolver {
   void describe_mesh(Answer& answer) const;
 
   // model_check.cpp
-  // In a space its rival is what is better than heat, and there is nothing else.
-  Result<void> find_remedy_in_space(AccuracyReport& report, const CheckedAnswers& answers,
-                                    const Progress& progress);
   MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;
   MethodKind reference_of_better(MethodKind kind, Check check) const;
   bool is_better(MethodKind a, MethodKind b) const;

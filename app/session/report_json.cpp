@@ -210,7 +210,7 @@ Json sources_json(const SourceSet& sources) {
     if (!point.is_vertex()) json.push_back(point_json(point));
   }
   for (const CellPoint& point : sources.cell_points) {
-    json.push_back({{"tet", point.cell}, {"weights", point.weights}});
+    json.push_back({{"cell", point.cell}, {"weights", point.weights}});
   }
   return json;
 }

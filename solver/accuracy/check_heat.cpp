@@ -25,10 +25,10 @@ double heat_residual(const DomainOperator& matrix, const HeatField& heat, const 
   matrix.apply_free(u, product);
   double error = 0, norm = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (matrix.is_held(static_cast<Index>(i))) continue;
     const double right = b(static_cast<Eigen::Index>(i), column);
+    norm += right * right;  // of held rows, too: all the heat there is may come from them
+    if (matrix.is_held(static_cast<Index>(i))) continue;
     error += (product[i] - right) * (product[i] - right);
-    norm += right * right;
   }
   return norm > 0 ? std::sqrt(error / norm) : std::sqrt(error);
 }

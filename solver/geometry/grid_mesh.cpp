@@ -24,6 +24,13 @@ double power_of(double slowness, int power) {
 
 }  // namespace
 
+namespace {
+
+/// Squares and quotients of such numbers neither under- nor overflow.
+bool is_in_range(double value) { return value >= 1e-100 && value <= 1e100; }
+
+}  // namespace
+
 Result<void> check_grid(const Grid& grid) {
   std::int64_t samples = 1;
   for (std::size_t e = 0; e < 3; ++e) {
@@ -37,11 +44,12 @@ Result<void> check_grid(const Grid& grid) {
       return bad_grid("the grid has more than " + std::to_string(kMaxGridSamples) + " samples");
     }
     const double spacing = grid.spacing[e];
-    if (!(std::abs(spacing) > 0) || !std::isfinite(spacing) ||
+    if (!is_in_range(std::abs(spacing)) ||
         !std::isfinite(grid.origin[static_cast<Eigen::Index>(e)])) {
-      return bad_grid("the grid has a spacing of " + rounded_text(spacing) + " from " +
+      return bad_grid("axis " + std::to_string(e) + " of the grid has a spacing of " +
+                      rounded_text(spacing) + " from " +
                       rounded_text(grid.origin[static_cast<Eigen::Index>(e)]) +
-                      " on; it must be finite and not 0");
+                      " on; its size must be from 1e-100 to 1e100");
     }
   }
   if (!grid.speeds.empty() && std::ssize(grid.speeds) != samples) {
@@ -49,9 +57,10 @@ Result<void> check_grid(const Grid& grid) {
                     std::to_string(samples) + " samples");
   }
   for (std::size_t i = 0; i < grid.speeds.size(); ++i) {
-    if (grid.speeds[i] >= 0 && std::isfinite(grid.speeds[i])) continue;
+    if (grid.speeds[i] == 0 || is_in_range(grid.speeds[i])) continue;
     return bad_grid("the speed of sample " + std::to_string(i) + " is " +
-                    rounded_text(grid.speeds[i]) + "; it must be 0 or more");
+                    rounded_text(grid.speeds[i]) +
+                    "; it must be 0, which is wall, or from 1e-100 to 1e100");
   }
   std::int64_t stride = 1;
   for (const Index length : grid.size) {

@@ -102,13 +102,10 @@ NearestInTet nearest_in(const LocalTet& local) {
   return here;
 }
 
-bool repeats_corner(const Tet& tet) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      if (tet[i] == tet[j]) return true;
-    }
-  }
-  return false;
+bool has_volume(const TetMesh& mesh, const Tet& tet) {
+  const auto p = mesh.positions();
+  const double volume = tet_gradient(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]).volume;
+  return volume != 0 && std::isfinite(volume);
 }
 
 /// No point of the tet is nearer: the distance to its box.
@@ -131,7 +128,7 @@ Result<ClosestVolumePoint> closest_point(const TetMesh& mesh, const Vec3& query)
   Index best_tet = kNoIndex;
   for (Index t = 0; t < mesh.tet_count(); ++t) {
     const Tet& tet = mesh.tets()[t];
-    if (repeats_corner(tet) || !(least_distance(mesh, tet, query) < best.distance)) continue;
+    if (!(least_distance(mesh, tet, query) < best.distance) || !has_volume(mesh, tet)) continue;
     const NearestInTet here = nearest_in(local_tet(mesh, tet, query));
     if (!(here.distance < best.distance)) continue;
     best = here;
@@ -140,7 +137,7 @@ Result<ClosestVolumePoint> closest_point(const TetMesh& mesh, const Vec3& query)
   if (best_tet == kNoIndex) {
     return Error{ErrorCode::kBadInput,
                  "none of the " + std::to_string(mesh.tet_count()) +
-                     " tetrahedra can hold a point; each repeats a corner or is infinitely far"};
+                     " tetrahedra can hold a point; each has no volume or is infinitely far"};
   }
   for (std::size_t k = 0; k < 4; ++k) {
     if (best.weights[k] != 1.0) continue;

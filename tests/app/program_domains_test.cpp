@@ -87,6 +87,32 @@ TEST_F(ProgramInVolumes, PoorDistancesNameWhatWasTriedOrAnswerBetter) {
   EXPECT_NE(better.err.find("the method fast-marching answered"), std::string::npos) << better.err;
 }
 
+TEST_F(ProgramInVolumes, PointsInCellsAreSourcesOfManyAndOfNoPair) {
+  const std::string inside = "xyz:0.1:0.1:0.1";
+  expect_refused({"solve", "ball.mesh", "-s", inside, "-s", "5", "--pairs", "-o", "p.npy"},
+                 "source 1 is no vertex");
+  expect_refused({"solve", "ball.mesh", "-s", "5", "-s", "boundary", "--pairs", "-o", "p.npy"},
+                 "source 2 is no vertex");
+  run({"solve", "ball.mesh", "-s", inside, "-s", "boundary", "--each", "-o", "e.npy", "--json",
+       "e.json"});
+  const Json sources = Json::parse(bytes_of(folder.path("e.json")))["sources"];
+  EXPECT_EQ(sources[0]["weights"].size(), 4U);
+  EXPECT_EQ(sources[1]["points"], boundary(*volume)->vertices.size());
+}
+
+TEST_F(ProgramInVolumes, APointOfTheBorderIsASource) {
+  const auto border = boundary(*volume);
+  for (const std::size_t face : {1U, 7U, 40U}) {
+    const std::string source = "face:" + std::to_string(face) + ":0.3:0.3:0.4";
+    Vec3 place = Vec3::Zero();
+    const std::array<double, 3> weights = {0.3, 0.3, 0.4};
+    for (std::size_t k = 0; k < 3; ++k) {
+      place += weights[k] * volume->positions()[border->faces[face][k]];
+    }
+    EXPECT_LE(error(distances({"-s", source}), place), 0.06) << source;
+  }
+}
+
 TEST_F(ProgramInVolumes, DistancesReadBackFromVtu) {
   run({"solve", "ball.mesh", "-s", "0", "-o", "d.vtu"});
   const auto back = read_tets(folder.path("d.vtu"));

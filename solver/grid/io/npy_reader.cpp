@@ -90,10 +90,13 @@ NpyHeader read_npy_header(std::string_view bytes) {
     fail_at_byte(bytes, bytes.data() + 6, "version " + std::to_string(major) + " is unknown");
   }
   const std::size_t preamble = major == 1 ? 10 : 12;
+  if (bytes.size() < preamble) {
+    fail_at_byte(bytes, bytes.data() + 8, "the file ends in its header");
+  }
   const std::size_t length = major == 1
                                  ? load<std::uint16_t>(bytes.data() + 8, std::endian::little)
                                  : load<std::uint32_t>(bytes.data() + 8, std::endian::little);
-  if (bytes.size() < preamble || length > bytes.size() - preamble) {
+  if (length > bytes.size() - preamble) {
     fail_at_byte(bytes, bytes.data() + 8,
                  "the header is to have " + std::to_string(length) + " bytes: the file ends in it");
   }

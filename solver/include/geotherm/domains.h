@@ -215,10 +215,10 @@ struct ClosestVolumePoint {
   double distance = 0;  ///< straight line, model units; 0 inside
 };
 
-/// The point of the volume nearest to `query` (model units); the first tet among equals. Tets that
-/// repeat a corner are left out; flat ones count as the faces they are. Errors: kBadInput (a
-/// coordinate that is not finite, no tet but such with a repeated corner). Cost: O(T), no index is
-/// built.
+/// The point of the volume nearest to `query` (model units); the first tet among equals. Tets
+/// without a volume are left out, as they are from what distance is computed in. Errors: kBadInput
+/// (a coordinate that is not finite, no tet but such with a repeated corner). Cost: O(T), no index
+/// is built.
 Result<ClosestVolumePoint> closest_point(const TetMesh& mesh, const Vec3& query);
 
 /// The border of a volume: the faces that belong to exactly one tet, counted without tets that
