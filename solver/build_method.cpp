@@ -172,6 +172,18 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
   return memory_ended(options);
 }
 
+Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
+                         const DistanceMethod* earlier, const Progress& progress) try {
+  const HeatMethod* const heat = earlier != nullptr ? earlier->heat() : nullptr;
+  if (heat == nullptr || heat != earlier || options.method != MethodKind::kHeat ||
+      !(heat->options() == static_cast<const HeatOptions&>(options))) {
+    return build_method(std::move(moved), options, progress);
+  }
+  return as_heat(heat->with_mesh(std::move(moved), progress));
+} catch (const std::bad_alloc&) {
+  return memory_ended(options);
+}
+
 Built build_method(std::shared_ptr<const TetMesh> mesh, const MethodOptions& options,
                    const Progress& progress) {
   if (auto fits = check_space_options(options, "volume"); !fits) return fits.error();

@@ -66,6 +66,29 @@ Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::
   return out_of_memory_error("set-up", *input, backend_name(options));
 }
 
+Result<HeatMethod> HeatMethod::with_positions(std::vector<Vec3> positions,
+                                              const Progress& progress) const {
+  const Surface* const surface = state_->domain->surface();
+  if (surface == nullptr) {
+    return Error{ErrorCode::kBadInput,
+                 "only triangle meshes move; this method is on another space"};
+  }
+  auto moved = surface->mesh->moved(std::move(positions));
+  if (!moved) return moved.error();
+  return with_mesh(std::make_shared<const TriangleMesh>(*std::move(moved)), progress);
+}
+
+Result<HeatMethod> HeatMethod::with_mesh(std::shared_ptr<const TriangleMesh> moved,
+                                         const Progress& progress) const {
+  const Surface* const surface = state_->domain->surface();
+  if (surface == nullptr) {
+    return Error{ErrorCode::kBadInput,
+                 "only triangle meshes move; this method is on another space"};
+  }
+  if (auto same = check_moved(*surface->mesh, *moved); !same) return same.error();
+  return build(std::move(moved), state_->options, progress);
+}
+
 Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const
     try {
   if (const auto valid = check_options(options); !valid) return valid.error();

@@ -12,6 +12,20 @@
 
 namespace geotherm {
 
+namespace {
+
+Result<void> check_finite(std::span<const Vec3> positions) {
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (!positions[v].allFinite()) {
+      return Error{ErrorCode::kBadInput,
+                   "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vector<Face> faces) {
   constexpr std::size_t kMax = static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3;
   if (faces.empty()) {
@@ -26,12 +40,7 @@ Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vecto
                  {"at most " + std::to_string(kMax) + " of each are supported"}};
   }
   const auto vertex_count = static_cast<Index>(positions.size());
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    if (!positions[v].allFinite()) {
-      return Error{ErrorCode::kBadInput,
-                   "vertex " + std::to_string(v) + " has a coordinate that is not finite"};
-    }
-  }
+  if (auto finite = check_finite(positions); !finite) return finite.error();
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const Index corner : faces[f]) {
       if (corner < 0 || corner >= vertex_count) {
@@ -60,11 +69,50 @@ Result<TriangleMesh> TriangleMesh::build(std::vector<Vec3> positions, std::vecto
                  {"name the lowest vertex that each is one with"}};
   }
   if (same_as.empty()) return mesh;
-  for (Face& face : mesh->faces_) {
+  std::vector<Face> joined(mesh->faces().begin(), mesh->faces().end());
+  for (Face& face : joined) {
     for (Index& corner : face) corner = same_as[corner];
   }
+  mesh->faces_ = std::make_shared<const std::vector<Face>>(std::move(joined));
   mesh->same_as_ = std::move(same_as);
   return mesh;
+}
+
+Result<TriangleMesh> TriangleMesh::moved(std::vector<Vec3> positions) const {
+  if (positions.size() != positions_.size()) {
+    return Error{ErrorCode::kBadInput,
+                 "there are " + std::to_string(positions.size()) + " positions for " +
+                     std::to_string(positions_.size()) + " vertices",
+                 {"a surface that moves keeps its vertices"}};
+  }
+  if (auto finite = check_finite(positions); !finite) return finite.error();
+  TriangleMesh mesh({}, {});
+  mesh.faces_ = faces_;
+  mesh.same_as_ = same_as_;
+  mesh.positions_ = std::move(positions);
+  return mesh;
+}
+
+Result<void> check_moved(const TriangleMesh& mesh, const TriangleMesh& other) {
+  const auto counts = [](const TriangleMesh& m) {
+    return std::to_string(m.vertex_count()) + " vertices and " + std::to_string(m.face_count()) +
+           " faces";
+  };
+  const Hint hint = {"a surface that moves keeps its vertices and faces"};
+  if (mesh.vertex_count() != other.vertex_count() || mesh.face_count() != other.face_count()) {
+    return Error{ErrorCode::kBadInput, "the mesh has " + counts(other) + ", not " + counts(mesh),
+                 hint};
+  }
+  if (!std::ranges::equal(mesh.same_as(), other.same_as())) {
+    return Error{ErrorCode::kBadInput, "other vertices are one than before", hint};
+  }
+  if (mesh.faces().data() == other.faces().data()) return {};
+  const auto [here, there] = std::ranges::mismatch(mesh.faces(), other.faces());
+  if (here == mesh.faces().end()) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      "face " + std::to_string(here - mesh.faces().begin()) + " has other corners than before",
+      hint};
 }
 
 SourceGroups source_groups(const SourceSet& sources) {

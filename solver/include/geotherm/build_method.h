@@ -54,6 +54,14 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_near(
     std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
     const DistanceMethod* near, const Progress& progress = {});
 
+/// The same surface with its vertices elsewhere: frames of an animation, a mesh that is sculpted.
+/// `earlier`: a method on a mesh of the same faces, from which a heat method and waves take over
+/// what stays the same; with other options, or null, everything is made afresh. Errors: those of
+/// check_moved() and build_method().
+Result<std::shared_ptr<const DistanceMethod>> build_method_moved(
+    std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
+    const DistanceMethod* earlier, const Progress& progress = {});
+
 /// What waves walk over, on the triangulation that a heat method has made. Null where `method` is
 /// none, or has another triangulation or mesh. Errors: those of build_wave_surface().
 Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,

@@ -61,6 +61,17 @@ class HeatMethod final : public DistanceMethod {
   /// backend that took over stays where the same one is asked for again.
   Result<HeatMethod> with(const HeatOptions& options, const Progress& progress = {}) const;
 
+  /// The same faces with the vertices elsewhere: a surface that moves. The answers are those of a
+  /// fresh build() on the moved mesh, but for rounding. Errors: kBadInput (another number of
+  /// positions, a coordinate that is not finite, a method that is not on a triangle mesh), those of
+  /// build().
+  Result<HeatMethod> with_positions(std::vector<Vec3> positions,
+                                    const Progress& progress = {}) const;
+
+  /// The same for a mesh that was moved elsewhere. Errors: the same, and those of check_moved().
+  Result<HeatMethod> with_mesh(std::shared_ptr<const TriangleMesh> moved,
+                               const Progress& progress = {}) const;
+
   MethodKind kind() const override { return MethodKind::kHeat; }
 
   /// As one blocked solve. Quality costs two matrix products and a pass over the faces. Offsets of

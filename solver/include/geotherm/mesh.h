@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -32,10 +33,15 @@ class TriangleMesh {
   static Result<TriangleMesh> build(std::vector<Vec3> positions, std::vector<Face> faces,
                                     std::vector<Index> same_as);
 
+  /// The same faces, which both meshes share, with the vertices elsewhere: a surface that moves.
+  /// Errors: another number of positions, a coordinate that is not finite (with its vertex). Cost:
+  /// one pass over the positions.
+  Result<TriangleMesh> moved(std::vector<Vec3> positions) const;
+
   std::span<const Vec3> positions() const { return positions_; }
-  std::span<const Face> faces() const { return faces_; }
+  std::span<const Face> faces() const { return *faces_; }
   Index vertex_count() const { return static_cast<Index>(positions_.size()); }
-  Index face_count() const { return static_cast<Index>(faces_.size()); }
+  Index face_count() const { return static_cast<Index>(faces_->size()); }
 
   /// V: the vertex that stands for each in all faces; empty where each stands for itself. Those
   /// that another stands for belong to no face, and have its distance.
@@ -48,12 +54,18 @@ class TriangleMesh {
 
  private:
   TriangleMesh(std::vector<Vec3> positions, std::vector<Face> faces)
-      : positions_(std::move(positions)), faces_(std::move(faces)) {}
+      : positions_(std::move(positions)),
+        faces_(std::make_shared<const std::vector<Face>>(std::move(faces))) {}
 
   std::vector<Vec3> positions_;
-  std::vector<Face> faces_;
+  std::shared_ptr<const std::vector<Face>> faces_;  ///< one copy for all that moved() made
   std::vector<Index> same_as_;
 };
+
+/// Whether `other` is `mesh` with its vertices elsewhere: the same faces, and the same vertices
+/// that are one. Errors: kBadInput, with the numbers. Cost: one pass over the faces, none where
+/// moved() made one of the other.
+Result<void> check_moved(const TriangleMesh& mesh, const TriangleMesh& other);
 
 /// A point on the surface: a vertex, or barycentric weights in a face (weights of 0 put it on an
 /// edge or a corner). Weights are >= 0 and sum to 1.
