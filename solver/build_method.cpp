@@ -30,23 +30,40 @@ Built as_heat(Result<HeatMethod> built) {
       std::make_shared<const HeatMethod>(*std::move(built)));
 }
 
+/// `earlier`: a method on the same triangles elsewhere, or null.
 Built on_waves(std::shared_ptr<const WaveSurface> waves, const MethodOptions& options,
-               const Progress& progress) {
+               const Progress& progress, const WavefrontMethod* earlier = nullptr) {
   using Samples = WavefrontMethod::Samples;
   switch (options.method) {
     case MethodKind::kWavefront:
     case MethodKind::kHeat:
       break;
     case MethodKind::kWavefrontFine:
-      return as_method(
-          WavefrontMethod::build(std::move(waves), Samples::kQuarters, options.threads, progress));
+      return as_method(WavefrontMethod::build(std::move(waves), Samples::kQuarters, options.threads,
+                                              progress, earlier));
     case MethodKind::kFastMarching:
       return as_method(FastMarchingMethod::build(std::move(waves), options.threads, progress));
     case MethodKind::kExact:
       return as_method(ExactMethod::build(std::move(waves), options.threads, progress));
   }
-  return as_method(
-      WavefrontMethod::build(std::move(waves), Samples::kMidpoint, options.threads, progress));
+  return as_method(WavefrontMethod::build(std::move(waves), Samples::kMidpoint, options.threads,
+                                          progress, earlier));
+}
+
+/// What a method walks over; null for others, and for those on another mesh.
+std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
+  if (const auto* wave = dynamic_cast<const WavefrontMethod*>(method)) return wave->surface();
+  if (const auto* march = dynamic_cast<const FastMarchingMethod*>(method)) return march->surface();
+  if (const auto* exact = dynamic_cast<const ExactMethod*>(method)) return exact->surface();
+  return nullptr;
+}
+
+/// Whether a method was made with these options.
+bool was_asked_for(const HeatMethod& method, HeatOptions options) {
+  HeatOptions asked = method.options();
+  if (!method.fallbacks().empty()) asked.backend = method.fallbacks().front().backend;
+  if (options.backend.empty()) options.backend = backend_names().front();
+  return asked == options;
 }
 
 /// On the mesh as it is.
@@ -174,12 +191,21 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
 
 Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
                          const DistanceMethod* earlier, const Progress& progress) try {
-  const HeatMethod* const heat = earlier != nullptr ? earlier->heat() : nullptr;
-  if (heat == nullptr || heat != earlier || options.method != MethodKind::kHeat ||
-      !(heat->options() == static_cast<const HeatOptions&>(options))) {
+  const auto* const heat = dynamic_cast<const HeatMethod*>(earlier);
+  if (heat != nullptr && options.method == MethodKind::kHeat && options.refine == 0 &&
+      was_asked_for(*heat, options)) {
+    return as_heat(heat->with_mesh(std::move(moved), progress));
+  }
+  const std::shared_ptr<const WaveSurface> waves = waves_of(earlier);
+  if (waves == nullptr || options.method == MethodKind::kHeat || needs_mapping(*moved, options)) {
     return build_method(std::move(moved), options, progress);
   }
-  return as_heat(heat->with_mesh(std::move(moved), progress));
+  if (auto same = check_moved(*waves->base.mesh, *moved); !same) return same.error();
+  auto made = build_wave_surface(std::move(moved), part_of(progress, 0.0, 0.5),
+                                 thread_count(options.threads), waves.get());
+  if (!made) return made.error();
+  return on_waves(*std::move(made), options, part_of(progress, 0.5, 1.0),
+                  dynamic_cast<const WavefrontMethod*>(earlier));
 } catch (const std::bad_alloc&) {
   return memory_ended(options);
 }

@@ -45,13 +45,13 @@ void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet
   for (const auto& vertex : seeds.vertices) {
     above = std::max(above, result.distances[vertex.vertex] - vertex.offset);
   }
-  result.quality.max_source_distance = above * surface.base.mean_edge;
+  result.quality.max_source_distance = above * surface.base.length_unit();
   const BoundTolerance tolerance = bound_tolerance(method);
   SteepSides steep(tolerance);
   result.quality.eikonal_error_mean =
       eikonal_error_mean(surface.base.intrinsic, result.distances, steep);
   steep.write_to(result.quality);
-  check_straight_lines(surface.base, sources, surface.base.mean_edge, tolerance, 1, result);
+  check_straight_lines(surface.base, sources, surface.base.length_unit(), tolerance, 1, result);
   add_bound_warnings(method, result);
 }
 

@@ -145,14 +145,50 @@ void prefer_large_pages(void* data, std::size_t bytes) {
 #endif
 }
 
-LargeBuffer::LargeBuffer(std::size_t bytes) : bytes_(bytes) {
-  const std::size_t alignment = bytes >= 2 * kLargePage ? kLargePage : kLine;
-  const std::size_t whole = (bytes + alignment) / alignment * alignment;
-  data_ = static_cast<std::byte*>(std::aligned_alloc(alignment, whole));
-  if (data_ == nullptr) throw std::bad_alloc();
-  prefer_large_pages(data_, whole);
+BufferPool::~BufferPool() {
+  for (const Block& block : kept_) std::free(block.data);
 }
 
-LargeBuffer::~LargeBuffer() { std::free(data_); }
+BufferPool::Block BufferPool::take(std::size_t bytes) {
+  const std::lock_guard lock(mutex_);
+  auto best = kept_.end();
+  for (auto at = kept_.begin(); at != kept_.end(); ++at) {
+    if (at->bytes >= bytes && (best == kept_.end() || at->bytes < best->bytes)) best = at;
+  }
+  if (best == kept_.end()) return {};
+  const Block block = *best;
+  kept_.erase(best);
+  return block;
+}
+
+void BufferPool::give(Block block) {
+  constexpr std::size_t kMostKept = 4;  // the factors of one method
+  const std::lock_guard lock(mutex_);
+  kept_.push_back(block);
+  if (kept_.size() <= kMostKept) return;
+  std::free(kept_.front().data);
+  kept_.erase(kept_.begin());
+}
+
+LargeBuffer::LargeBuffer(std::size_t bytes, std::shared_ptr<BufferPool> pool)
+    : bytes_(bytes), pool_(std::move(pool)) {
+  constexpr std::size_t kRoom = 16;  // a share of this for the next
+  if (pool_) block_ = pool_->take(bytes);
+  if (block_.data != nullptr) return;
+  const std::size_t wanted = pool_ ? bytes + bytes / kRoom : bytes;
+  const std::size_t alignment = wanted >= 2 * kLargePage ? kLargePage : kLine;
+  block_.bytes = (wanted + alignment) / alignment * alignment;
+  block_.data = static_cast<std::byte*>(std::aligned_alloc(alignment, block_.bytes));
+  if (block_.data == nullptr) throw std::bad_alloc();
+  prefer_large_pages(block_.data, block_.bytes);
+}
+
+LargeBuffer::~LargeBuffer() {
+  if (pool_ && block_.data != nullptr) {
+    pool_->give(block_);
+  } else {
+    std::free(block_.data);
+  }
+}
 
 }  // namespace geotherm

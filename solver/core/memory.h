@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -37,29 +38,56 @@ void release_freed_memory();
 /// touched: what is read here and there would wait for the tables of small ones.
 void prefer_large_pages(void* data, std::size_t bytes);
 
+/// Memory that large buffers gave back, kept for the next ones of about their size: the system
+/// clears every page that it hands out, which takes longer than to fill it. For several threads.
+class BufferPool {
+ public:
+  struct Block {
+    std::byte* data = nullptr;
+    std::size_t bytes = 0;
+  };
+  BufferPool() = default;
+  BufferPool(const BufferPool&) = delete;
+  BufferPool& operator=(const BufferPool&) = delete;
+  ~BufferPool();
+  /// The smallest block that was kept and holds `bytes`; no data where there is none.
+  Block take(std::size_t bytes);
+  /// Keeps a block of std::aligned_alloc() for the next; of more than a few the oldest is freed.
+  void give(Block block);
+
+ private:
+  std::mutex mutex_;
+  std::vector<Block> kept_;  ///< the oldest first
+};
+
 /// Uninitialised memory for what is read from end to end: aligned to a cache line, and in large
 /// pages where the system has them, so that reading does not wait for the tables of pages.
 class LargeBuffer {
  public:
   LargeBuffer() = default;
-  /// Throws std::bad_alloc.
-  explicit LargeBuffer(std::size_t bytes);
+  /// `pool`: where it is taken from, with some room for the next to be larger, and given back to;
+  /// null for memory of its own. Throws std::bad_alloc.
+  explicit LargeBuffer(std::size_t bytes, std::shared_ptr<BufferPool> pool = nullptr);
   ~LargeBuffer();
   LargeBuffer(LargeBuffer&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+      : block_(std::exchange(other.block_, {})),
+        bytes_(std::exchange(other.bytes_, 0)),
+        pool_(std::move(other.pool_)) {}
   LargeBuffer& operator=(LargeBuffer&& other) noexcept {
-    std::swap(data_, other.data_);
+    std::swap(block_, other.block_);
     std::swap(bytes_, other.bytes_);
+    std::swap(pool_, other.pool_);
     return *this;
   }
 
-  std::byte* data() { return data_; }
-  const std::byte* data() const { return data_; }
+  std::byte* data() { return block_.data; }
+  const std::byte* data() const { return block_.data; }
   std::size_t size() const { return bytes_; }
 
  private:
-  std::byte* data_ = nullptr;
+  BufferPool::Block block_;
   std::size_t bytes_ = 0;
+  std::shared_ptr<BufferPool> pool_;
 };
 
 /// Leaves numbers that nobody gave a value unwritten. Keeps what is long in large pages.

@@ -54,7 +54,7 @@ Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
                  "source vertex " + std::to_string(v) + " does not exist",
                  {"vertices are 0 to " + std::to_string(surface.mesh->vertex_count() - 1)}};
   }
-  if (!surface.on_surface[v]) {
+  if (!surface.kept->on_surface[v]) {
     return Error{ErrorCode::kBadInput,
                  "source vertex " + std::to_string(v) + " belongs to no face",
                  {"choose one on the surface"}};
@@ -62,16 +62,16 @@ Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
   return {};
 }
 
-/// The number in clean_faces of a face of the mesh or, where it is a duplicate, of its twin;
+/// The number in kept->faces of a face of the mesh or, where it is a duplicate, of its twin;
 /// kNoIndex where it repeats a corner.
 Index clean_face_of(const IntrinsicSurface& surface, Index f) {
-  const Index clean = surface.clean_of_face[f];
+  const Index clean = surface.kept->of_face[f];
   if (clean != kNoIndex) return clean;
   const Face& face = surface.mesh->faces()[f];
   const Index edge = find_clean_edge(surface, face[0], face[1]);
   if (edge == kNoIndex) return kNoIndex;
-  for (const Side side : surface.clean_edges.sides(edge)) {
-    if (std::ranges::is_permutation(surface.clean_faces[face_of(side)], face)) return face_of(side);
+  for (const Side side : surface.kept->edges.sides(edge)) {
+    if (std::ranges::is_permutation(surface.kept->faces[face_of(side)], face)) return face_of(side);
   }
   return kNoIndex;
 }
@@ -140,7 +140,7 @@ Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sou
 }  // namespace
 
 Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b) {
-  const EdgeTable& edges = surface.clean_edges;
+  const EdgeTable& edges = surface.kept->edges;
   const Index low = std::min(a, b), high = std::max(a, b);
   const Index e = first_edge_from(edges, low, high);
   return e < edges.edge_count() && edges.low(e) == low && edges.high(e) == high ? e : kNoIndex;
@@ -153,7 +153,7 @@ SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& po
   if (corner >= 0) return SurfacePoint::at_vertex(face[static_cast<std::size_t>(corner)]);
   SurfacePoint out = SurfacePoint::in_face(clean_face_of(surface, point.face), {});
   for (int k = 0; k < 3; ++k) {
-    const auto same = std::ranges::find(face, surface.clean_faces[out.face][k]);
+    const auto same = std::ranges::find(face, surface.kept->faces[out.face][k]);
     out.weights[k] = weights[static_cast<std::size_t>(same - face.begin())];
   }
   return out;

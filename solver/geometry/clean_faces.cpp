@@ -308,6 +308,7 @@ CleanFaces clean_faces(const TriangleMesh& mesh, int threads) {
     flaws = find_flaws(out.faces, out.edges, threads);
     if (flaws.inconsistent) {
       orient_by_shape(mesh.positions(), out.faces, out.edges);
+      out.turned_by_shape = true;
       list_edges(mesh.vertex_count(), threads, out);
     }
   }

@@ -21,6 +21,7 @@ struct CleanFaces {
   Index duplicate = 0;            ///< faces dropped: the same three vertices as an earlier one
   bool oriented_manifold = true;  ///< every edge has one face, or two that agree in orientation
   Index reoriented = 0;           ///< faces turned round to agree with their neighbours
+  bool turned_by_shape = false;   ///< which ones depends on where the vertices are, too
 };
 
 /// Whether two faces agree in orientation where they share an edge: the sides run opposite ways.

@@ -2,7 +2,9 @@
 #include "solver/geometry/intrinsic_surface.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
@@ -99,28 +101,43 @@ void measure_points(IntrinsicSurface& surface) {
   }
 }
 
-/// Parts of the surface and the mean lengths of their edges; that of the only one is exactly 1.
-void name_parts(const CleanFaces& clean, IntrinsicSurface& surface) {
-  const FaceComponents faces = face_components(clean.faces, surface.mesh->vertex_count());
-  Components& parts = surface.parts;
-  parts.count = faces.count;
-  parts.of.assign(static_cast<std::size_t>(surface.mesh->vertex_count()), kNoIndex);
-  for (std::size_t f = 0; f < clean.faces.size(); ++f) {
-    for (const Index v : clean.faces[f]) parts.of[v] = faces.of[f];
+/// Which connected part each vertex of the mesh belongs to, kNoIndex where in no face.
+Components parts_of(const std::vector<Face>& clean, Index vertex_count) {
+  const FaceComponents faces = face_components(clean, vertex_count);
+  Components parts{std::vector<Index>(static_cast<std::size_t>(vertex_count), kNoIndex),
+                   faces.count};
+  for (std::size_t f = 0; f < clean.size(); ++f) {
+    for (const Index v : clean[f]) parts.of[v] = faces.of[f];
   }
-  surface.part_edge.assign(static_cast<std::size_t>(parts.count), 1.0);
+  return parts;
+}
+
+/// The mean lengths of the edges of each part; where that of the mesh is the unit, that of the only
+/// part is exactly 1.
+void measure_parts(IntrinsicSurface& surface) {
+  const Components& parts = surface.parts;
+  surface.part_edge.assign(static_cast<std::size_t>(parts.count),
+                           surface.mean_edge / surface.length_unit());
   if (parts.count == 1) return;
   std::vector<double> sum(surface.part_edge.size(), 0.0);
   std::vector<Index> count(sum.size(), 0);
   const auto positions = surface.mesh->positions();
-  for (Index e = 0; e < clean.edges.edge_count(); ++e) {
-    const Vec3 &low = positions[clean.edges.low(e)], &high = positions[clean.edges.high(e)];
-    const Index part = parts.of[clean.edges.low(e)];
-    sum[part] += safe_norm(low - high) / surface.mean_edge;
+  const EdgeTable& edges = surface.kept->edges;
+  for (Index e = 0; e < edges.edge_count(); ++e) {
+    const Vec3 &low = positions[edges.low(e)], &high = positions[edges.high(e)];
+    const Index part = parts.of[edges.low(e)];
+    sum[part] += safe_norm(low - high) / surface.length_unit();
     ++count[part];
   }
   for (std::size_t c = 0; c < sum.size(); ++c) surface.part_edge[c] = sum[c] / count[c];
   if (std::ranges::min(surface.part_edge) <= kPointEdge) measure_points(surface);
+}
+
+/// What lengths are divided by.
+double unit_for(double mean_edge, const SurfaceRules& rules, const IntrinsicSurface* earlier) {
+  if (!rules.same_unit || earlier == nullptr) return mean_edge;
+  const double before = earlier->length_unit();
+  return mean_edge < 2 * before && before < 2 * mean_edge ? before : mean_edge;
 }
 
 }  // namespace
@@ -139,32 +156,47 @@ std::vector<Warning> cleaning_notes(const CleanFaces& clean) {
   return notes;
 }
 
-void keep_clean_faces(CleanFaces clean, IntrinsicSurface& surface, int threads) {
-  surface.clean_of_face.assign(static_cast<std::size_t>(surface.mesh->face_count()), kNoIndex);
-  surface.on_surface.resize(static_cast<std::size_t>(surface.mesh->vertex_count()));
+std::shared_ptr<KeptFaces> keep_faces(CleanFaces& clean, const TriangleMesh& mesh, int threads) {
+  auto kept = std::make_shared<KeptFaces>();
+  kept->of_face.assign(static_cast<std::size_t>(mesh.face_count()), kNoIndex);
+  kept->on_surface.resize(static_cast<std::size_t>(mesh.vertex_count()));
   parallel_for(threads, static_cast<std::int64_t>(clean.original.size()), kMinFacesPerThread,
                [&](std::int64_t begin, std::int64_t end) {
                  for (std::int64_t c = begin; c < end; ++c) {
                    const Index original = clean.original[static_cast<std::size_t>(c)];
-                   surface.clean_of_face[original] = static_cast<Index>(c);
+                   kept->of_face[original] = static_cast<Index>(c);
                  }
                });
-  for (Index v = 0; v < surface.mesh->vertex_count(); ++v) {
-    surface.on_surface[v] = clean.corners.at(v).empty() ? 0 : 1;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    kept->on_surface[v] = clean.corners.at(v).empty() ? 0 : 1;
   }
-  surface.clean_faces = std::move(clean.faces);
-  surface.clean_edges = std::move(clean.edges);
-  surface.corners = std::move(clean.corners);
+  CornerTable corners = std::move(clean.corners);
+  static_cast<CleanFaces&>(*kept) = std::exchange(clean, {});
+  clean.corners = std::move(corners);
+  kept->original = {};
+  return kept;
 }
 
 Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                  const SurfaceRules& rules,
-                                                 const Progress& progress, int threads) {
+                                                 const Progress& progress, int threads,
+                                                 const IntrinsicSurface* earlier) {
   if (!report(progress, "operators", 0.0)) return cancelled_error();
   Stopwatch watch;
   IntrinsicSurface out;
   out.mesh = std::move(mesh);
-  CleanFaces clean = clean_faces(*out.mesh, threads);
+  const bool names_parts = rules.parts || rules.refine != RefineRule::kNever;
+  if (earlier != nullptr && !earlier->kept->turned_by_shape &&
+      (earlier->kept->parts.count > 0 || !names_parts)) {
+    out.kept = earlier->kept;
+  } else {
+    CleanFaces clean = clean_faces(*out.mesh, threads);
+    auto kept = keep_faces(clean, *out.mesh, threads);
+    if (earlier == nullptr) out.corners = std::move(clean.corners);
+    if (names_parts) kept->parts = parts_of(kept->faces, out.mesh->vertex_count());
+    out.kept = std::move(kept);
+  }
+  const KeptFaces& clean = *out.kept;
   const auto positions = out.mesh->positions();
   out.times.clean = watch.lap();
   out.mean_edge = mean_edge_length(positions, clean.edges, threads);
@@ -172,7 +204,8 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
     return valid.error();
   }
   if (!report(progress, "operators", 0.5)) return cancelled_error();
-  out.intrinsic = build_intrinsic_mesh(positions, clean, out.mean_edge, threads);
+  out.intrinsic =
+      build_intrinsic_mesh(positions, clean, unit_for(out.mean_edge, rules, earlier), threads);
   out.warnings = cleaning_notes(clean);
   note_mollification(out.intrinsic, out.warnings);
   const Index vertices = out.mesh->vertex_count();
@@ -190,7 +223,10 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
     if (!flips) return flips.error();
     out.edits = std::move(*flips);
   }
-  if (rules.parts || rules.refine != RefineRule::kNever) name_parts(clean, out);
+  if (names_parts) {
+    out.parts = clean.parts;
+    measure_parts(out);
+  }
   if (rules.refine != RefineRule::kNever) {
     auto refined =
         refine_triangulation(out.intrinsic, out.edits, out.parts, out.part_edge, positions,
@@ -201,12 +237,31 @@ Result<IntrinsicSurface> build_intrinsic_surface(std::shared_ptr<const TriangleM
   }
   out.flips = static_cast<Index>(std::ranges::count(out.edits, Edit::Kind::kFlip, &Edit::kind));
   out.times.flips = watch.lap();
-  keep_clean_faces(std::move(clean), out, threads);
-  if (!out.edits.empty() || out.tufted) {
+  if (earlier == nullptr && (!out.edits.empty() || out.tufted)) {
     out.corners = CornerTable(out.vertex_count(), out.intrinsic.faces, threads);
   }
   out.times.clean += watch.lap();
   return out;
+}
+
+bool same_triangles(const IntrinsicSurface& a, const IntrinsicSurface& b, int threads) {
+  const bool plain = a.edits.empty() && b.edits.empty() && !a.tufted && !b.tufted;
+  if (a.kept == b.kept && plain) return true;
+  const IntrinsicMesh &mesh = a.intrinsic, &other = b.intrinsic;
+  if (a.refinement.points != b.refinement.points || mesh.faces.size() != other.faces.size() ||
+      mesh.back != other.back) {
+    return false;
+  }
+  constexpr std::int64_t kFacesAPiece = 1 << 15;
+  std::atomic<bool> same = true;
+  parallel_for(threads, mesh.face_count(), kFacesAPiece, [&](std::int64_t begin, std::int64_t end) {
+    const bool here = std::equal(mesh.faces.begin() + begin, mesh.faces.begin() + end,
+                                 other.faces.begin() + begin) &&
+                      std::equal(mesh.twin.begin() + 3 * begin, mesh.twin.begin() + 3 * end,
+                                 other.twin.begin() + 3 * begin);
+    if (!here) same = false;
+  });
+  return same;
 }
 
 }  // namespace geotherm

@@ -10,27 +10,42 @@
 
 namespace geotherm {
 
+namespace {
+
+/// Appends the neighbours of vertex `i`, at which `corners` of these faces are, ascending and each
+/// once: the sides that begin there lead to them, and those that end there and have no twin.
+/// has_twin(side); name(corner): of a corner of a face.
+template <class HasTwin, class Name>
+void add_neighbors(Index i, std::span<const Side> corners, std::span<const Face> faces,
+                   const HasTwin& has_twin, const Name& name, std::vector<Index>& row) {
+  const auto begin = static_cast<std::ptrdiff_t>(row.size());
+  for (const Side corner : corners) {
+    const Face& face = faces[face_of(corner)];
+    const int k = corner_of(corner);
+    row.push_back(name(face[next_corner(k)]));
+    if (!has_twin(corner - k + previous_corner(k))) row.push_back(name(face[previous_corner(k)]));
+  }
+  short_sort(row.data() + begin, row.data() + row.size());
+  // Two edges may join the same vertices, and one a vertex with itself.
+  const auto end = std::unique(row.begin() + begin, row.end());
+  row.erase(std::remove(row.begin() + begin, end, i), row.end());
+}
+
+}  // namespace
+
 SymmetricPattern surface_pattern(const IntrinsicMesh& mesh, const CornerTable& corners,
                                  std::span<const Index> used, std::span<const Index> local,
                                  int threads) {
-  const auto add_neighbors = [&](Index i, std::vector<Index>& row) {
-    const Index vertex = used[i];
-    const auto begin = static_cast<std::ptrdiff_t>(row.size());
-    for (const Side corner : corners.at(vertex)) {
-      const Face& face = mesh.faces[face_of(corner)];
-      const int k = corner_of(corner);
-      row.push_back(local[face[next_corner(k)]]);
-      const Side ending = corner - k + previous_corner(k);
-      if (mesh.twin[ending] == kNoSide) row.push_back(local[face[previous_corner(k)]]);
-    }
-    short_sort(row.data() + begin, row.data() + row.size());
-    // Two edges may join the same vertices, and one a vertex with itself.
-    const auto end = std::unique(row.begin() + begin, row.end());
-    row.erase(std::remove(row.begin() + begin, end, i), row.end());
-  };
   SymmetricPattern pattern;
-  list_rows(static_cast<Index>(used.size()), threads, add_neighbors, pattern.start,
-            pattern.neighbor);
+  list_rows(
+      static_cast<Index>(used.size()), threads,
+      [&](Index i, std::vector<Index>& row) {
+        add_neighbors(
+            i, corners.at(used[i]), mesh.faces,
+            [&mesh](Side side) { return mesh.twin[side] != kNoSide; },
+            [local](Index vertex) { return local[vertex]; }, row);
+      },
+      pattern.start, pattern.neighbor);
   return pattern;
 }
 
@@ -77,17 +92,15 @@ std::vector<FaceRange> part_by_ranges(const RawVector<Face>& faces, Index size,
 /// Builds the parts of an OperatorMesh one after the other, each by all threads.
 class Builder {
  public:
-  Builder(const IntrinsicMesh& mesh, std::span<const Index> local, std::span<const Index> order,
-          int threads, OperatorMesh& out)
-      : mesh_(mesh), threads_(threads), size_(order.size()), out_(out) {
-    const std::vector<Index> position = inverse_permutation(order, threads);
-    RawVector<Index> name(local.size());
-    for_each(name.size(), [&](std::size_t v) {
-      name[v] = local[v] == kNoIndex ? kNoIndex : position[local[v]];
-    });
-    renamed_.resize(mesh.faces.size());
+  Builder(const IntrinsicMesh& mesh, Index size, int threads, OperatorMesh& out)
+      : mesh_(mesh), threads_(threads), size_(static_cast<std::size_t>(size)), out_(out) {}
+
+  /// row(vertex): its elimination number.
+  template <class Row>
+  void rename_faces(const Row& row) {
+    renamed_.resize(mesh_.faces.size());
     for_each(renamed_.size(), [&](std::size_t f) {
-      for (int k = 0; k < 3; ++k) renamed_[f][k] = name[mesh.faces[f][k]];
+      for (int k = 0; k < 3; ++k) renamed_[f][k] = row(mesh_.faces[f][k]);
     });
   }
 
@@ -104,9 +117,33 @@ class Builder {
     for_each(renamed_.size(), [&](std::size_t f) {
       const Index source = out_.intrinsic_face[f];
       out_.faces[f] = renamed_[source];
-      out_.layout[f] = lay_out(mesh_.lengths[source]);
     });
     out_.corners = CornerTable(static_cast<Index>(size_), out_.faces, threads_);
+  }
+
+  /// The pattern of the faces as they are numbered now.
+  SymmetricPattern pattern() const {
+    SymmetricPattern pattern;
+    list_rows(
+        static_cast<Index>(size_), threads_,
+        [this](Index i, std::vector<Index>& row) {
+          add_neighbors(
+              i, out_.corners.at(i), out_.faces,
+              [this](Side side) {
+                return mesh_.twin[3 * out_.intrinsic_face[face_of(side)] + corner_of(side)] !=
+                       kNoSide;
+              },
+              [](Index vertex) { return vertex; }, row);
+        },
+        pattern.start, pattern.neighbor);
+    return pattern;
+  }
+
+  void lay_out_faces() {
+    out_.layout.resize(out_.faces.size());
+    for_each(out_.faces.size(), [&](std::size_t f) {
+      out_.layout[f] = lay_out(mesh_.lengths[out_.intrinsic_face[f]]);
+    });
   }
 
   /// Sums the contributions of the faces at each vertex, in their order.
@@ -130,24 +167,31 @@ class Builder {
     });
   }
 
-  /// `parts`: components of the pattern, which the elimination order numbers anew.
-  void name_components(const Components& parts, std::span<const Index> order) {
-    out_.components.count = parts.count;
+  /// Numbers the components anew in elimination order. part(row): component of the row so far.
+  template <class Part>
+  void name_components(Index count, const Part& part) {
+    out_.components.count = count;
     out_.components.of.assign(size_, 0);
-    if (parts.count > 1) {
-      std::vector<Index> name(static_cast<std::size_t>(parts.count), kNoIndex);
+    if (count > 1) {
+      std::vector<Index> name(static_cast<std::size_t>(count), kNoIndex);
       Index named = 0;
       for (std::size_t k = 0; k < size_; ++k) {
-        Index& here = name[parts.of[order[k]]];
+        Index& here = name[part(k)];
         if (here == kNoIndex) here = named++;
         out_.components.of[k] = here;
       }
     }
-    out_.doubled.assign(static_cast<std::size_t>(parts.count), 0);
-    for (std::size_t f = 0; f < mesh_.back.size(); ++f) {
-      if (mesh_.back[f] != kNoIndex) out_.doubled[out_.components.of[renamed_[f][0]]] = 1;
+    out_.doubled.assign(static_cast<std::size_t>(count), 0);
+    for (std::size_t f = 0; f < out_.faces.size() && !mesh_.back.empty(); ++f) {
+      const auto of_mesh = static_cast<std::size_t>(out_.intrinsic_face[f]);
+      if (of_mesh < mesh_.back.size() && mesh_.back[of_mesh] != kNoIndex) {
+        out_.doubled[out_.components.of[out_.faces[f][0]]] = 1;
+      }
     }
-    out_.area.assign(static_cast<std::size_t>(parts.count), 0.0);
+  }
+
+  void add_up_areas() {
+    out_.area.assign(out_.doubled.size(), 0.0);
     for (std::size_t i = 0; i < size_; ++i) out_.area[out_.components.of[i]] += out_.mass[i];
     for (std::size_t c = 0; c < out_.area.size(); ++c) out_.area[c] /= out_.doubled[c] ? 2 : 1;
   }
@@ -178,10 +222,43 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
   auto out = std::make_shared<OperatorMesh>();
   out->lower = permuted_lower(pattern, order, threads);
   out->pattern = pattern_hash(out->lower, threads);
-  Builder builder(mesh, local, order, threads, *out);
+  Builder builder(mesh, pattern.size(), threads, *out);
+  const std::vector<Index> position = inverse_permutation(order, threads);
+  builder.rename_faces([&](Index vertex) { return position[local[vertex]]; });
   builder.sort_faces();
+  builder.lay_out_faces();
   builder.add_up_faces();
-  builder.name_components(parts, order);
+  builder.name_components(parts.count, [&](std::size_t k) { return parts.of[order[k]]; });
+  builder.add_up_areas();
+  return out;
+}
+
+FollowingMesh follow_order(const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
+                           std::span<const Index> row_of_vertex, const Components& parts,
+                           int threads) {
+  FollowingMesh made;
+  auto out = std::make_shared<OperatorMesh>();
+  Builder builder(mesh, static_cast<Index>(vertex_of_row.size()), threads, *out);
+  builder.rename_faces([&](Index vertex) { return row_of_vertex[vertex]; });
+  builder.sort_faces();
+  made.pattern = builder.pattern();
+  out->lower = lower_of(made.pattern, threads);
+  out->pattern = pattern_hash(out->lower, threads);
+  builder.lay_out_faces();
+  builder.add_up_faces();
+  builder.name_components(parts.count, [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
+  builder.add_up_areas();
+  made.operators = std::move(out);
+  return made;
+}
+
+std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,
+                                                        const IntrinsicMesh& mesh, int threads) {
+  auto out = std::make_shared<OperatorMesh>(earlier);
+  Builder builder(mesh, earlier.size(), threads, *out);
+  builder.lay_out_faces();
+  builder.add_up_faces();
+  builder.add_up_areas();
   return out;
 }
 

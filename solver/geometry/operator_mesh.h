@@ -67,6 +67,20 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
                                                         std::span<const Index> order,
                                                         const Components& parts, int threads = 1);
 
+/// Operators in an order that is given by vertices of the mesh, and the pattern that they have in
+/// it, which build_operator_mesh() is given. `parts`: of the vertices.
+struct FollowingMesh {
+  std::shared_ptr<const OperatorMesh> operators;
+  SymmetricPattern pattern;
+};
+FollowingMesh follow_order(const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
+                           std::span<const Index> row_of_vertex, const Components& parts,
+                           int threads);
+
+/// The operators of a mesh that has the faces and twins of an earlier one, and other lengths.
+std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,
+                                                        const IntrinsicMesh& mesh, int threads);
+
 /// Off-diagonal entries of a face's stiffness matrix for its pairs of corners (0,1), (1,2), (2,0):
 /// minus half the cotangent of the angle opposite (Pinkall, Polthier 1993).
 inline std::array<double, 3> stiffness(const FaceLayout& p) {

@@ -89,6 +89,9 @@ struct Domain {
   BoundaryRule auto_boundary = BoundaryRule::kNeumann;  ///< what BoundaryRule::kAuto is here
   std::vector<ComponentSize> components;
   std::shared_ptr<const Analysis> analysis;
+  std::shared_ptr<BufferPool> factor_memory;  ///< of a domain that moves; null elsewhere
+  /// n, EarlierFactor::changed beside the domain from which this one moved; empty where much has.
+  std::vector<char> changed_rows;
   SetupTiming timing;             ///< operators with their stages, and analyze
   std::vector<Warning> findings;  ///< about the input
 

@@ -42,8 +42,8 @@ Result<HeatMethod> HeatMethod::build(std::shared_ptr<const Grid> grid, const Hea
 }
 
 Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::Input>& input,
-                                            const HeatOptions& options,
-                                            const Progress& progress) try {
+                                            const HeatOptions& options, const Progress& progress,
+                                            const State* earlier) try {
   const std::string asked = backend_name(options);
   if (const auto known = find_backend(asked); !known) return known.error();
   if (const auto valid = check_options(options); !valid) return valid.error();
@@ -55,7 +55,7 @@ Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::
   auto method = first_that_works<HeatMethod>(
       asked, options.strict, failed,
       [&](const std::string& backend, std::span<const Fallback> before) {
-        return set_up(input, with_backend(options, backend), before, watched);
+        return set_up(input, with_backend(options, backend), before, watched, earlier);
       });
   shared.rethrow();
   if (!method) return method;
@@ -86,7 +86,9 @@ Result<HeatMethod> HeatMethod::with_mesh(std::shared_ptr<const TriangleMesh> mov
                  "only triangle meshes move; this method is on another space"};
   }
   if (auto same = check_moved(*surface->mesh, *moved); !same) return same.error();
-  return build(std::move(moved), state_->options, progress);
+  return State::build(
+      surface_input(std::move(moved), std::shared_ptr<const Surface>(state_->domain, surface)),
+      with_backend(state_->options, state_->asked()), progress, state_.get());
 }
 
 Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const

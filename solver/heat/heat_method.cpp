@@ -74,7 +74,7 @@ Error out_of_memory_error(const std::string& stage, const Domain::Input& input,
 Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Domain::Input>& input,
                                               const HeatOptions& options,
                                               std::span<const Fallback> failed,
-                                              const Progress& progress) try {
+                                              const Progress& progress, const State* earlier) try {
   const auto backend = find_backend(options.backend);
   if (!backend) return {backend.error()};
   auto domain = input->make(**backend, options.laplacian, setup_threads(options, *input),
@@ -83,7 +83,11 @@ Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Domain
   auto state = std::make_shared<State>();
   state->backend = *backend;
   state->domain = std::move(*domain);
-  auto made = factorised(*state, options, failed, part_of(progress, kDomainShare, 1.0));
+  if (earlier != nullptr) {
+    state->pool = earlier->pool;
+    state->helpers = earlier->helpers;
+  }
+  auto made = factorised(*state, options, failed, part_of(progress, kDomainShare, 1.0), earlier);
   if (!made.outcome) return made;
   auto timed = std::make_shared<State>(*made.outcome->state_);
   timed->timing.operators = timed->domain->timing.operators;
@@ -97,7 +101,8 @@ Attempt<HeatMethod> HeatMethod::State::set_up(const std::shared_ptr<const Domain
 
 Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatOptions& options,
                                                   std::span<const Fallback> failed,
-                                                  const Progress& progress) try {
+                                                  const Progress& progress,
+                                                  const State* earlier) try {
   if (!report(progress, "factorize", 0.0)) return {cancelled_error()};
   Stopwatch watch;
   auto next = std::make_shared<State>(from);
@@ -123,6 +128,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
       !fits) {
     return {fits.error(), FallbackPolicy::kAny};
   }
+  const State& previous = earlier != nullptr ? *earlier : from;
   Result<void> heat_done, poisson_done;
   const int of_heat = next->poisson ? threads : std::max(1, threads / 2);
   const int of_poisson = plan.missing == 1 ? threads : std::max(1, threads - threads / 2);
@@ -131,7 +137,7 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
       [&] {
         auto built = HeatStep::build(next->domain, next->times.t, next->boundary(),
                                      consistent_share(options.variant, next->times.relative),
-                                     iterative, options.precision, from.heat.get(), of_heat,
+                                     iterative, options.precision, previous.heat.get(), of_heat,
                                      part_of(progress, 0.0, threads > 1 ? 1.0 : 0.5));
         if (built) {
           next->heat = std::move(*built);
@@ -143,7 +149,8 @@ Attempt<HeatMethod> HeatMethod::State::factorised(const State& from, const HeatO
         if (next->poisson) return;
         auto built =
             PoissonSolver::build(next->domain, options.constraint, iterative, options.precision,
-                                 of_poisson, part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
+                                 earlier != nullptr ? earlier->poisson.get() : nullptr, of_poisson,
+                                 part_of(progress, threads > 1 ? 0.0 : 0.5, 1.0));
         if (built) {
           next->poisson = std::move(*built);
         } else {
@@ -234,6 +241,10 @@ const SetupTiming& HeatMethod::timing() const { return state_->timing; }
 double HeatMethod::memory_mb() const {
   const std::int64_t bytes = state_->heat->stats().bytes + state_->poisson->stats().bytes;
   return static_cast<double>(bytes) / (1024.0 * 1024.0);
+}
+HeatMethod::Fronts HeatMethod::fronts() const {
+  const FactorStats heat = state_->heat->stats(), poisson = state_->poisson->stats();
+  return {heat.fronts + poisson.fronts, heat.fronts_factored + poisson.fronts_factored};
 }
 double HeatMethod::forecast_mb() const {
   const FactorPlan plan = plan_factors(state_->boundary(), {}, false, 1);

@@ -62,18 +62,20 @@ struct HeatMethod::State {
   std::vector<Warning> warnings;
   std::vector<Fallback> failed;  ///< before the backend at work
 
-  /// Everything; by another backend where one fails.
+  /// Everything; by another backend where one fails. `earlier`: of the same space before it moved.
   static Result<HeatMethod> build(const std::shared_ptr<const Domain::Input>& input,
-                                  const HeatOptions& options, const Progress& progress);
+                                  const HeatOptions& options, const Progress& progress,
+                                  const State* earlier = nullptr);
 
   /// Everything with one backend, `options.backend`.
   static Attempt<HeatMethod> set_up(const std::shared_ptr<const Domain::Input>& input,
                                     const HeatOptions& options, std::span<const Fallback> failed,
-                                    const Progress& progress);
+                                    const Progress& progress, const State* earlier = nullptr);
 
   /// What is still missing for these options, on the domain and with the backend of `from`.
   static Attempt<HeatMethod> factorised(const State& from, const HeatOptions& options,
-                                        std::span<const Fallback> failed, const Progress& progress);
+                                        std::span<const Fallback> failed, const Progress& progress,
+                                        const State* earlier = nullptr);
 
   Attempt<std::vector<DistanceResult>> ask(std::span<const SourceSet> sets,
                                            const QueryOptions& query,

@@ -94,17 +94,27 @@ Result<std::shared_ptr<const HeatStep>> HeatStep::build(std::shared_ptr<const Do
   out->boundary_ = boundary;
   out->iterative_ = iterative;
   out->precision_ = precision;
-  if (previous != nullptr && previous->t_ == out->t_ &&
-      previous->consistent_share_ == out->consistent_share_ &&
-      (iterative || same_factors(previous->precision_, precision))) {
+  if (previous != nullptr &&
+      (previous->t_ != out->t_ || previous->consistent_share_ != out->consistent_share_ ||
+       (!iterative && !same_factors(previous->precision_, precision)))) {
+    previous = nullptr;
+  }
+  const bool moved = previous != nullptr && previous->domain_ != out->domain_;
+  if (previous != nullptr && !moved) {
     if (previous->neumann_) out->neumann_ = previous->neumann_->refined(out->refines());
     if (previous->dirichlet_) out->dirichlet_ = previous->dirichlet_->refined(out->refines());
   }
   const auto factor = [&](std::vector<Index> held, std::shared_ptr<const LinearSystem>& target) {
     const double share = out->neumann_ ? 0.5 : 0.0;
     if (!report(progress, "factorize", share)) return Result<void>(cancelled_error());
-    auto built = LinearSystem::build(*out->domain_, 1.0, out->t_, std::move(held),
-                                     {threads, heat_storage(precision)}, out->consistent_share_);
+    EarlierSystem earlier;
+    if (moved) {
+      const auto& same = &target == &out->neumann_ ? previous->neumann_ : previous->dirichlet_;
+      earlier = {previous->domain_.get(), same.get()};
+    }
+    auto built =
+        LinearSystem::build(*out->domain_, 1.0, out->t_, std::move(held),
+                            {threads, heat_storage(precision)}, out->consistent_share_, earlier);
     if (!built) return Result<void>(built.error());
     target = (*built)->refined(out->refines());
     return Result<void>();
@@ -339,6 +349,8 @@ FactorStats HeatStep::stats() const {
     sum.nonzeros += system->factor().stats().nonzeros;
     sum.bytes += system->factor().stats().bytes;
     sum.operations += system->factor().stats().operations;
+    sum.fronts += system->factor().stats().fronts;
+    sum.fronts_factored += system->factor().stats().fronts_factored;
   }
   return sum;
 }

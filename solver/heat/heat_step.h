@@ -49,9 +49,9 @@ class HeatStep {
     std::vector<Warning> warnings;
   };
 
-  /// `t` in squares of the unit. Systems are taken over from `previous` where it
-  /// has them with this t, share and storage. `progress` is asked before each factorisation.
-  /// Errors: the backend's, kCancelled.
+  /// `t` in squares of the unit. Systems are taken over from `previous` where it has them with this
+  /// t, share and storage; of a domain from which this one has moved, what has not changed.
+  /// `progress` is asked before each factorisation. Errors: the backend's, kCancelled.
   static Result<std::shared_ptr<const HeatStep>> build(std::shared_ptr<const Domain> domain,
                                                        PerComponent t, BoundaryRule boundary,
                                                        PerComponent consistent_share,

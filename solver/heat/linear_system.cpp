@@ -6,16 +6,36 @@
 
 namespace geotherm {
 
+namespace {
+
+/// Whether the same vertices are held.
+bool holds_same(const EarlierSystem& earlier, const Domain& domain, std::span<const Index> held) {
+  return std::ranges::equal(
+      earlier.system->matrix().held(), held, {},
+      [&](Index row) { return earlier.domain->vertex_of_row[row]; },
+      [&](Index row) { return domain.vertex_of_row[row]; });
+}
+
+}  // namespace
+
 Result<std::shared_ptr<const LinearSystem>> LinearSystem::build(
     const Domain& domain, double mass_factor, const PerComponent& stiffness_factor,
-    std::vector<Index> held, const FactorOptions& options, const PerComponent& consistent_share) {
+    std::vector<Index> held, const FactorOptions& options, const PerComponent& consistent_share,
+    const EarlierSystem& earlier) {
+  EarlierFactor before{nullptr, domain.changed_rows};
+  if (earlier.system != nullptr && holds_same(earlier, domain, held)) {
+    before.factor = &earlier.system->factor();
+  }
   // The factorisation gets an operator of its own, so that a matrix assembled for a direct solver
   // is gone once it is factored; a matrix-free backend keeps it and has nothing assembled.
   auto factored = domain.combine(mass_factor, stiffness_factor, std::move(held), consistent_share,
                                  options.threads);
   std::shared_ptr<LinearSystem> out(new LinearSystem);
   out->matrix_ = factored->copy();
-  auto factor = domain.analysis->factorize(std::move(factored), options);
+  FactorOptions with_memory = options;
+  with_memory.memory = domain.factor_memory;
+  if (earlier.domain != nullptr && !domain.changed_rows.empty()) with_memory.earlier = &before;
+  auto factor = domain.analysis->factorize(std::move(factored), with_memory);
   if (!factor) return factor.error();
   out->factor_ = std::move(*factor);
   return std::shared_ptr<const LinearSystem>(std::move(out));

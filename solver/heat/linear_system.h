@@ -78,13 +78,22 @@ struct Workspace {
 };
 
 /// An operator on a domain and its factorisation by some backend. Immutable.
+class LinearSystem;
+
+/// The same system of the domain from which one has moved, or null: what Domain::changed_rows
+/// leaves is not factorised again.
+struct EarlierSystem {
+  const Domain* domain = nullptr;
+  const LinearSystem* system = nullptr;
+};
+
 class LinearSystem {
  public:
   /// Factorises a A + s L with `held` rows replaced by the identity's.
   static Result<std::shared_ptr<const LinearSystem>> build(
       const Domain& domain, double mass_factor, const PerComponent& stiffness_factor,
       std::vector<Index> held, const FactorOptions& options,
-      const PerComponent& consistent_share = 0.0);
+      const PerComponent& consistent_share = 0.0, const EarlierSystem& earlier = {});
 
   /// The same system and factor; with `refine` each solve is followed by a step of iterative
   /// refinement, x += M^-1 (b - M x), with M x in double (Wilkinson 1963). The residual is small

@@ -103,7 +103,7 @@ class Neighbourhood {
     double last = 0;
     while (!queue_.empty()) {
       const auto [distance, number] = queue_.top();
-      if (faces_.keys().size() >= most && distance > last) return;  // no order among equals
+      if (faces_.keys().size() >= most && distance > last) break;  // no order among equals
       last = distance;
       queue_.pop();
       if (vertices_[number].whole) continue;
@@ -117,6 +117,7 @@ class Neighbourhood {
         add_face(f);
       }
     }
+    number_by_mesh();
   }
 
   Result<std::shared_ptr<const WaveSurface>> surface() const {
@@ -192,6 +193,32 @@ class Neighbourhood {
     bool whole = false;  ///< all its faces are here
   };
   using Entry = std::pair<double, Index>;
+
+  /// Numbers vertices and faces in the order of the mesh, so that waves, which meet them in the
+  /// order of their numbers where places are equal, do not depend on the elimination order.
+  void number_by_mesh() {
+    std::vector<std::pair<Index, Index>> order;  // by the mesh, and here
+    for (const Index row : rows_.keys()) {
+      order.emplace_back(surface_.vertex_of_row[row], static_cast<Index>(order.size()));
+    }
+    std::ranges::sort(order);
+    const Numbering rows = std::exchange(rows_, {}), faces = std::exchange(faces_, {});
+    const std::vector<Vertex> vertices = std::exchange(vertices_, {});
+    for (const auto& [vertex, here] : order) {
+      rows_.add(rows.keys()[here]);
+      vertices_.push_back(vertices[here]);
+    }
+    order.clear();
+    for (const Index face : faces.keys()) {
+      order.emplace_back(face, static_cast<Index>(order.size()));
+    }
+    std::ranges::sort(order);
+    const std::vector<Index> operator_face = std::exchange(operator_face_, {});
+    for (const auto& [face, here] : order) {
+      faces_.add(face);
+      operator_face_.push_back(operator_face[here]);
+    }
+  }
 
   /// Notes a way to a row along edges.
   void reach(Index row, double distance) {

@@ -66,15 +66,19 @@ void remove(const Components& components, std::span<const double> direction,
 
 Result<std::shared_ptr<const PoissonSolver>> PoissonSolver::build(
     std::shared_ptr<const Domain> domain, const Constraint& constraint, bool iterative,
-    Precision precision, int threads, const Progress& progress) {
+    Precision precision, const PoissonSolver* earlier, int threads, const Progress& progress) {
   std::shared_ptr<PoissonSolver> out(new PoissonSolver);
   std::vector<Index> pins;
   auto chosen = choose_pins(*domain, constraint);
   if (!chosen) return chosen.error();
   if (!solves_singular(constraint, iterative)) pins = std::move(*chosen);
   if (!report(progress, "factorize", 0.0)) return cancelled_error();
+  EarlierSystem before;
+  if (earlier != nullptr && same_factors(earlier->precision_, precision)) {
+    before = {earlier->domain_.get(), earlier->system_.get()};
+  }
   auto system = LinearSystem::build(*domain, 0.0, 1.0, std::move(pins),
-                                    {threads, poisson_storage(precision)});
+                                    {threads, poisson_storage(precision)}, 0.0, before);
   if (!system) return system.error();
   out->system_ = (*system)->refined(precision == Precision::kRefined && !iterative);
   out->precision_ = precision;

@@ -27,11 +27,12 @@ class PoissonSolver {
  public:
   /// One pinned factor serves all modes; iterative backends get the singular operator where the
   /// mode allows it, since pinning hurts their convergence. `progress` is asked before the
-  /// factorisation. Errors: the backend's; kBadInput when the pin vertex does not exist;
-  /// kCancelled.
+  /// factorisation. `earlier`: of a domain from which this one has moved, or null. Errors: the
+  /// backend's; kBadInput when the pin vertex does not exist; kCancelled.
   static Result<std::shared_ptr<const PoissonSolver>> build(std::shared_ptr<const Domain> domain,
                                                             const Constraint& constraint,
                                                             bool iterative, Precision precision,
+                                                            const PoissonSolver* earlier,
                                                             int threads,
                                                             const Progress& progress = {});
 

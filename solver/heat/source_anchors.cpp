@@ -47,7 +47,7 @@ class Placer {
     for (const Index v : edge) add_vertex(v);
     if (edge[0] == edge[1]) return;
     const Index e = find_clean_edge(surface_, edge[0], edge[1]);
-    const Side side = surface_.clean_edges.sides(e).front();
+    const Side side = surface_.kept->edges.sides(e).front();
     FacePiece piece{face_of(side), {}, {}};
     piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
     add_piece(piece, true);
@@ -81,7 +81,7 @@ class Placer {
 
   void add_vertex(Index v) { anchors_[surface_.row_of_vertex[v]] = {0.0, 1.0}; }
 
-  /// A piece of clean_faces, and the same on the face's back where there is one.
+  /// A piece of kept->faces, and the same on the face's back where there is one.
   void add_piece(const FacePiece& piece, bool heats) {
     add_carried(piece, heats);
     const IntrinsicMesh& intrinsic = surface_.intrinsic;
@@ -90,17 +90,17 @@ class Placer {
     add_carried({intrinsic.back[piece.face], turned(piece.from), turned(piece.to)}, false);
   }
 
-  /// A piece on a side of clean_faces, from and to where the side's first corner has these weights,
+  /// A piece on a side of kept->faces, from and to where the side's first corner has these weights,
   /// as the other faces at the edge see it: where edits do not pass the edge, no twin leads there.
   void add_beyond(Side side, const std::array<double, 2>& weights) {
-    const Face& face = surface_.clean_faces[face_of(side)];
+    const Face& face = surface_.kept->faces[face_of(side)];
     const Index from = face[corner_of(side)], to = face[next_corner(corner_of(side))];
-    const auto sides = surface_.clean_edges.sides(find_clean_edge(surface_, from, to));
-    if (sides.size() == 2 && sides_agree(surface_.clean_faces, sides[0], sides[1])) return;
+    const auto sides = surface_.kept->edges.sides(find_clean_edge(surface_, from, to));
+    if (sides.size() == 2 && sides_agree(surface_.kept->faces, sides[0], sides[1])) return;
     for (const Side other : sides) {
       if (other == side) continue;
       const int k = corner_of(other), l = next_corner(k);
-      const bool same = surface_.clean_faces[face_of(other)][k] == from;
+      const bool same = surface_.kept->faces[face_of(other)][k] == from;
       FacePiece piece{face_of(other), {}, {}};
       piece.from[same ? k : l] = weights[0];
       piece.from[same ? l : k] = 1 - weights[0];

@@ -11,6 +11,7 @@
 #include "solver/geometry/fem_operator.h"
 #include "solver/geometry/operator_mesh.h"
 #include "solver/heat/unit_field.h"
+#include "solver/linear/elimination_tree.h"
 
 namespace geotherm {
 namespace {
@@ -59,7 +60,7 @@ struct UsedVertices {
       : local(static_cast<std::size_t>(surface.vertex_count()), kNoIndex) {
     const auto own = static_cast<std::size_t>(surface.mesh->vertex_count());
     for (std::size_t v = 0; v < local.size(); ++v) {
-      if (v < own && !surface.on_surface[v]) continue;
+      if (v < own && !surface.kept->on_surface[v]) continue;
       local[v] = static_cast<Index>(vertices.size());
       vertices.push_back(static_cast<Index>(v));
       positions.push_back(surface.position(vertices.back()));
@@ -73,7 +74,7 @@ struct UsedVertices {
 /// split.
 std::vector<char> find_boundary(const Surface& surface) {
   std::vector<char> on_border(surface.vertex_of_row.size(), 0);
-  const EdgeTable& edges = surface.clean_edges;
+  const EdgeTable& edges = surface.kept->edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     if (edges.sides(e).size() != 1) continue;
     on_border[surface.row_of_vertex[edges.low(e)]] = 1;
@@ -99,7 +100,7 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
     size.mean_edge = surface.part_edge[part];
     if (!surface.refinement.grading.empty()) size.grading = surface.refinement.grading[part];
   }
-  for (const Face& face : surface.clean_faces) {
+  for (const Face& face : surface.kept->faces) {
     ++sizes[mesh.components.of[surface.row_of_vertex[face[0]]]].cells;
   }
   for (std::size_t c = 0; c < sizes.size(); ++c) {
@@ -111,19 +112,21 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
 
 class MeshInput final : public Domain::Input {
  public:
-  explicit MeshInput(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
+  MeshInput(std::shared_ptr<const TriangleMesh> mesh, std::shared_ptr<const Surface> earlier)
+      : mesh_(std::move(mesh)), earlier_(std::move(earlier)) {}
 
   Index cell_count() const override { return mesh_->face_count(); }
   std::array<const char*, 2> cell_names() const override { return {"face", "faces"}; }
   Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
                                              int threads, const Progress& progress) const override {
-    auto made = build_surface(mesh_, backend, laplacian, threads, progress);
+    auto made = build_surface(mesh_, backend, laplacian, threads, progress, earlier_.get());
     if (!made) return made.error();
     return std::shared_ptr<const Domain>(*std::move(made));
   }
 
  private:
   std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const Surface> earlier_;
 };
 
 LaplacianKind kind_of(const IntrinsicSurface& surface) {
@@ -132,51 +135,172 @@ LaplacianKind kind_of(const IntrinsicSurface& surface) {
   return surface.delaunay ? LaplacianKind::kIntrinsicDelaunay : LaplacianKind::kCotan;
 }
 
+/// A factor that would be larger by more than this, against that of the last fresh order, has a new
+/// order made.
+constexpr double kMostGrowth = 1.15;
+
+std::shared_ptr<const KeptOrder> order_of(const Surface& fresh) {
+  const EliminationTree* const tree = fresh.analysis->tree();
+  if (tree == nullptr) return nullptr;
+  auto out = std::make_shared<KeptOrder>();
+  out->parent = tree->parent;
+  out->node_of_vertex.assign(static_cast<std::size_t>(fresh.mesh->vertex_count()), kNoIndex);
+  for (Index row = 0; row < fresh.size(); ++row) {
+    if (!fresh.is_of_input(row)) continue;
+    out->vertices.push_back(fresh.vertex_of_row[row]);
+    out->node_of_vertex[out->vertices.back()] = tree->node_of_row[row];
+  }
+  out->factor_bytes = fresh.analysis->factor_bytes(FactorStorage::kFull);
+  return out;
+}
+
+void name_vertices(std::vector<Index> vertex_of_row, Surface& out) {
+  out.vertex_of_row = std::move(vertex_of_row);
+  out.row_of_vertex.assign(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
+  for (std::size_t k = 0; k < out.vertex_of_row.size(); ++k) {
+    out.row_of_vertex[out.vertex_of_row[k]] = static_cast<Index>(k);
+  }
+}
+
+/// Order, analysis and operators from those of an earlier surface. False where they do not serve.
+bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& out) {
+  if (earlier.backend != out.backend || earlier.asked != out.asked) return false;
+  if (same_triangles(earlier, out, threads)) {
+    out.kept_order = earlier.kept_order;
+    out.vertex_of_row = earlier.vertex_of_row;
+    out.row_of_vertex = earlier.row_of_vertex;
+    out.analysis = earlier.analysis;
+    out.operators = moved_operator_mesh(*earlier.operators, out.intrinsic, threads);
+    out.timing.operators += watch.lap();
+    return true;
+  }
+  const auto kept = earlier.kept_order ? earlier.kept_order : order_of(earlier);
+  if (!kept) return false;
+  std::vector<Index> node = kept->node_of_vertex;
+  node.resize(static_cast<std::size_t>(out.vertex_count()), kNoIndex);
+  const auto nodes = order_along(kept->parent, kept->vertices, node, out.intrinsic.faces);
+  if (!nodes) return false;
+  name_vertices(nodes->order, out);
+  const FollowingMesh made =
+      follow_order(out.intrinsic, out.vertex_of_row, out.row_of_vertex, out.parts, threads);
+  out.timing.operators += watch.lap();
+  auto analysis = earlier.analysis->follow(*nodes, made.pattern, threads);
+  out.timing.analyze += watch.lap();
+  if (!analysis) return false;
+  const auto bytes = static_cast<double>((*analysis)->factor_bytes(FactorStorage::kFull));
+  if (bytes > kMostGrowth * static_cast<double>(kept->factor_bytes)) return false;
+  out.kept_order = kept;
+  out.analysis = *std::move(analysis);
+  out.operators = made.operators;
+  return true;
+}
+
+/// The rows of `now` whose matrix entries or neighbours are not those of an earlier surface in the
+/// same units: corners of faces that are others, and what surrounds vertices that have another
+/// node. Empty where the nodes are others, or a quarter of the rows would be in it.
+std::vector<char> find_changed_rows(const Surface& earlier, const Surface& now) {
+  const EliminationTree *before = earlier.analysis->tree(), *tree = now.analysis->tree();
+  const IntrinsicMesh &old = earlier.intrinsic, &mesh = now.intrinsic;
+  if (before == nullptr || tree == nullptr || before->parent != tree->parent ||
+      earlier.refinement.points != now.refinement.points || old.back != mesh.back) {
+    return {};
+  }
+  std::vector<char> rows(static_cast<std::size_t>(now.size()), 0);
+  std::int64_t count = 0;
+  const auto mark = [&](const Face& face) {
+    for (const Index v : face) {
+      char& flag = rows[now.row_of_vertex[v]];
+      count += flag == 0;
+      flag = 1;
+    }
+  };
+  const auto same_node = [&](Index v) {
+    return before->node_of_row[earlier.row_of_vertex[v]] == tree->node_of_row[now.row_of_vertex[v]];
+  };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const bool same = mesh.faces[f] == old.faces[f] && mesh.lengths[f] == old.lengths[f];
+    if (same && std::ranges::all_of(mesh.faces[f], same_node)) continue;
+    mark(mesh.faces[f]);
+    mark(old.faces[f]);
+  }
+  if (4 * count > now.size()) rows.clear();
+  return rows;
+}
+
+/// Whether most vertices are where they were: then lengths keep their unit, and with it their bits.
+bool moved_little(const IntrinsicSurface& earlier, const TriangleMesh& mesh) {
+  constexpr Index kShare = 8;
+  Index moved = 0;
+  const auto before = earlier.mesh->positions(), now = mesh.positions();
+  for (std::size_t v = 0; v < now.size(); ++v) moved += now[v] != before[v];
+  return kShare * moved <= mesh.vertex_count();
+}
+
+/// The same from the pattern alone.
+Result<void> order_afresh(int threads, const Progress& progress, Stopwatch& watch, Surface& out) {
+  const UsedVertices used(out);
+  if (out.corners.vertex_count() == 0) {
+    out.corners = CornerTable(out.vertex_count(), out.intrinsic.faces, threads);
+  }
+  const SymmetricPattern pattern =
+      surface_pattern(out.intrinsic, out.corners, used.vertices, used.local, threads);
+  out.timing.stages.pattern = watch.lap();
+  out.timing.operators += out.timing.stages.pattern;
+  if (!report(progress, "analyze", kAnalyzeFrom)) return cancelled_error();
+  auto analysis = out.backend->analyze(pattern, used.positions, threads);
+  if (!analysis) return analysis.error();
+  out.kept_order = nullptr;
+  out.analysis = std::move(*analysis);
+  out.timing.analyze += watch.lap();
+
+  if (!report(progress, "operators", kAnalyzeTo)) return cancelled_error();
+  const std::span<const Index> order = out.analysis->order();
+  out.operators =
+      build_operator_mesh(out.intrinsic, pattern, used.local, order, used.parts, threads);
+  std::vector<Index> vertices;
+  for (const Index k : order) vertices.push_back(used.vertices[k]);
+  name_vertices(std::move(vertices), out);
+  return {};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
-                                                     const Progress& progress) {
-  Stopwatch watch, stage;
+                                                     const Progress& progress,
+                                                     const Surface* earlier) {
+  Stopwatch watch;
+  const bool little = earlier != nullptr && moved_little(*earlier, *mesh);
   auto built = build_intrinsic_surface(
-      std::move(mesh), {flip_rule(laplacian), cover_rule(laplacian), refine_rule(laplacian), true},
-      part_of(progress, 0.0, kAnalyzeFrom), threads);
+      std::move(mesh),
+      {flip_rule(laplacian), cover_rule(laplacian), refine_rule(laplacian), true, little},
+      part_of(progress, 0.0, kAnalyzeFrom), threads, earlier);
   if (!built) return built.error();
   auto out = std::make_shared<Surface>();
   static_cast<IntrinsicSurface&>(*out) = std::move(*built);
   out->laplacian = kind_of(*out);
-  out->unit = out->mean_edge;
+  out->asked = laplacian;
+  out->backend = &backend;
+  out->unit = out->intrinsic.unit;
   out->input_vertices = out->mesh->vertex_count();
   out->findings = std::move(out->warnings);
   out->input = surface_input(out->mesh);
 
-  stage.lap();
-  const UsedVertices used(*out);
-  const SymmetricPattern pattern =
-      surface_pattern(out->intrinsic, out->corners, used.vertices, used.local, threads);
-  out->corners = {};
-  SetupTiming& timing = out->timing;
-  timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, stage.lap(), 0};
-  timing.operators = watch.lap();
-
-  if (!report(progress, "analyze", kAnalyzeFrom)) return cancelled_error();
-  auto analysis = backend.analyze(pattern, used.positions, threads);
-  if (!analysis) return analysis.error();
-  out->analysis = std::move(*analysis);
-  timing.analyze = watch.lap();
-
-  if (!report(progress, "operators", kAnalyzeTo)) return cancelled_error();
-  const std::span<const Index> order = out->analysis->order();
-  out->operators =
-      build_operator_mesh(out->intrinsic, pattern, used.local, order, used.parts, threads);
-  out->vertex_of_row.resize(order.size());
-  out->row_of_vertex.assign(used.local.size(), kNoIndex);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const Index vertex = used.vertices[order[k]];
-    out->vertex_of_row[k] = vertex;
-    out->row_of_vertex[vertex] = static_cast<Index>(k);
+  if (earlier != nullptr) {
+    out->factor_memory =
+        earlier->factor_memory ? earlier->factor_memory : std::make_shared<BufferPool>();
+    if (!report(progress, "analyze", kAnalyzeFrom)) return cancelled_error();
   }
+
+  SetupTiming& timing = out->timing;
+  timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, 0, 0};
+  timing.operators = watch.lap();
+  if (earlier == nullptr || !keep_order(*earlier, threads, watch, *out)) {
+    if (auto made = order_afresh(threads, progress, watch, *out); !made) return made.error();
+  }
+  if (little && out->unit == earlier->unit) out->changed_rows = find_changed_rows(*earlier, *out);
+  out->corners = {};
   out->on_boundary = find_boundary(*out);
   out->components = measure_components(*out);
   if (std::ranges::none_of(out->components, [](const auto& size) { return size.area > 0; })) {
@@ -187,8 +311,9 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   return std::shared_ptr<const Surface>(std::move(out));
 }
 
-std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh) {
-  return std::make_shared<const MeshInput>(std::move(mesh));
+std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh,
+                                                   std::shared_ptr<const Surface> earlier) {
+  return std::make_shared<const MeshInput>(std::move(mesh), std::move(earlier));
 }
 
 std::shared_ptr<const DomainOperator> Surface::combine(double mass_factor,

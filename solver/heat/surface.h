@@ -13,10 +13,21 @@
 
 namespace geotherm {
 
+/// The order that the surfaces of a mesh that moves keep: that of the last fresh analysis.
+struct KeptOrder {
+  std::vector<Index> parent;          ///< its tree: EliminationTree::parent
+  std::vector<Index> vertices;        ///< of the mesh, in that order
+  std::vector<Index> node_of_vertex;  ///< V: the node of each vertex of the mesh, or kNoIndex
+  std::int64_t factor_bytes = 0;      ///< of a factor in that order, as it was foreseen
+};
+
 /// A triangle mesh made ready for the heat method: cleaned, triangulated intrinsically, analysed by
 /// a backend and renumbered into its elimination order.
 struct Surface final : IntrinsicSurface, Domain {
   LaplacianKind laplacian = LaplacianKind::kCotan;
+  LaplacianKind asked = LaplacianKind::kAuto;   ///< of which that is what it became
+  const Backend* backend = nullptr;             ///< that analysed it
+  std::shared_ptr<const KeptOrder> kept_order;  ///< null where the analysis is fresh
   std::shared_ptr<const OperatorMesh> operators;
 
   const Components& parts_of_rows() const override { return operators->components; }
@@ -37,13 +48,18 @@ struct Surface final : IntrinsicSurface, Domain {
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".
-/// Errors: kBadInput (no face with area), kCancelled, and the backend's.
+/// Errors: kBadInput (no face with area), kCancelled, and the backend's. `earlier`: the same faces
+/// with vertices elsewhere, or null. Its elimination order is kept, and its whole analysis where
+/// the triangulation is the same; a new order is made where factors in the kept one would be larger
+/// by more than 15 % than they were when it was made.
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
-                                                     const Progress& progress = {});
+                                                     const Progress& progress = {},
+                                                     const Surface* earlier = nullptr);
 
-/// What makes the domain of a mesh.
-std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh);
+/// What makes the domain of a mesh; `earlier` as in build_surface().
+std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh,
+                                                   std::shared_ptr<const Surface> earlier = {});
 
 }  // namespace geotherm

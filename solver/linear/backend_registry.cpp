@@ -102,6 +102,12 @@ Result<Eigen::MatrixXd> Factorization::inverse_entries(std::span<const Index> ro
   return entries;
 }
 
+Result<std::shared_ptr<const Analysis>> Analysis::follow(const NodeOrder& /*order*/,
+                                                         const SymmetricPattern& /*eliminated*/,
+                                                         int /*threads*/) const {
+  return Error{ErrorCode::kNotAvailable, "the backend keeps no order for another pattern"};
+}
+
 Result<void> check_pattern(const SymmetricOperator& matrix, std::uint64_t analysed, Index size) {
   if (matrix.pattern() == analysed) return {};
   return Error{ErrorCode::kBadInput,

@@ -2,6 +2,7 @@
 #include "solver/linear/elimination_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 
 namespace geotherm {
@@ -40,6 +41,111 @@ std::vector<Index> EliminationTree::path_of_flags(std::span<const char> rows) co
     if (parent[node] != kNoIndex) visited[parent[node]] = 1;
   }
   return path;
+}
+
+namespace {
+
+/// Which nodes of a postorder are above which, and where branches meet.
+class Ancestors {
+ public:
+  explicit Ancestors(std::span<const Index> parent) : parent_(parent), first_(parent.size()) {
+    for (Index s = 0; s < std::ssize(parent); ++s) first_[s] = s;
+    for (Index s = 0; s < std::ssize(parent); ++s) {
+      if (parent[s] != kNoIndex) first_[parent[s]] = std::min(first_[parent[s]], first_[s]);
+    }
+  }
+  /// Whether one is above the other, or they are the same.
+  bool related(Index a, Index b) const {
+    const auto [low, high] = std::minmax(a, b);
+    return first_[high] <= low;
+  }
+  /// The lowest node above `low` that is above `high`, too; kNoIndex where there is none.
+  Index meeting(Index low, Index high) const {
+    while (low != kNoIndex && (low < high || first_[low] > high)) low = parent_[low];
+    return low;
+  }
+
+ private:
+  std::span<const Index> parent_;
+  std::vector<Index> first_;  ///< the lowest node of each subtree
+};
+
+/// The sides of faces that join vertices of unrelated nodes, or new vertices; most faces have none.
+std::vector<std::array<Index, 2>> edges_to_settle(const Ancestors& tree,
+                                                  std::span<const Index> node,
+                                                  std::span<const Face> faces) {
+  std::vector<std::array<Index, 2>> edges;
+  for (const Face& face : faces) {
+    for (int k = 0; k < 3; ++k) {
+      const Index a = face[k], b = face[k == 2 ? 0 : k + 1];
+      const bool placed = node[a] != kNoIndex && node[b] != kNoIndex;
+      if (!placed || !tree.related(node[a], node[b])) edges.push_back({a, b});
+    }
+  }
+  return edges;
+}
+
+/// Puts new vertices into the lowest node of a neighbour that has one. False where one has none.
+bool place_new(std::span<const std::array<Index, 2>> edges, std::vector<Index>& node) {
+  // Those whose neighbours are new as well wait for these.
+  for (bool waits = true; waits;) {
+    waits = false;
+    std::vector<std::pair<Index, Index>> found;
+    for (const auto& [a, b] : edges) {
+      if (node[a] == kNoIndex && node[b] != kNoIndex) found.emplace_back(a, node[b]);
+      if (node[b] == kNoIndex && node[a] != kNoIndex) found.emplace_back(b, node[a]);
+      waits |= node[a] == kNoIndex || node[b] == kNoIndex;
+    }
+    std::sort(found.begin(), found.end());
+    for (auto at = found.rbegin(); at != found.rend(); ++at) node[at->first] = at->second;
+    if (waits && found.empty()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<NodeOrder> order_along(std::span<const Index> parent, std::span<const Index> order,
+                                     std::vector<Index>& node, std::span<const Face> faces) {
+  std::vector<char> is_new(node.size());
+  for (std::size_t v = 0; v < node.size(); ++v) is_new[v] = node[v] == kNoIndex ? 1 : 0;
+  const Ancestors tree(parent);
+  const auto edges = edges_to_settle(tree, node, faces);
+  if (!place_new(edges, node)) return std::nullopt;
+  for (const auto& [a, b] : edges) {
+    const Index low = node[a] < node[b] ? a : b, high = low == a ? b : a;
+    if (tree.related(node[low], node[high])) continue;
+    node[high] = tree.meeting(node[high], node[low]);
+    if (node[high] == kNoIndex) return std::nullopt;
+  }
+  NodeOrder out;
+  std::vector<Index> start(parent.size() + 1, 0);
+  for (const Index s : node) {
+    if (s != kNoIndex) ++start[s + 1];
+  }
+  std::vector<Index> number(parent.size(), kNoIndex);
+  for (std::size_t s = 0; s < parent.size(); ++s) {
+    if (start[s + 1] > 0) {
+      number[s] = static_cast<Index>(out.first.size());
+      out.first.push_back(start[s]);
+    }
+    start[s + 1] += start[s];
+  }
+  out.first.push_back(start.back());
+  for (std::size_t s = 0; s < parent.size(); ++s) {
+    if (number[s] == kNoIndex) continue;
+    Index above = parent[s];
+    while (above != kNoIndex && number[above] == kNoIndex) above = parent[above];
+    out.parent.push_back(above == kNoIndex ? kNoIndex : number[above]);
+  }
+  out.order.resize(static_cast<std::size_t>(out.first.back()));
+  for (const Index v : order) out.order[start[node[v]]++] = v;
+  for (std::size_t v = 0; v < node.size(); ++v) {
+    if (is_new[v] != 0 && node[v] != kNoIndex) {
+      out.order[start[node[v]]++] = static_cast<Index>(v);
+    }
+  }
+  return out;
 }
 
 std::vector<Index> elimination_parents(const SymmetricPattern& pattern) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,29 @@ std::vector<Index> elimination_parents(const SymmetricPattern& pattern);
 /// their parent, siblings in the order of their numbers. Precondition: parents have larger numbers.
 /// Cost: O(n).
 std::vector<Index> postorder(std::span<const Index> parent);
+
+/// An elimination order that follows a tree: its nodes one after the other, children before
+/// parents, each subtree contiguous.
+struct NodeOrder {
+  std::vector<Index> order;   ///< order[k]: the vertex eliminated k-th
+  std::vector<Index> first;   ///< nodes + 1: place of each node's first vertex in `order`
+  std::vector<Index> parent;  ///< nodes: kNoIndex at roots
+};
+
+/// Keeps an elimination order where a graph has got other edges, or vertices: each vertex stays in
+/// its node of the earlier tree, unless an edge joins two branches; then the end in the higher
+/// numbered one rises to the node where the branches meet. A factor of the graph in this order has
+/// entries only where a row's node is an ancestor of the column's. Nodes without vertices are left
+/// out.
+///
+/// `parent`: the earlier tree, a postorder. `order`: the earlier order, which vertices of one node
+/// keep among them; new ones follow. `node`: of every vertex, kNoIndex for a new one, which
+/// begins in the lowest node of its neighbours; changed to what they have in the end. `faces`: the
+/// graph as triangles, whose corners are vertices; a new one in none of them is left out. Empty
+/// where an edge joins two trees, or a face has new vertices alone, far from others. Cost: O(F),
+/// and the depth of the tree for each vertex that rises.
+std::optional<NodeOrder> order_along(std::span<const Index> parent, std::span<const Index> order,
+                                     std::vector<Index>& node, std::span<const Face> faces);
 
 /// How large the columns of a Cholesky factor will be.
 struct ColumnCounts {

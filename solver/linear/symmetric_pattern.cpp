@@ -102,6 +102,17 @@ LowerPattern permuted_lower(const SymmetricPattern& pattern, std::span<const Ind
   return out;
 }
 
+LowerPattern lower_of(const SymmetricPattern& pattern, int threads) {
+  LowerPattern out;
+  const auto add_column = [&pattern](Index k, std::vector<Index>& list) {
+    const auto all = pattern.neighbors(k);
+    list.push_back(k);
+    list.insert(list.end(), std::ranges::upper_bound(all, k), all.end());
+  };
+  list_rows(pattern.size(), threads, add_column, out.start, out.row);
+  return out;
+}
+
 std::vector<Index> inverse_permutation(std::span<const Index> order, int threads) {
   std::vector<Index> position(order.size());
   const auto count = static_cast<std::int64_t>(order.size());

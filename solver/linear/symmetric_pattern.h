@@ -12,6 +12,9 @@ namespace geotherm {
 /// corner + 1. Cost: O(F).
 SymmetricPattern pattern_of_faces(Index size, std::span<const Face> faces);
 
+/// The lower triangle of a pattern as it is numbered. Cost: O(n), by all threads.
+LowerPattern lower_of(const SymmetricPattern& pattern, int threads);
+
 /// Connected component of every vertex, numbered by first appearance.
 struct Components {
   std::vector<Index> of;  ///< n

@@ -12,6 +12,8 @@ namespace {
 
 class DirectFactorization final : public Factorization {
  public:
+  const TriangularFactor& factor() const { return *factor_; }
+
   explicit DirectFactorization(std::unique_ptr<TriangularFactor> factor)
       : factor_(std::move(factor)) {}
 
@@ -151,6 +153,11 @@ Index last_of_supernode(Index column, Index size, const Below& below, const Pare
 
 std::unique_ptr<Factorization> make_direct_factorization(std::unique_ptr<TriangularFactor> factor) {
   return std::make_unique<DirectFactorization>(std::move(factor));
+}
+
+const TriangularFactor* triangular_factor_of(const Factorization& factorization) {
+  const auto* const direct = dynamic_cast<const DirectFactorization*>(&factorization);
+  return direct != nullptr ? &direct->factor() : nullptr;
 }
 
 void SupernodalStructure::finish() {

@@ -34,6 +34,9 @@ class TriangularFactor {
 /// the factor once.
 std::unique_ptr<Factorization> make_direct_factorization(std::unique_ptr<TriangularFactor> factor);
 
+/// The factor of such a one; null for others.
+const TriangularFactor* triangular_factor_of(const Factorization& factorization);
+
 /// The columns and rows of each supernode, shared by all factors of a pattern.
 struct SupernodalStructure {
   std::vector<Index> first = {0};               ///< S + 1: first column of each supernode

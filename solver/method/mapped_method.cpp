@@ -57,7 +57,7 @@ Result<MeshMapping> MeshMapping::build(std::shared_ptr<const TriangleMesh> mesh,
   out.warnings_ = cleaning_notes(clean);
   out.surface_.mesh = out.mesh_;
   out.surface_.mean_edge = mean_edge_length(positions, clean.edges);
-  keep_clean_faces(std::move(clean), out.surface_);
+  out.surface_.kept = keep_faces(clean, *out.mesh_);
   out.milliseconds_ = watch.milliseconds();
   return out;
 }
@@ -82,7 +82,7 @@ void MeshMapping::add_edge(const std::array<Index, 2>& edge,
     return;
   }
   const Index number = find_clean_edge(surface_, edge[0], edge[1]);
-  const Side side = surface_.clean_edges.sides(number).front();
+  const Side side = surface_.kept->edges.sides(number).front();
   const auto line = subdivided_side(inner_->faces(), face_of(side), corner_of(side), refine_);
   for (std::size_t i = 1; i < line.size(); ++i) edges.push_back({line[i - 1], line[i]});
 }

@@ -61,7 +61,7 @@ Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
   if (query.quality) assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
-  for (double& distance : result.distances) distance *= surface->base.mean_edge;
+  for (double& distance : result.distances) distance *= surface->base.length_unit();
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);
   }
@@ -97,6 +97,8 @@ Result<std::vector<DistanceResult>> ExactMethod::solve_each(std::span<const Sour
 
 const SetupTiming& ExactMethod::timing() const { return state_->timing; }
 double ExactMethod::memory_mb() const { return state_->mesh.bytes() / kMiB; }
+const std::shared_ptr<const WaveSurface>& ExactMethod::surface() const { return state_->surface; }
+
 const std::vector<Warning>& ExactMethod::warnings() const { return state_->surface->base.warnings; }
 
 }  // namespace geotherm

@@ -135,7 +135,7 @@ MarchSupports build_march_supports(const WaveSurface& surface) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     for (int k = 0; k < 3; ++k) add_corner(mesh, f, k, out.all);
   }
-  out.start.assign(surface.base.on_surface.size() + 1, 0);
+  out.start.assign(surface.base.kept->on_surface.size() + 1, 0);
   for (const MarchSupport& s : out.all) {
     ++out.start[s.left + 1];
     ++out.start[s.right + 1];
@@ -165,7 +165,7 @@ class March {
   March(const WaveSurface& surface, const MarchSupports& supports)
       : surface_(surface),
         supports_(supports),
-        distance(surface.base.on_surface.size(), kUnreached),
+        distance(surface.base.kept->on_surface.size(), kUnreached),
         label(distance.size(), kNoIndex),
         accepted_(distance.size(), 0) {}
 
@@ -255,7 +255,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
   result.timing.query = watch.lap();
   if (query.quality) assess_waves(MethodKind::kFastMarching, surface, sources, *seeds, result);
   watch.lap();
-  for (double& distance : result.distances) distance *= surface.base.mean_edge;
+  for (double& distance : result.distances) distance *= surface.base.length_unit();
   result.timing.query += watch.lap();
   return result;
 }
@@ -305,6 +305,10 @@ const SetupTiming& FastMarchingMethod::timing() const { return state_->timing; }
 
 double FastMarchingMethod::memory_mb() const {
   return static_cast<double>(state_->supports.bytes()) / (1024.0 * 1024.0);
+}
+
+const std::shared_ptr<const WaveSurface>& FastMarchingMethod::surface() const {
+  return state_->surface;
 }
 
 const std::vector<Warning>& FastMarchingMethod::warnings() const {

@@ -96,6 +96,14 @@ WaveFront::WaveFront(const WaveTables& tables, int samples, InstructionSet set)
       set_(set),
       ring_(kBucketWidth * tables.mean_side, kRingSpan * tables.longest_side) {}
 
+WaveFront::WaveFront(const WaveTables& tables, WaveFront&& spare)
+    : WaveFront(tables, spare.samples_, spare.set_) {
+  distance_ = std::move(spare.distance_);
+  sample_ = std::move(spare.sample_);
+  queued_ = std::move(spare.queued_);
+  spread_below_ = std::move(spare.spread_below_);
+}
+
 WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
                                   const Progress& progress) {
   reset(labels);

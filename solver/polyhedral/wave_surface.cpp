@@ -113,7 +113,7 @@ class Seeder {
  private:
   void add_point(std::size_t i) {
     const double offset =
-        sources_.offsets.empty() ? 0.0 : sources_.offsets[i] / surface_.base.mean_edge;
+        sources_.offsets.empty() ? 0.0 : sources_.offsets[i] / surface_.base.length_unit();
     const Origin origin{offset, groups_.of_point[i]};
     const SurfacePoint point = clean_point(surface_.base, sources_.points[i]);
     if (point.is_vertex()) {
@@ -130,7 +130,7 @@ class Seeder {
     add_vertex(b, origin);
     if (a == b) return;
     const Index edge = find_clean_edge(surface_.base, a, b);
-    const Side side = surface_.base.clean_edges.sides(edge).front();
+    const Side side = surface_.base.kept->edges.sides(edge).front();
     FacePiece piece{face_of(side), {}, {}};
     piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
     add_piece(piece, origin);
@@ -218,16 +218,25 @@ Error wave_out_of_memory(const char* stage, Index faces) {
 }
 
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads) {
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress, int threads,
+    const WaveSurface* earlier) {
   const Index faces = mesh->face_count();
   threads = threads_worth_starting(threads, kSurfaceNanosecondsPerFace * faces);
   try {
     const ThreadCrew crew(threads);
     auto base = build_intrinsic_surface(std::move(mesh), {.flip = FlipRule::kAlways},
-                                        part_of(progress, 0.0, 0.9), threads);
+                                        part_of(progress, 0.0, 0.9), threads,
+                                        earlier != nullptr ? &earlier->base : nullptr);
     if (!base) return base.error();
     auto triangulation = std::make_shared<IntrinsicSurface>(*std::move(base));
     triangulation->corners = {};
+    if (earlier != nullptr && same_triangles(earlier->base, *triangulation, threads)) {
+      auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
+      surface->edge_of_side = earlier->edge_of_side;
+      surface->side_start = earlier->side_start;
+      surface->sides = earlier->sides;
+      return std::shared_ptr<const WaveSurface>(std::move(surface));
+    }
     return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(triangulation)),
                               part_of(progress, 0.9, 1.0));
   } catch (const std::bad_alloc&) {

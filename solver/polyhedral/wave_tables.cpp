@@ -2,7 +2,6 @@
 #include "solver/polyhedral/wave_tables.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/sorting.h"
+#include "solver/polyhedral/wave_corners.h"
 
 namespace geotherm {
 namespace {
@@ -34,7 +34,8 @@ std::vector<Index> morton_order(const IntrinsicSurface& base, int threads) {
   std::vector<Index> used;
   Vec3 low = Vec3::Constant(kUnreached), high = -low;
   for (Index v = 0; v < base.vertex_count(); ++v) {
-    if (static_cast<std::size_t>(v) < base.on_surface.size() && base.on_surface[v] == 0) continue;
+    if (static_cast<std::size_t>(v) < base.kept->on_surface.size() && base.kept->on_surface[v] == 0)
+      continue;
     used.push_back(v);
     low = low.cwiseMin(base.position(v));
     high = high.cwiseMax(base.position(v));
@@ -118,6 +119,12 @@ bool same_direction(const IntrinsicMesh& mesh, Side first, Side other) {
          mesh.faces[face_of(other)][corner_of(other)];
 }
 
+void set_lengths(const std::array<double, 3>& lengths, WaveFace& face) {
+  const FaceLayout layout = lay_out(lengths);
+  face.length = lengths;
+  face.twice_area = layout.base * layout.height;
+}
+
 /// Numbers faces, and edges in the order in which faces meet them, each from its first corner on.
 class FaceWriter {
  public:
@@ -194,11 +201,9 @@ class FaceWriter {
     Block block{begin, end};
     for (std::int64_t i = begin; i < end; ++i) {
       const Index f = tables_.intrinsic_face[i];
-      const FaceLayout layout = lay_out(mesh_.lengths[f]);
       WaveFace& face = tables_.faces[i];
       face.vertex = ranks(tables_, mesh_.faces[f]);
-      face.length = mesh_.lengths[f];
-      face.twice_area = layout.base * layout.height;
+      set_lengths(mesh_.lengths[f], face);
       for (int k = 0; k < 3; ++k) {
         block.edges += is_first(3 * f + k) ? 1 : 0;
         block.length += face.length[k];
@@ -258,95 +263,6 @@ class FaceWriter {
   RawVector<Index> number_;  ///< E of the surface: number in the tables
 };
 
-void list_corners(WaveTables& tables) {
-  tables.corner_start.assign(static_cast<std::size_t>(tables.vertex_count()) + 1, 0);
-  for (const WaveFace& face : tables.faces) {
-    for (const Index v : face.vertex) ++tables.corner_start[v + 1];
-  }
-  for (std::size_t v = 1; v < tables.corner_start.size(); ++v) {
-    tables.corner_start[v] += tables.corner_start[v - 1];
-  }
-  tables.corners.resize(3 * tables.faces.size());
-  std::vector<std::size_t> next(tables.corner_start.begin(), tables.corner_start.end() - 1);
-  for (std::size_t f = 0; f < tables.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      tables.corners[next[tables.faces[f].vertex[k]]++] = static_cast<SideCode>(4 * f) + k;
-    }
-  }
-}
-
-/// A vertex whose longest side is longer than its shortest by this factor passes its distance on by
-/// itself: its fall may not change the samples far out on a long side, and would not reach the
-/// faces beyond.
-constexpr double kStretched = 6;
-
-/// Marks corners at vertices whose faces are not all joined by edges at the vertex, where a wave
-/// has to be passed from fan to fan, and at stretched ones.
-class FanMarker {
- public:
-  explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}
-
-  void run(int threads) {
-    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = static_cast<SideCode>(c);
-    for (const auto& sides : tables_.sides) {
-      if (sides[1] >= 0) {
-        join_ends(sides[0], sides[1]);
-      } else if (sides[1] != kNoSideCode) {
-        const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
-        for (SideCode i = 1; i <= list[0]; ++i) join_ends(sides[0], list[i]);
-      }
-    }
-    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = root(static_cast<SideCode>(c));
-    parallel_for(threads, tables_.vertex_count(), kMinTableRowsPerThread,
-                 [this](std::int64_t begin, std::int64_t end) {
-                   for (std::int64_t v = begin; v < end; ++v)
-                     mark(tables_.corners_at(static_cast<Index>(v)));
-                 });
-  }
-
- private:
-  static SideCode next_code(SideCode code) {
-    return (code & ~3) | next_corner(corner_of_code(code));
-  }
-  bool runs_back(SideCode code) const {
-    return (tables_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1) != 0;
-  }
-  SideCode root(SideCode c) {
-    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
-    return c;
-  }
-  void join_ends(SideCode first, SideCode other) {
-    const SideCode begin = runs_back(other) ? next_code(other) : other;
-    const SideCode end = runs_back(other) ? other : next_code(other);
-    fan_[root(first)] = root(begin);
-    fan_[root(next_code(first))] = root(end);
-  }
-  bool stretched(std::span<const SideCode> corners) const {
-    double longest = 0, shortest = kUnreached;
-    for (const SideCode c : corners) {
-      const auto& length = tables_.faces[face_of_code(c)].length;
-      for (const int side : {corner_of_code(c), previous_corner(corner_of_code(c))}) {
-        longest = std::max(longest, length[side]);
-        shortest = std::min(shortest, length[side]);
-      }
-    }
-    return longest > kStretched * shortest;
-  }
-  void mark(std::span<const SideCode> corners) {
-    const auto elsewhere = [&](SideCode c) { return fan_[c] != fan_[corners.front()]; };
-    if (std::ranges::none_of(corners, elsewhere) && !stretched(corners)) return;
-    for (const SideCode c : corners) {
-      auto& bits = tables_.faces[face_of_code(c)].touching;
-      // Another vertex of the face may be marked meanwhile.
-      std::atomic_ref(bits).fetch_or(static_cast<std::uint16_t>(1U << corner_of_code(c)),
-                                     std::memory_order_relaxed);
-    }
-  }
-
-  WaveTables& tables_;
-  std::vector<SideCode> fan_;  ///< of a corner: another one of its fan
-};
-
 template <class Values>
 std::size_t bytes_of(const Values& values) {
   return values.capacity() * sizeof(values[0]);
@@ -369,7 +285,37 @@ WaveTables build_wave_tables(const WaveSurface& surface, int threads) {
   }
   FaceWriter(surface, tables, threads).run();
   list_corners(tables);
-  FanMarker(tables).run(threads);
+  mark_fans(tables, threads);
+  mark_touching(tables, threads);
+  return tables;
+}
+
+WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& surface, int threads) {
+  WaveTables tables = earlier;
+  struct Sides {
+    double length = 0, longest = 0;
+  };
+  const std::int64_t count = std::ssize(tables.faces);
+  tables.longest_side = tables.mean_side = 0;
+  for (const Sides& block :
+       sums_of_blocks<Sides>(threads, count, [&](std::int64_t begin, std::int64_t end) {
+         Sides sides;
+         for (std::int64_t i = begin; i < end; ++i) {
+           WaveFace& face = tables.faces[i];
+           face.touching = 0;
+           set_lengths(surface.base.intrinsic.lengths[tables.intrinsic_face[i]], face);
+           for (const double length : face.length) {
+             sides.length += length;
+             sides.longest = std::max(sides.longest, length);
+           }
+         }
+         return sides;
+       })) {
+    tables.mean_side += block.length;
+    tables.longest_side = std::max(tables.longest_side, block.longest);
+  }
+  tables.mean_side /= 3.0 * static_cast<double>(count);
+  mark_touching(tables, threads);
   return tables;
 }
 

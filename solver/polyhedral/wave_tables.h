@@ -17,7 +17,8 @@ struct alignas(64) WaveFace {
   std::array<Index, 3> vertex, edge;  ///< numbers of WaveTables
   std::array<double, 3> length;       ///< of the sides, in units of the intrinsic mesh
   double twice_area;
-  std::uint16_t reversed;  ///< bit k: side k runs against the direction of its edge
+  std::uint16_t reversed;  ///< bit k: side k runs against the direction of its edge; bit 4 + k: at
+                           ///< corner k several fans of faces touch
   std::uint16_t touching;  ///< bit k: at corner k several fans of faces touch, or sides are of very
                            ///< different lengths: the vertex hands its distance on by itself
 };
@@ -57,5 +58,10 @@ struct WaveTables {
 
 /// The same with any number of threads. Cost: O(F + V log V).
 WaveTables build_wave_tables(const WaveSurface& surface, int threads = 1);
+
+/// The tables of a surface that has the triangles of the one from which `earlier` were built, and
+/// other lengths. Cost: a pass over the faces, and one over their corners.
+WaveTables moved_wave_tables(const WaveTables& earlier, const WaveSurface& surface,
+                             int threads = 1);
 
 }  // namespace geotherm

@@ -27,15 +27,16 @@ class FrontPool {
   FrontPool(const WaveTables& tables, int samples) : tables_(tables), samples_(samples) {}
 
   std::unique_ptr<WaveFront> take() {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!free_.empty()) {
-        auto front = std::move(free_.back());
-        free_.pop_back();
-        return front;
-      }
-    }
+    if (auto front = take_spare()) return front;
     return std::make_unique<WaveFront>(tables_, samples_);
+  }
+  /// Null where none is free.
+  std::unique_ptr<WaveFront> take_spare() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return nullptr;
+    auto front = std::move(free_.back());
+    free_.pop_back();
+    return front;
   }
   void give(std::unique_ptr<WaveFront> front) {
     const std::lock_guard lock(mutex_);
@@ -93,7 +94,7 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
   const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
   result.distances.resize(own);
   if (query.nearest) result.nearest_source.resize(own);
-  for (double& distance : result.distances) distance *= surface->base.mean_edge;
+  for (double& distance : result.distances) distance *= surface->base.length_unit();
   result.timing.query += watch.lap();
   return result;
 }
@@ -118,7 +119,7 @@ WavefrontMethod::~WavefrontMethod() = default;
 
 Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     std::shared_ptr<const WaveSurface> surface, Samples samples, int threads,
-    const Progress& progress) {
+    const Progress& progress, const WavefrontMethod* earlier) {
   const Stopwatch watch;
   const Index faces = surface->face_count();
   if (!report(progress, "operators", 0.0)) return cancelled_error();
@@ -130,8 +131,17 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     state->threads.nanoseconds = kWaveNanosecondsPerFace * faces;
     const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
     const ThreadCrew crew(worth);
-    state->tables = build_wave_tables(*state->surface, worth);
+    const State* const before = earlier != nullptr ? earlier->state_.get() : nullptr;
+    const bool same_tables =
+        before != nullptr && same_triangles(before->surface->base, state->surface->base, worth);
+    state->tables = same_tables ? moved_wave_tables(before->tables, *state->surface, worth)
+                                : build_wave_tables(*state->surface, worth);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
+    if (same_tables && before->samples == samples) {
+      if (auto spare = before->pool->take_spare()) {
+        state->pool->give(std::make_unique<WaveFront>(state->tables, std::move(*spare)));
+      }
+    }
     if (!report(progress, "operators", 1.0)) return cancelled_error();
     state->timing.operators = state->timing.setup = watch.milliseconds();
     return std::shared_ptr<const WavefrontMethod>(new WavefrontMethod(std::move(state)));
@@ -155,6 +165,10 @@ const SetupTiming& WavefrontMethod::timing() const { return state_->timing; }
 
 double WavefrontMethod::memory_mb() const {
   return static_cast<double>(state_->tables.bytes()) / (1024.0 * 1024.0);
+}
+
+const std::shared_ptr<const WaveSurface>& WavefrontMethod::surface() const {
+  return state_->surface;
 }
 
 const std::vector<Warning>& WavefrontMethod::warnings() const {

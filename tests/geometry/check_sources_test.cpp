@@ -62,7 +62,7 @@ TEST(CleanPoint, IsAVertexOfEveryFaceWithoutAnInsideThatIsAccepted) {
 TEST(FindCleanEdge, FindsEveryEdgeAndNothingElse) {
   Draft draft = pyramid(50, 2, 0.1);  // vertex 0 has fifty edges
   const IntrinsicSurface surface = surface_of(draft);
-  const EdgeTable& edges = surface.clean_edges;
+  const EdgeTable& edges = surface.kept->edges;
   Index found = 0;
   for (Index a = 0; a < draft.vertex_count(); ++a) {
     for (Index b = a + 1; b < draft.vertex_count(); ++b) {

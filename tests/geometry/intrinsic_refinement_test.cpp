@@ -158,7 +158,7 @@ TEST_P(RefinementsOfThePlane, CarryPointsToTheirPlace) {
       const auto pieces = carried(f, w, w);
       ASSERT_EQ(pieces.size(), 1u);
       EXPECT_LE(
-          (place(after.faces[pieces[0].face], pieces[0].from) - place(refined.clean_faces[f], w))
+          (place(after.faces[pieces[0].face], pieces[0].from) - place(refined.kept->faces[f], w))
               .norm(),
           tolerance());
     }
@@ -168,7 +168,7 @@ TEST_P(RefinementsOfThePlane, CarryPointsToTheirPlace) {
 TEST_P(RefinementsOfThePlane, CarrySegmentsToTheirPlaceInAll) {
   const std::array<double, 3> from = {1, 0, 0}, to = {0, 0.3, 0.7};
   for (Index f = 0; f < mesh->face_count(); f += 3) {
-    const Vec3 begin = place(refined.clean_faces[f], from), end = place(refined.clean_faces[f], to);
+    const Vec3 begin = place(refined.kept->faces[f], from), end = place(refined.kept->faces[f], to);
     double length = 0;
     for (const FacePiece& piece : carried(f, from, to)) {
       const Face& face = after.faces[piece.face];

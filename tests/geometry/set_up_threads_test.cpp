@@ -95,7 +95,7 @@ TEST_P(SetUpByThreads, HasTheSameBits) {
   EXPECT_TRUE(same_bits(one.surface.intrinsic.faces, many.surface.intrinsic.faces));
   EXPECT_TRUE(same_bits(one.surface.intrinsic.lengths, many.surface.intrinsic.lengths));
   EXPECT_TRUE(same_bits(one.surface.intrinsic.twin, many.surface.intrinsic.twin));
-  EXPECT_TRUE(same_bits(one.surface.clean_of_face, many.surface.clean_of_face));
+  EXPECT_TRUE(same_bits(one.surface.kept->of_face, many.surface.kept->of_face));
   EXPECT_GT(one.surface.flips, 0);
   EXPECT_EQ(one.surface.flips, many.surface.flips);
 

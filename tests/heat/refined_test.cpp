@@ -167,7 +167,7 @@ TEST_P(RefinedPlane, IsAsPublishedBesideTheSourceOfClassic) {
 TEST_P(RefinedPlane, IsRightFromEdgesAlongTheBorder) {
   std::vector<std::array<Index, 2>> border;
   const IntrinsicSurface surface = *build_intrinsic_surface(mesh, {});
-  const EdgeTable& edges = surface.clean_edges;
+  const EdgeTable& edges = surface.kept->edges;
   for (Index e = 0; e < edges.edge_count(); ++e) {
     if (edges.sides(e).size() == 1) border.push_back({edges.low(e), edges.high(e)});
   }

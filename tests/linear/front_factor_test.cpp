@@ -144,7 +144,7 @@ TEST(FrontFactor, NamesTheColumnThatIsNotPositive) {
       broken.value[broken.start[column]] = bad;
       FrontFactor out;
       const FactorFailure failure =
-          factorize_fronts(fronts.tree, broken, FactorStorage::kFull, 2, out);
+          factorize_fronts(fronts.tree, broken, {2, FactorStorage::kFull}, out);
       EXPECT_EQ(failure.column, column);
     }
   }
@@ -155,9 +155,9 @@ TEST(FrontFactor, SaysWhenNumbersDoNotFit) {
   LowerMatrix matrix = fronts.heat()->assembled();
   for (double& value : matrix.value) value *= 1e-80;  // D is 1e40: beyond what a float holds
   FrontFactor out;
-  EXPECT_TRUE(factorize_fronts(fronts.tree, matrix, FactorStorage::kSingle, 1, out).narrow);
+  EXPECT_TRUE(factorize_fronts(fronts.tree, matrix, {1, FactorStorage::kSingle}, out).narrow);
   EXPECT_FALSE(
-      factorize_fronts(fronts.tree, matrix, FactorStorage::kWideExponent, 1, out).failed());
+      factorize_fronts(fronts.tree, matrix, {1, FactorStorage::kWideExponent}, out).failed());
 }
 
 TEST(FrontFactor, MeasuresCancellation) {
@@ -174,7 +174,7 @@ TEST(FrontFactor, MeasuresCancellation) {
   // A Laplacian with next to no mass: the last pivot is the mass of all.
   for (Index j = 0; j < weak.size(); ++j) weak.value[weak.start[j]] = rows[j] * (1 + 1e-9);
   FrontFactor out;
-  EXPECT_FALSE(factorize_fronts(fronts.tree, weak, FactorStorage::kFull, 1, out).failed());
+  EXPECT_FALSE(factorize_fronts(fronts.tree, weak, {1, FactorStorage::kFull}, out).failed());
   EXPECT_GT(out.cancellation, 1e4);
 }
 

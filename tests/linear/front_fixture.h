@@ -43,7 +43,7 @@ struct Fronts {
                      InstructionSet set = best_instruction_set()) const {
     FrontFactor out;
     const FactorFailure failure =
-        factorize_fronts(tree, heat()->assembled(), storage, threads, out, set);
+        factorize_fronts(tree, heat()->assembled(), {threads, storage}, out, nullptr, set);
     EXPECT_FALSE(failure.failed());
     return out;
   }

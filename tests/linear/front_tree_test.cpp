@@ -94,10 +94,8 @@ TEST(Path, HasAllAncestorsOnceAndAscends) {
   EXPECT_TRUE(tree.path({}).empty());
 }
 
-TEST(FrontTree, HasAPlaceForEveryEntryOfTheFactor) {
-  const Fronts fronts(torus(40, 30, 0.4));
-  const FrontTree& tree = fronts.tree;
-  const auto below = eliminate(fronts.pattern);
+void expect_places_for_all_entries(const FrontTree& tree, const SymmetricPattern& pattern) {
+  const auto below = eliminate(pattern);
   // Rows of each front from its parent's, the roots' from nothing.
   std::vector<std::vector<Index>> rows(static_cast<std::size_t>(tree.count()));
   for (Index s = tree.count(); s-- > 0;) {
@@ -112,6 +110,85 @@ TEST(FrontTree, HasAPlaceForEveryEntryOfTheFactor) {
       for (const Index row : below[j]) EXPECT_TRUE(there.contains(row));
     }
   }
+}
+
+TEST(FrontTree, HasAPlaceForEveryEntryOfTheFactor) {
+  const Fronts fronts(torus(40, 30, 0.4));
+  expect_places_for_all_entries(fronts.tree, fronts.pattern);
+}
+
+std::vector<Index> in_order(Index size) {
+  std::vector<Index> order(static_cast<std::size_t>(size));
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+/// Faces of the graph's edges, then some at random; corners from `size` on are new vertices.
+std::vector<Face> with_other_faces(const SymmetricPattern& pattern, Index added, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<Index> vertex(0, pattern.size() - 1);
+  std::vector<Face> faces;
+  for (Index i = 0; i < pattern.size(); ++i) {
+    for (const Index j : pattern.neighbors(i)) faces.push_back({i, j, j});
+  }
+  for (int k = 0; k < 12; ++k) {
+    const Index at = vertex(random);
+    const Index next = pattern.neighbors(at).front();
+    faces.push_back({at, pattern.neighbors(next).back(), vertex(random)});
+  }
+  // Each new vertex beside the one before, the last of them beside old ones.
+  for (Index k = 0; k < added; ++k) {
+    const Index at = pattern.size() + k;
+    const Index beside = k + 1 < added ? at + 1 : vertex(random);
+    faces.push_back({at, beside, beside});
+  }
+  return faces;
+}
+
+TEST(OrderAlong, LeavesAPlaceForEveryEntryOfTheFactor) {
+  const Fronts fronts(torus(24, 16, 0.4));
+  const Index old = fronts.pattern.size();
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const auto added = static_cast<Index>(seed % 4);
+    std::vector<Index> node = fronts.tree.tree.node_of_row;
+    node.resize(static_cast<std::size_t>(old + added), kNoIndex);
+    node.push_back(kNoIndex);  // in no face
+    std::vector<Face> faces = with_other_faces(fronts.pattern, added, seed);
+    const auto order = order_along(fronts.tree.tree.parent, in_order(old), node, faces);
+    ASSERT_TRUE(order);
+    ASSERT_EQ(std::ssize(order->order), old + added);
+    ASSERT_EQ(std::set<Index>(order->order.begin(), order->order.end()).size(),
+              order->order.size());
+    const std::vector<Index> place = inverse_permutation(order->order);
+    for (Face& face : faces) {
+      for (Index& corner : face) corner = place[corner];
+    }
+    const SymmetricPattern pattern = pattern_of_faces(old + added, faces);
+    expect_places_for_all_entries(build_front_tree(pattern, *order, 1), pattern);
+  }
+}
+
+TEST(OrderAlong, LeavesVerticesWhereTheyAreWhereNothingChanges) {
+  const Fronts fronts(torus(24, 16, 0.4));
+  const EliminationTree& tree = fronts.tree.tree;
+  std::vector<Index> node = tree.node_of_row;
+  std::vector<Face> faces;
+  for (Index i = 0; i < fronts.pattern.size(); ++i) {
+    for (const Index j : fronts.pattern.neighbors(i)) faces.push_back({i, j, j});
+  }
+  const auto order = order_along(tree.parent, in_order(fronts.pattern.size()), node, faces);
+  ASSERT_TRUE(order);
+  EXPECT_EQ(node, tree.node_of_row);
+  EXPECT_EQ(order->parent, tree.parent);
+  EXPECT_EQ(order->first, fronts.tree.nodes.first);
+}
+
+TEST(OrderAlong, GivesUpWhereTreesAreJoined) {
+  std::vector<Index> node = {0, 1, 2};
+  const std::vector<Index> parent = {1, kNoIndex, kNoIndex};
+  EXPECT_FALSE(order_along(parent, in_order(3), node, std::vector<Face>{{0, 2, 2}}));
+  node = {0, 1, kNoIndex, kNoIndex};
+  EXPECT_FALSE(order_along(parent, in_order(2), node, std::vector<Face>{{2, 3, 3}}));
 }
 
 // Some zeros are the price of fewer fronts; they weigh less the larger the mesh is.

@@ -18,6 +18,10 @@
 // them. All three are immutable. docs/adding_a_backend.md leads through a backend of one's own.
 namespace geotherm {
 
+class BufferPool;        // solver/core/memory.h
+struct EliminationTree;  // solver/linear/elimination_tree.h
+struct NodeOrder;
+
 /// The nonzero pattern of a symmetric matrix as a graph: row i has a diagonal entry and one at
 /// every neighbour of i. Neighbours are sorted; the graph is symmetric and has no loops.
 struct SymmetricPattern {
@@ -103,6 +107,9 @@ struct FactorStats {
   std::int64_t bytes = 0;     ///< memory held
   /// Floating-point operations that the numeric factorisation took; 0 where nobody counts.
   std::int64_t operations = 0;
+  /// Fronts (dense blocks of columns), and those that were factorised; the others are those of an
+  /// earlier factor. 0 where there are none.
+  Index fronts = 0, fronts_factored = 0;
 };
 
 /// How a direct backend may keep the numbers of a factor, which it computes in double always.
@@ -113,9 +120,24 @@ enum class FactorStorage {
   kWideExponent,  ///< the upper half of a double: 21 bits of mantissa, all of its exponent
 };
 
+class Factorization;
+
+/// A factor of almost the same matrix, by an analysis that this one followed, or by this one.
+struct EarlierFactor {
+  const Factorization* factor = nullptr;  ///< null: there is none so far
+  /// n: a flag for each row that has other entries, or one whose place in the order has changed
+  /// among its neighbours.
+  std::span<const char> changed;
+};
+
 struct FactorOptions {
   int threads = 1;
   FactorStorage storage = FactorStorage::kFull;
+  /// Where memory of factors that are gone is kept for the next; null: nowhere.
+  std::shared_ptr<BufferPool> memory = nullptr;
+  /// Where only some rows have changed, and more changes are to be expected: a backend may keep
+  /// what it needs to do less next time. Null: it need not.
+  const EarlierFactor* earlier = nullptr;
 };
 
 /// What one solve did.
@@ -176,6 +198,16 @@ class Analysis {
 
   /// What factorize() takes beside that while it works, the assembled matrix included.
   virtual std::int64_t work_bytes() const { return 0; }
+
+  /// The tree of which the factors of this pattern are made; null where the backend has none that
+  /// follow() could keep.
+  virtual const EliminationTree* tree() const { return nullptr; }
+
+  /// The analysis of another pattern in an order that keeps such a tree. `eliminated`: the pattern
+  /// in that order. Errors: kNotAvailable (no tree), kOutOfMemory. Cost: far less than analyze().
+  virtual Result<std::shared_ptr<const Analysis>> follow(const NodeOrder& order,
+                                                         const SymmetricPattern& eliminated,
+                                                         int threads) const;
 };
 
 /// The error of every backend for a matrix whose pattern is not the analysed one.

@@ -13,10 +13,12 @@ namespace geotherm {
 /// have: what all three walk over. Immutable; one serves all of them.
 struct WaveSurface;
 
+/// `earlier`: of the same faces with vertices elsewhere, of which what stays is taken over; or null.
 /// Errors: kBadInput (no face with area, edges that cannot be added up), kOutOfMemory, kCancelled.
 /// Cost: O(F + flips).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1);
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1,
+    const WaveSurface* earlier = nullptr);
 
 /// Near-exact distance by waves over the edges of the intrinsic Delaunay triangulation, each fitted
 /// from the distances at an edge's ends and at samples between them (docs/numerics.md,
@@ -28,10 +30,12 @@ class WavefrontMethod final : public DistanceMethod {
   /// Samples inside an edge: its midpoint, or its quarter points.
   enum class Samples { kMidpoint, kQuarters };
 
-  /// Errors: those of build_wave_surface(). Cost: O(F + flips).
+  /// `earlier`: a method on the same faces with vertices elsewhere, whose tables and buffers are
+  /// taken over where the triangles are the same; or null. Errors: those of build_wave_surface().
+  /// Cost: O(F + flips).
   static Result<std::shared_ptr<const WavefrontMethod>> build(
       std::shared_ptr<const WaveSurface> surface, Samples samples, int threads = 0,
-      const Progress& progress = {});
+      const Progress& progress = {}, const WavefrontMethod* earlier = nullptr);
 
   ~WavefrontMethod() override;
   MethodKind kind() const override;
@@ -41,6 +45,7 @@ class WavefrontMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
+  const std::shared_ptr<const WaveSurface>& surface() const;
 
  private:
   struct State;
@@ -64,6 +69,7 @@ class FastMarchingMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
+  const std::shared_ptr<const WaveSurface>& surface() const;
 
  private:
   struct State;
@@ -93,6 +99,7 @@ class ExactMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
+  const std::shared_ptr<const WaveSurface>& surface() const;
 
  private:
   struct State;

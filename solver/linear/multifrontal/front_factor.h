@@ -18,6 +18,9 @@ struct FrontFactor {
   /// Largest diagonal entry over its pivot: rounding a number of the factor may change the answer
   /// by so many times as much.
   double cancellation = 1;
+  /// Per task: the update of its last front. Empty unless kept for changes of some rows.
+  std::vector<std::shared_ptr<const double[]>> updates;
+  Index factored = 0;  ///< fronts that were factorised for it
 
   StoredFront front(const FrontTree& tree, Index s) const {
     return {tree.width(s), tree.below(s), values.data() + tree.value_start[s] * bytes_of(storage)};
@@ -31,13 +34,22 @@ struct FactorFailure {
   bool failed() const { return column != kNoIndex || narrow; }
 };
 
+/// A factor of a matrix that differs in some rows.
+struct EarlierFronts {
+  const FrontTree* tree = nullptr;
+  const FrontFactor* factor = nullptr;  ///< null, or one that keeps its updates
+  std::span<const char> changed;        ///< n: EarlierFactor::changed
+};
+
 /// Multifrontal Cholesky (Duff, Reid 1983; Liu 1992): each front gathers the entries of its columns
 /// and the updates of its children, eliminates its columns with dense kernels and passes the update
 /// of what is left on. Subtrees are factorised side by side. The result has the same bits for any
-/// number of threads. Precondition: `matrix` has the tree's pattern. Throws std::bad_alloc. Cost:
-/// tree.operations.
+/// number of threads. With `earlier` the updates between tasks are kept, and a task is factorised
+/// only where a row changed in it or below it, or where its fronts are others; the rest is copied.
+/// Precondition: `matrix` has the tree's pattern. Throws std::bad_alloc. Cost: tree.operations.
 FactorFailure factorize_fronts(const FrontTree& tree, const LowerMatrix& matrix,
-                               FactorStorage storage, int threads, FrontFactor& out,
+                               const FactorOptions& options, FrontFactor& out,
+                               const EarlierFronts* earlier = nullptr,
                                InstructionSet set = best_instruction_set());
 
 /// Bytes that factorize_fronts() holds at most beside the matrix and its result.

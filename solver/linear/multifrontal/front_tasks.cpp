@@ -107,9 +107,7 @@ void measure_waiting(FrontTree& tree) {
   }
 }
 
-}  // namespace
-
-void divide_into_tasks(FrontTree& tree) {
+void divide_by_work(FrontTree& tree) {
   const std::vector<double> share = shares(tree);
   std::vector<Index> task_of(static_cast<std::size_t>(tree.count()), kNoIndex);  // of last fronts
   std::vector<Index> first(static_cast<std::size_t>(tree.count()));              // of each subtree
@@ -148,6 +146,16 @@ void divide_into_tasks(FrontTree& tree) {
     if (p == kNoIndex) continue;
     tree.tasks[t].parent = task_of[p];
     tree.tasks[task_of[p]].children.push_back(t);
+  }
+}
+
+}  // namespace
+
+void divide_into_tasks(FrontTree& tree, const FrontTree* earlier) {
+  if (earlier != nullptr && earlier->tree.parent == tree.tree.parent) {
+    tree.tasks = earlier->tasks;
+  } else {
+    divide_by_work(tree);
   }
   tree.stack.assign(static_cast<std::size_t>(tree.count()), 0);
   for (Index s = tree.count(); s-- > 0;) {

@@ -14,8 +14,9 @@
 namespace geotherm {
 
 /// Divides the tree into tasks, and measures the memory that they need for data that waits within
-/// and between them. The division depends on the tree alone.
-void divide_into_tasks(FrontTree& tree);
+/// and between them. The division depends on the tree alone, or is that of an `earlier` tree where
+/// that has the same nodes.
+void divide_into_tasks(FrontTree& tree, const FrontTree* earlier = nullptr);
 
 /// The first exception of several threads.
 class SharedFailure {

@@ -137,24 +137,40 @@ Supernodes find_supernodes(const ColumnCounts& counts) {
 /// Fronts that a thread takes at a time.
 constexpr std::int64_t kFrontsAPiece = 2000;
 
-/// Rows below the own ones of every front, ascending: each row of the matrix is walked up the tree
-/// from its entries, and reaches the fronts in which it has a place.
-std::vector<Index> rows_below(const SymmetricPattern& pattern, const FrontTree& fronts) {
-  std::vector<std::int64_t> end(fronts.below_start.begin(), fronts.below_start.end() - 1);
-  std::vector<Index> rows(static_cast<std::size_t>(fronts.below_start.back()));
-  std::vector<Index> last_row(static_cast<std::size_t>(fronts.count()), kNoIndex);
-  const std::vector<Index>& node_of_row = fronts.tree.node_of_row;
+/// Each row of the matrix is walked up the tree from its entries, and reaches the fronts in which
+/// it has a place below their own rows: visit(front, row), rows ascending.
+template <class Visit>
+void walk_rows(const SymmetricPattern& pattern, const EliminationTree& tree, const Visit& visit) {
+  std::vector<Index> last_row(tree.parent.size(), kNoIndex);
   for (Index row = 0; row < pattern.size(); ++row) {
-    last_row[node_of_row[row]] = row;
+    last_row[tree.node_of_row[row]] = row;
     for (const Index neighbor : pattern.neighbors(row)) {
       if (neighbor > row) break;
-      for (Index s = node_of_row[neighbor]; last_row[s] != row; s = fronts.tree.parent[s]) {
+      for (Index s = tree.node_of_row[neighbor]; last_row[s] != row; s = tree.parent[s]) {
         last_row[s] = row;
-        rows[end[s]++] = row;
+        visit(s, row);
       }
     }
   }
+}
+
+/// Rows below the own ones of every front, ascending.
+std::vector<Index> rows_below(const SymmetricPattern& pattern, const FrontTree& fronts) {
+  std::vector<std::int64_t> end(fronts.below_start.begin(), fronts.below_start.end() - 1);
+  std::vector<Index> rows(static_cast<std::size_t>(fronts.below_start.back()));
+  walk_rows(pattern, fronts.tree, [&](Index s, Index row) { rows[end[s]++] = row; });
   return rows;
+}
+
+/// The tree with one node a supernode.
+EliminationTree tree_of(const Supernodes& nodes) {
+  EliminationTree tree{nodes.parent,
+                       std::vector<Index>(static_cast<std::size_t>(nodes.first.back()))};
+  for (Index s = 0; s < nodes.count(); ++s) {
+    std::fill(tree.node_of_row.begin() + nodes.first[s],
+              tree.node_of_row.begin() + nodes.first[s + 1], s);
+  }
+  return tree;
 }
 
 /// Places of the rows below front s among those of its parent: both lists ascend.
@@ -196,22 +212,18 @@ void find_entries(const SymmetricPattern& pattern, const std::vector<Index>& row
   }
 }
 
-}  // namespace
-
-FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,
-                           int threads) {
+/// Everything that follows from the supernodes. `operations`: of one factorisation.
+FrontTree lay_out_fronts(const SymmetricPattern& pattern, Supernodes nodes, EliminationTree tree,
+                         double operations, int threads, const FrontTree* earlier = nullptr) {
   FrontTree out;
-  out.nodes = find_supernodes(counts);
-  out.tree.parent = out.nodes.parent;
-  out.tree.node_of_row.resize(static_cast<std::size_t>(pattern.size()));
+  out.nodes = std::move(nodes);
+  out.tree = std::move(tree);
+  out.operations = operations;
   out.is_leaf.assign(static_cast<std::size_t>(out.count()), 1);
   out.below_start.assign(1, 0);
   out.value_start.assign(1, 0);
   for (Index s = 0; s < out.count(); ++s) {
     const std::int64_t width = out.width(s), below = out.below(s);
-    for (Index row = out.nodes.first[s]; row < out.nodes.first[s + 1]; ++row) {
-      out.tree.node_of_row[row] = s;
-    }
     if (out.tree.parent[s] != kNoIndex) out.is_leaf[out.tree.parent[s]] = 0;
     std::int64_t values = 0;
     for (std::int64_t column = 0; column < width; column += kSlab) {
@@ -222,10 +234,6 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
     out.largest_panel =
         std::max(out.largest_panel, (padded(out.width(s)) + std::int64_t{padded(out.below(s))}) *
                                         padded(out.width(s)));
-  }
-  for (Index column = 0; column < pattern.size(); ++column) {
-    const double height = counts.below[column] + 1.0;
-    out.operations += height * height;
   }
   if (out.largest_panel > std::numeric_limits<Index>::max()) return out;
   out.entry_start.assign(1, 0);
@@ -245,8 +253,33 @@ FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& 
       find_entries(pattern, rows, out, s, place_of_row);
     }
   });
-  divide_into_tasks(out);
+  divide_into_tasks(out, earlier);
   return out;
+}
+
+}  // namespace
+
+FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,
+                           int threads) {
+  double operations = 0;
+  for (const Index below : counts.below) operations += (below + 1.0) * (below + 1.0);
+  Supernodes nodes = find_supernodes(counts);
+  EliminationTree tree = tree_of(nodes);
+  return lay_out_fronts(pattern, std::move(nodes), std::move(tree), operations, threads);
+}
+
+FrontTree build_front_tree(const SymmetricPattern& pattern, const NodeOrder& order, int threads,
+                           const FrontTree* earlier) {
+  Supernodes nodes{order.first, std::vector<Index>(order.parent.size(), 0), order.parent};
+  EliminationTree tree = tree_of(nodes);
+  walk_rows(pattern, tree, [&](Index s, Index) { ++nodes.below[s]; });
+  double operations = 0;
+  for (Index s = 0; s < nodes.count(); ++s) {
+    for (Index height = nodes.below[s] + 1; height <= nodes.below[s] + nodes.width(s); ++height) {
+      operations += static_cast<double>(height) * height;
+    }
+  }
+  return lay_out_fronts(pattern, std::move(nodes), std::move(tree), operations, threads, earlier);
 }
 
 }  // namespace geotherm

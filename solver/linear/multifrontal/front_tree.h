@@ -82,4 +82,10 @@ struct FrontTree {
 FrontTree build_front_tree(const SymmetricPattern& pattern, const ColumnCounts& counts,
                            int threads);
 
+/// The same with one front for each node of a tree, as order_along() gives it: every entry of
+/// `pattern` joins a node and itself or an ancestor. The tasks are those of an `earlier` tree that
+/// has the same nodes.
+FrontTree build_front_tree(const SymmetricPattern& pattern, const NodeOrder& order, int threads,
+                           const FrontTree* earlier = nullptr);
+
 }  // namespace geotherm

@@ -20,11 +20,13 @@ class NativeFactor final : public TriangularFactor {
       : tree_(std::move(tree)), factor_(std::move(factor)) {}
 
   const EliminationTree& tree() const override { return tree_->tree; }
+  const FrontTree& fronts() const { return *tree_; }
+  const FrontFactor& numbers() const { return factor_; }
   Index size() const override { return tree_->size(); }
   FactorStats stats() const override {
     const std::int64_t numbers = tree_->value_start.back();
     return {numbers, numbers * bytes_of(factor_.storage),
-            static_cast<std::int64_t>(tree_->operations)};
+            static_cast<std::int64_t>(tree_->operations), tree_->count(), factor_.factored};
   }
 
   void forward(double* x, Eigen::Index stride, int columns, std::span<const Index> nodes,
@@ -68,6 +70,20 @@ Error out_of_memory(const std::string& what, Index size) {
           kNativeName};
 }
 
+/// `order`: that of `eliminated`, of which `tree` was built.
+Result<std::shared_ptr<const Analysis>> native_analysis(std::vector<Index> order,
+                                                        const SymmetricPattern& eliminated,
+                                                        FrontTree tree, int threads);
+
+EarlierFronts fronts_of(const EarlierFactor* earlier) {
+  if (earlier == nullptr) return {};
+  const TriangularFactor* const factor =
+      earlier->factor != nullptr ? triangular_factor_of(*earlier->factor) : nullptr;
+  const auto* const native = dynamic_cast<const NativeFactor*>(factor);
+  if (native == nullptr) return {nullptr, nullptr, earlier->changed};
+  return {&native->fronts(), &native->numbers(), earlier->changed};
+}
+
 class NativeAnalysis final : public Analysis {
  public:
   NativeAnalysis(std::vector<Index> order, std::uint64_t pattern,
@@ -86,6 +102,17 @@ class NativeAnalysis final : public Analysis {
     return kEntryBytes * tree_->entry_start.back() + front_work_bytes(*tree_, (threads_ + 1) / 2);
   }
 
+  const EliminationTree* tree() const override { return &tree_->tree; }
+
+  Result<std::shared_ptr<const Analysis>> follow(const NodeOrder& order,
+                                                 const SymmetricPattern& eliminated,
+                                                 int threads) const override try {
+    return native_analysis(order.order, eliminated,
+                           build_front_tree(eliminated, order, threads, tree_.get()), threads);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory("ran out of memory in the analysis", eliminated.size());
+  }
+
   Result<std::unique_ptr<Factorization>> factorize(std::shared_ptr<const SymmetricOperator> matrix,
                                                    const FactorOptions& options) const override
       try {
@@ -94,14 +121,16 @@ class NativeAnalysis final : public Analysis {
       return same.error();
     }
     FrontFactor factor;
-    FactorStorage storage = storage_for(options.storage);
-    FactorFailure failure =
-        factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
+    FactorOptions kept = options;
+    kept.storage = storage_for(options.storage);
+    const EarlierFronts before = fronts_of(options.earlier);
+    FactorFailure failure = factorize_fronts(*tree_, matrix->assembled(), kept, factor,
+                                             options.earlier != nullptr ? &before : nullptr);
     const bool unsafe = failure.narrow || factor.cancellation > kMaxCancellation;
-    if (storage != FactorStorage::kFull && unsafe && failure.column == kNoIndex) {
-      storage = FactorStorage::kFull;
+    if (kept.storage != FactorStorage::kFull && unsafe && failure.column == kNoIndex) {
+      kept.storage = FactorStorage::kFull;
       factor = {};
-      failure = factorize_fronts(*tree_, matrix->assembled(), storage, options.threads, factor);
+      failure = factorize_fronts(*tree_, matrix->assembled(), kept, factor);
     }
     if (failure.narrow) {
       return Error{ErrorCode::kNumericalFailure,
@@ -140,6 +169,18 @@ class NativeAnalysis final : public Analysis {
   int threads_;
 };
 
+Result<std::shared_ptr<const Analysis>> native_analysis(std::vector<Index> order,
+                                                        const SymmetricPattern& eliminated,
+                                                        FrontTree tree, int threads) {
+  if (tree.largest_panel > std::numeric_limits<Index>::max()) {
+    return out_of_memory("would need a front of " + std::to_string(tree.largest_panel) + " numbers",
+                         eliminated.size());
+  }
+  const std::uint64_t hash = pattern_hash(eliminated, threads);
+  return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
+      std::move(order), hash, std::make_shared<const FrontTree>(std::move(tree)), threads));
+}
+
 class NativeBackend final : public Backend {
  public:
   std::string_view name() const override { return kNativeName; }
@@ -157,15 +198,9 @@ class NativeBackend final : public Backend {
     std::vector<Index> final_order(order.size());
     for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];
     eliminated = permuted(eliminated, post, threads);
-    auto tree = std::make_shared<const FrontTree>(
-        build_front_tree(eliminated, count_columns(eliminated), threads));
-    if (tree->largest_panel > std::numeric_limits<Index>::max()) {
-      return out_of_memory(
-          "would need a front of " + std::to_string(tree->largest_panel) + " numbers",
-          pattern.size());
-    }
-    return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
-        std::move(final_order), pattern_hash(eliminated, threads), std::move(tree), threads));
+    return native_analysis(std::move(final_order), eliminated,
+                           build_front_tree(eliminated, count_columns(eliminated), threads),
+                           threads);
   } catch (const std::bad_alloc&) {
     return out_of_memory("ran out of memory in the analysis", pattern.size());
   }

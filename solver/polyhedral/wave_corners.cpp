@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "solver/polyhedral/wave_corners.h"
+
+#include <algorithm>
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "solver/core/parallel.h"
+
+namespace geotherm {
+namespace {
+
+/// Minimum vertices per thread.
+constexpr std::int64_t kMinCornersPerThread = 1 << 13;
+
+/// A vertex whose longest side is longer than its shortest by this factor passes its distance on by
+/// itself: its fall may not change the samples far out on a long side, and would not reach the
+/// faces beyond.
+constexpr double kStretched = 6;
+
+/// Where in WaveFace::reversed the corners stand at which fans touch.
+constexpr unsigned kFanBits = 4;
+
+bool is_stretched(const WaveTables& tables, std::span<const SideCode> corners) {
+  double longest = 0, shortest = kUnreached;
+  for (const SideCode c : corners) {
+    const auto& length = tables.faces[face_of_code(c)].length;
+    for (const int side : {corner_of_code(c), previous_corner(corner_of_code(c))}) {
+      longest = std::max(longest, length[side]);
+      shortest = std::min(shortest, length[side]);
+    }
+  }
+  return longest > kStretched * shortest;
+}
+
+/// Sets the bits of the corners at a vertex; another vertex of the face may be at it meanwhile.
+void set_bits(std::uint16_t WaveFace::*bits, unsigned first, std::span<const SideCode> corners,
+              WaveTables& tables) {
+  for (const SideCode c : corners) {
+    std::atomic_ref(tables.faces[face_of_code(c)].*bits)
+        .fetch_or(static_cast<std::uint16_t>(1U << (first + corner_of_code(c))),
+                  std::memory_order_relaxed);
+  }
+}
+
+/// Marks the corners at vertices whose faces are not all joined by edges at the vertex, where a
+/// wave has to be passed from fan to fan.
+class FanMarker {
+ public:
+  explicit FanMarker(WaveTables& tables) : tables_(tables), fan_(4 * tables.faces.size()) {}
+
+  void run(int threads) {
+    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = static_cast<SideCode>(c);
+    for (const auto& sides : tables_.sides) {
+      if (sides[1] >= 0) {
+        join_ends(sides[0], sides[1]);
+      } else if (sides[1] != kNoSideCode) {
+        const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
+        for (SideCode i = 1; i <= list[0]; ++i) join_ends(sides[0], list[i]);
+      }
+    }
+    for (std::size_t c = 0; c < fan_.size(); ++c) fan_[c] = root(static_cast<SideCode>(c));
+    parallel_for(threads, tables_.vertex_count(), kMinCornersPerThread,
+                 [this](std::int64_t begin, std::int64_t end) {
+                   for (std::int64_t v = begin; v < end; ++v)
+                     mark(tables_.corners_at(static_cast<Index>(v)));
+                 });
+  }
+
+ private:
+  static SideCode next_code(SideCode code) {
+    return (code & ~3) | next_corner(corner_of_code(code));
+  }
+  bool runs_back(SideCode code) const {
+    return (tables_.faces[face_of_code(code)].reversed >> corner_of_code(code) & 1) != 0;
+  }
+  SideCode root(SideCode c) {
+    while (fan_[c] != c) c = fan_[c] = fan_[fan_[c]];
+    return c;
+  }
+  void join_ends(SideCode first, SideCode other) {
+    const SideCode begin = runs_back(other) ? next_code(other) : other;
+    const SideCode end = runs_back(other) ? other : next_code(other);
+    fan_[root(first)] = root(begin);
+    fan_[root(next_code(first))] = root(end);
+  }
+  void mark(std::span<const SideCode> corners) {
+    const auto elsewhere = [&](SideCode c) { return fan_[c] != fan_[corners.front()]; };
+    if (std::ranges::any_of(corners, elsewhere)) {
+      set_bits(&WaveFace::reversed, kFanBits, corners, tables_);
+    }
+  }
+
+  WaveTables& tables_;
+  std::vector<SideCode> fan_;  ///< of a corner: another one of its fan
+};
+
+}  // namespace
+
+void list_corners(WaveTables& tables) {
+  tables.corner_start.assign(static_cast<std::size_t>(tables.vertex_count()) + 1, 0);
+  for (const WaveFace& face : tables.faces) {
+    for (const Index v : face.vertex) ++tables.corner_start[v + 1];
+  }
+  for (std::size_t v = 1; v < tables.corner_start.size(); ++v) {
+    tables.corner_start[v] += tables.corner_start[v - 1];
+  }
+  tables.corners.resize(3 * tables.faces.size());
+  std::vector<std::size_t> next(tables.corner_start.begin(), tables.corner_start.end() - 1);
+  for (std::size_t f = 0; f < tables.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      tables.corners[next[tables.faces[f].vertex[k]]++] = static_cast<SideCode>(4 * f) + k;
+    }
+  }
+}
+
+void mark_fans(WaveTables& tables, int threads) { FanMarker(tables).run(threads); }
+
+void mark_touching(WaveTables& tables, int threads) {
+  parallel_for(threads, tables.vertex_count(), kMinCornersPerThread,
+               [&](std::int64_t begin, std::int64_t end) {
+                 for (std::int64_t v = begin; v < end; ++v) {
+                   const auto corners = tables.corners_at(static_cast<Index>(v));
+                   const SideCode c = corners.front();
+                   const unsigned fans = tables.faces[face_of_code(c)].reversed >> kFanBits;
+                   if ((fans >> corner_of_code(c) & 1U) != 0 || is_stretched(tables, corners)) {
+                     set_bits(&WaveFace::touching, 0, corners, tables);
+                   }
+                 }
+               });
+}
+
+}  // namespace geotherm
