@@ -149,10 +149,10 @@ class CollectionSink final : public FrameSink {
   std::string list_;
 };
 
-/// What is to be written, in words, and where it goes.
 struct OpenSink {
   std::unique_ptr<FrameSink> sink;
-  std::string words;
+  std::string words;  ///< what is to be written
+  std::string short_words;
 };
 
 Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, NpyType type,
@@ -163,7 +163,8 @@ Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, Np
     auto sink = CollectionSink::open(path, sequence.frames, outputs);
     if (!sink) return sink.error();
     return OpenSink{*std::move(sink),
-                    "a .vtp file for each of " + counted(frames, "frame", "frames")};
+                    "a .vtp file for each of " + counted(frames, "frame", "frames"),
+                    "a .vtp file for each"};
   }
   const auto rows = static_cast<std::uint64_t>(frames);
   const auto columns = static_cast<std::uint64_t>(vertices);
@@ -174,7 +175,8 @@ Result<OpenSink> open_sink(const std::string& path, const Sequence& sequence, Np
   return OpenSink{std::make_unique<RowSink>(*std::move(array), outputs, path, vertices),
                   counted(frames, "frame", "frames") + " x " +
                       counted(vertices, "vertex", "vertices") + ", " + to_text(type) + ", " +
-                      bytes_in_words(bytes)};
+                      bytes_in_words(bytes),
+                  "a file of " + bytes_in_words(bytes)};
 }
 
 std::string sequence_table(const Sequence& sequence, const SequenceFigures& figures,
@@ -223,7 +225,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
         if (answer) sums.add(answer->result.distances);
         return open->sink->take(k, answer);
       },
-      open->words, progress, announce);
+      open->short_words, progress, announce);
   if (!figures) {
     outputs.remove_written();
     return figures.error();
