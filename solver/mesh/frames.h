@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
