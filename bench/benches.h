@@ -9,7 +9,7 @@
 #include "bench/measure.h"
 #include "geotherm/mesh.h"
 
-// What the benchmark measures: reading, solving, the viewer.
+// What the benchmark measures: reading, solving, surfaces that move, the viewer.
 namespace geotherm::bench {
 
 /// Reading of one OBJ file. Times are the least of several runs, in turns.
@@ -26,6 +26,23 @@ struct LoadRow {
 /// Writes the mesh to a temporary OBJ file with six decimals, as modellers export them, and reads
 /// it `runs` times with each reader.
 LoadRow measure_load(const std::string& name, const TriangleMesh& mesh, int runs);
+
+/// Set-up and one query by heat for each frame of a waving model. Times are means over the frames.
+struct MovingRow {
+  std::string mesh;
+  Index faces = 0;
+  int frames = 0;
+  double fresh_ms = kNotMeasured;    ///< everything is made for each frame
+  double moved_ms = kNotMeasured;    ///< build_method_moved() from the frame before
+  double difference = kNotMeasured;  ///< of their distances, over the largest one
+  std::string failure = {};          ///< empty: none
+
+  double ratio() const { return fresh_ms / moved_ms; }
+};
+
+/// Precondition: frames >= 1. Both ways take turns.
+MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int frames,
+                         int threads);
 
 /// All contenders on one mesh.
 struct SolveGroup {

@@ -28,6 +28,7 @@ std::vector<std::string> solver_names() {
 }
 
 constexpr Index kLoadFaces = 1'000'000;
+constexpr Index kMovingFaces[] = {20'000, 100'000};
 
 struct Arguments {
   bool quick = false;
@@ -92,6 +93,17 @@ BenchRun measure_all(const Arguments& arguments, std::FILE* out) {
     say("");
     for (const LoadRow& row : run.loads) print(load_text(row), out);
   }
+  if (std::regex_search("moving", plan.only)) {
+    say("a surface that moves");
+    for (const Index faces : kMovingFaces) {
+      if (const auto mesh = make_mesh("gargoyle", faces)) {
+        run.moving.push_back(
+            measure_moving("gargoyle", *mesh, arguments.quick ? 4 : 12, arguments.threads));
+      }
+    }
+    say("");
+    for (const MovingRow& row : run.moving) print(moving_text(row), out);
+  }
   if (std::regex_search("render", plan.only)) {
     run.render = measure_render(say);
     say("");
@@ -106,7 +118,7 @@ BenchRun measure_all(const Arguments& arguments, std::FILE* out) {
 }
 
 bool nothing_measured(const BenchRun& run) {
-  return run.groups.empty() && run.loads.empty() && !run.limits.measured() &&
+  return run.groups.empty() && run.loads.empty() && run.moving.empty() && !run.limits.measured() &&
          run.render.device.empty() && run.render.failure.empty() && run.explore.rows.empty() &&
          run.explore.failure.empty();
 }
@@ -144,7 +156,8 @@ int run_command_line(int argc, char** argv) {
   app.add_option("--only", arguments.only,
                  "Regular expression: measure only rows MESH-SIZEk/BACKEND in which it is found, "
                  "such as 'gargoyle-280k/cholmod' or '1100k'; 'limits' are the machine's, 'load' "
-                 "is the reading of files, 'render' the drawing, 'explore' the viewer")
+                 "is the reading of files, 'moving' a surface that moves, 'render' the drawing, "
+                 "'explore' the viewer")
       ->check([](const std::string& text) {
         try {
           const std::regex parsed(text);

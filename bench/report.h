@@ -18,6 +18,7 @@ struct BenchRun {
   std::vector<SolveGroup> groups;
   std::vector<Growth> growth;
   std::vector<LoadRow> loads;
+  std::vector<MovingRow> moving;
   RenderBench render;
   ExploreBench explore;
 };
@@ -45,6 +46,7 @@ std::string solve_heading();
 std::string solve_text(const SolveGroup& group, const MachineLimits& limits, int threads);
 std::string growth_text(const std::vector<Growth>& growth);
 std::string load_text(const LoadRow& row);
+std::string moving_text(const MovingRow& row);
 std::string render_text(const RenderBench& bench);
 std::string explore_text(const ExploreBench& bench);
 

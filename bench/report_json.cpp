@@ -109,6 +109,16 @@ std::string to_json(const BenchRun& run) {
                            {"tinyobjloader_ratio", value(row.ratio())},
                            {"message", row.failure}});
   }
+  for (const MovingRow& row : run.moving) {
+    out["moving"].push_back({{"mesh", row.mesh},
+                             {"faces", row.faces},
+                             {"frames", row.frames},
+                             {"fresh_ms", value(row.fresh_ms)},
+                             {"moved_ms", value(row.moved_ms)},
+                             {"ratio", value(row.ratio())},
+                             {"difference", value(row.difference)},
+                             {"message", row.failure}});
+  }
   for (const RenderRow& row : run.render.rows) {
     out["render"].push_back({{"view", row.view},
                              {"triangles", row.triangles},

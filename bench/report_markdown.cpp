@@ -166,6 +166,9 @@ std::string to_markdown(const BenchRun& run) {
   for (const LoadRow& row : run.loads) {
     if (row.failure.empty()) out += load_text(row);
   }
+  for (const MovingRow& row : run.moving) {
+    if (row.failure.empty()) out += moving_text(row);
+  }
   return out;
 }
 

@@ -1,19 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include <numbers>
+
 #include "app/cli/commands.h"
 #include "app/cli/options.h"
+#include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
+#include "app/session/wording.h"
 #include "app/text/text.h"
 #include "bench/models/generate.h"
 #include "bench/models/volumes.h"
 #include "geotherm/domains.h"
 #include "geotherm/io.h"
+#include "solver/core/text.h"
+#include "solver/mesh/frames.h"
+#include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {
+
+constexpr int kMaxWaving = 10'000;
+
+double phase_of(int k, int frames) { return 2 * std::numbers::pi * k / frames; }
 
 /// As asked for, else the model's usual number.
 Result<Index> faces_in(const GenerateArguments& arguments) {
@@ -46,6 +58,10 @@ Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {
                  "--faces is of surfaces, and " + arguments.name + " is a volume",
                  {"give --tets"}};
   }
+  if (!arguments.frames.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--frames is of surfaces, and " + arguments.name + " is a volume; leave it out"};
+  }
   const auto tets = tets_in(arguments);
   if (!tets) return tets.error();
   if (auto known = check_tets_path(arguments.output); !known) return known.error();
@@ -66,6 +82,76 @@ Result<CommandOutput> generate_volume_file(const GenerateArguments& arguments) {
                        outputs.made()};
 }
 
+/// Positions of all frames in one array. Errors: those of the file.
+Result<void> write_frames_array(const std::string& path, const TriangleMesh& mesh, int frames,
+                                const Progress& progress) {
+  auto file = GrowingFile::open(path);
+  if (!file) return file.error();
+  const std::uint64_t shape[] = {static_cast<std::uint64_t>(frames), mesh.positions().size(), 3};
+  std::string bytes = io::npy_header("<f8", shape);
+  for (int k = 0; k < frames; ++k) {
+    if (!report(progress, "frames", static_cast<double>(k) / frames)) return cancelled_error();
+    for (const Vec3& p : waving(mesh, phase_of(k, frames))) {
+      for (int axis = 0; axis < 3; ++axis) io::append_little(bytes, p[axis]);
+    }
+    if (auto written = file->append(bytes); !written) return written;
+    bytes.clear();
+  }
+  return file->finish();
+}
+
+/// A mesh for each frame. Errors: those of the files.
+Result<void> write_frame_files(const NumberedPath& paths, const TriangleMesh& mesh, int frames,
+                               Outputs& outputs, const Progress& progress) {
+  for (int k = 0; k < frames; ++k) {
+    const std::string path = paths.path(k);
+    if (!report(progress, "frames", static_cast<double>(k) / frames)) {
+      outputs.remove_written();
+      return cancelled_error();
+    }
+    const auto moved = mesh.moved(waving(mesh, phase_of(k, frames)));
+    if (!moved) return moved.error();
+    auto written = outputs.write(path, [&] { return write_mesh(path, *moved); });
+    if (!written) return written;
+  }
+  return {};
+}
+
+Result<CommandOutput> generate_frames(const GenerateArguments& arguments, Index faces,
+                                      const Progress& progress) {
+  const auto frames = whole_between(arguments.frames, 1, kMaxWaving, "is no number of frames");
+  if (!frames) return about("--frames", frames.error());
+  const std::string& path = arguments.output;
+  const bool array = io::file_extension(path) == ".npy";
+  const auto numbered = NumberedPath::parse(path);
+  if (!array && !numbered) {
+    return Error{ErrorCode::kBadInput, "--frames are written into one array, or a mesh each, and " +
+                                           one_line(path) +
+                                           " is neither; give -o FILE.npy or -o 'frame_%04d.obj'"};
+  }
+  Outputs outputs;
+  outputs.keep_together();
+  if (!array) {
+    if (auto known = check_mesh_path(path); !known) return known.error();
+  }
+  for (int k = 0; k < (array ? 1 : *frames); ++k) {
+    auto expected = outputs.expect(array ? path : numbered->path(k), "--output");
+    if (!expected) return expected.error();
+  }
+  const auto mesh = generate_model(arguments.name, faces, part_of(progress, 0, 0.5));
+  if (!mesh) return mesh.error();
+  const Progress writing = part_of(progress, 0.5, 1);
+  const auto write_array = [&] { return write_frames_array(path, *mesh, *frames, writing); };
+  const auto written = array ? outputs.write(path, write_array)
+                             : write_frame_files(*numbered, *mesh, *frames, outputs, writing);
+  if (!written) return written.error();
+  return CommandOutput{one_line(path) + ": " + arguments.name + ", " +
+                           counted(*frames, "frame", "frames") + " of " +
+                           counted(mesh->vertex_count(), "vertex", "vertices") + "\n",
+                       {},
+                       outputs.made()};
+}
+
 }  // namespace
 
 void add_generate_options(CLI::App& command, GenerateArguments& arguments) {
@@ -79,15 +165,20 @@ void add_generate_options(CLI::App& command, GenerateArguments& arguments) {
   command.add_option("--tets", arguments.tets, "of a volume: about so many; default: 20000")
       ->type_name("N");
   command
+      .add_option("--frames", arguments.frames,
+                  "so many frames of the surface while a wave runs through it once")
+      ->type_name("N");
+  command
       .add_option("-o,--output", arguments.output,
                   ".obj .ply .off .stl, or - for OBJ on standard output; of a volume .mesh .vtu, "
-                  "or - for .mesh")
+                  "or - for .mesh; of frames .npy, or frame_%04d.obj for a mesh each")
       ->required()
       ->type_name("FILE");
   add_quiet_option(command, arguments.quiet);
   command.footer(
       "Examples:\n  geotherm generate gargoyle --faces 1000000 -o big.ply\n"
-      "  geotherm generate ball-tets --tets 100000 -o ball.mesh");
+      "  geotherm generate ball-tets --tets 100000 -o ball.mesh\n"
+      "  geotherm generate bunny --frames 24 -o waving.npy");
 }
 
 Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Progress& progress) {
@@ -99,6 +190,7 @@ Result<CommandOutput> run_generate(const GenerateArguments& arguments, const Pro
   }
   const auto faces = faces_in(arguments);
   if (!faces) return faces.error();
+  if (!arguments.frames.empty()) return generate_frames(arguments, *faces, progress);
   if (auto known = check_mesh_path(arguments.output); !known) return known.error();
   Outputs outputs;
   if (is_bundled(arguments.name)) {  // otherwise its error is the one to report

@@ -40,27 +40,8 @@ Error about_file(const Error& error) {
   return with_hint(error, {"make room there, or choose another place"});
 }
 
-/// Of all rows.
-struct Sums {
-  double least = kUnreached, most = 0, mean = 0;
-  double reached = 0;
-  std::int64_t unreached = 0;
-
-  void add(std::span<const double> row) {
-    for (const double d : row) {
-      if (!std::isfinite(d)) {
-        ++unreached;
-        continue;
-      }
-      least = std::min(least, d);
-      most = std::max(most, d);
-      mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
-    }
-  }
-};
-
-Json each_json(const ManySources& work, const ManyFigures& figures, const Sums& sums, NpyType type,
-               double bytes) {
+Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
+               NpyType type, double bytes) {
   Json json = many_json(work, figures);
   json["rows"] = work.sources.sets.size();
   json["columns"] = work.mesh.vertices;
@@ -98,7 +79,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   auto array = NpyRows::open(path, static_cast<std::uint64_t>(rows),
                              static_cast<std::uint64_t>(vertices), *type);
   if (!array) return about_file(array.error());
-  Sums sums;
+  RowSums sums;
   auto figures = solve_many(
       *work, arguments,
       [&](std::size_t, std::span<const double> distances) -> Result<void> {

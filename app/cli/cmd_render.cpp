@@ -3,6 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
+#include "app/cli/sequence_work.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
@@ -192,20 +193,14 @@ void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
                       {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
 }
 
-/// How the sources were given, for the picture's file.
-std::vector<std::string> typed_sources(const SourceArguments& arguments) {
-  std::vector<std::string> typed = arguments.sources;
-  if (!arguments.file.empty()) {
-    typed.push_back((arguments.curve ? "curve of " : "file ") + arguments.file);
-  }
-  return typed;
-}
-
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
-  command.add_option("-o,--output", arguments.output, "the picture, .png; - is standard output")
+  command
+      .add_option("-o,--output", arguments.output,
+                  "the picture, .png; - is standard output; with --sequence a name with a place "
+                  "for the frame's number, such as frame_%04d.png")
       ->type_name("FILE")
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
@@ -221,6 +216,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.settings, arguments.picture);
+  add_sequence_options(command, arguments.sequence);
   add_source_options(command, arguments.sources);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
@@ -228,7 +224,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
       "  geotherm render bunny -s 0 --path 1500 -o path.png\n"
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
-      "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png");
+      "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
+      "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");
 }
 
 Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
@@ -246,12 +243,18 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
                                            to_text(options.method) +
                                            " has not; use --method heat or another view"};
   }
+  if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
+    return fits.error();
+  }
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   if (needs_fields(settings->view)) {
     if (auto fits = refuse_better(*check, "--view " + geotherm::to_text(settings->view)); !fits) {
       return fits.error();
     }
+  }
+  if (!arguments.sequence.frames.empty()) {
+    return run_render_sequence(arguments, {*asked, *settings, *check}, drawing, progress);
   }
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, *settings, outputs); !expected) {

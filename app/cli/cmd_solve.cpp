@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/sequence_work.h"
 #include "app/session/answer.h"
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
@@ -174,11 +175,13 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
   command
-      .add_option("-o,--output", arguments.outputs,
-                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
-                  "or - for CSV on "
-                  "standard output; "
-                  "may be repeated; with --each .npy, with --pairs .npy and .csv")
+      .add_option(
+          "-o,--output", arguments.outputs,
+          "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
+          "or - for CSV on "
+          "standard output; "
+          "may be repeated; with --each .npy, with --pairs .npy and .csv, with --sequence .npy "
+          "and .pvd")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -223,6 +226,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       ->group("Many sources");
   command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
       ->group("Many sources");
+  add_sequence_options(command, arguments.sequence);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
@@ -233,7 +237,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
       "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv\n"
       "  geotherm solve bunny -s random:500 --each --float32 -o rows.npy\n"
-      "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv");
+      "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv\n"
+      "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy");
 }
 
 namespace {
@@ -242,9 +247,10 @@ namespace {
 Result<void> refuse_options_of_many(const SolveArguments& arguments) {
   const bool typed = arguments.float32 || !arguments.dtype.empty();
   if (!typed && !arguments.symmetric) return {};
-  return Error{ErrorCode::kBadInput,
-               typed ? "--dtype and --float32 are about --each and --pairs; leave them out"
-                     : "--symmetric is about --pairs; leave it out"};
+  return Error{
+      ErrorCode::kBadInput,
+      typed ? "--dtype and --float32 are about --each, --pairs and --sequence; leave them out"
+            : "--symmetric is about --pairs; leave it out"};
 }
 
 /// A field of the error needs a thorough check; fields of the heat need the heat.
@@ -272,6 +278,10 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
                  "--each and --pairs were both given; --each writes whole rows, --pairs those of "
                  "the sources' vertices; leave one of them out"};
   }
+  if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
+    return fits.error();
+  }
+  if (!arguments.sequence.frames.empty()) return run_sequence(arguments, progress, announce);
   if (arguments.each) return run_each(arguments, progress, announce);
   if (arguments.pairs) return run_pairs(arguments, progress, announce);
   if (auto fits = refuse_options_of_many(arguments); !fits) return fits.error();

@@ -52,8 +52,9 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
 
 struct GenerateArguments {
   std::string name;
-  std::string faces;  ///< empty: the model's usual size
-  std::string tets;   ///< of a volume; empty: some
+  std::string faces;   ///< empty: the model's usual size
+  std::string tets;    ///< of a volume; empty: some
+  std::string frames;  ///< of a surface that waves; empty: it stands still
   std::string output;
   bool quiet = false;
 };
@@ -61,6 +62,14 @@ struct GenerateArguments {
 void add_generate_options(CLI::App& command, GenerateArguments& arguments);
 Result<CommandOutput> run_generate(const GenerateArguments& arguments,
                                    const Progress& progress = {});
+
+/// A surface that moves.
+struct SequenceArguments {
+  std::string frames;     ///< Frames::open()'s path; empty: the model alone
+  bool skip_bad = false;  ///< a frame that cannot be solved does not end the run
+};
+
+void add_sequence_options(CLI::App& command, SequenceArguments& arguments);
 
 struct SolveArguments {
   std::string model;
@@ -76,11 +85,12 @@ struct SolveArguments {
   bool symmetric = false;  ///< of pairs: the mean of both directions
   std::string dtype;       ///< of .npy rows; empty: float64
   bool float32 = false;    ///< the same as --dtype float32
+  SequenceArguments sequence;
   bool quiet = false;
 };
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
-/// `announce`: for what --each and --pairs say before their work.
+/// `announce`: for what --each, --pairs and --sequence say before their work.
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {},
                                 const Announce& announce = {});
 
@@ -91,6 +101,11 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
 /// `solve --pairs`: the distances between each two of K vertices.
 Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress& progress,
                                 const Announce& announce);
+
+/// `solve --sequence`: a row of distances for each frame into a .npy array, or a .vtp file for each
+/// and the .pvd file that lists them.
+Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progress& progress,
+                                   const Announce& announce);
 
 /// Distances between K vertices, row by row: entry (i, j) is the distance at vertex j from a source
 /// at vertex i. On a polyhedral surface it would be that of (j, i); by the heat method it is so but
@@ -191,6 +206,7 @@ struct RenderArguments {
   SourceArguments sources;
   PictureArguments picture;
   CheckArguments check;
+  SequenceArguments sequence;
   std::vector<std::string> targets;  ///< paths lead there from the sources
   std::string output;
   std::string json;
@@ -205,6 +221,19 @@ void add_render_options(CLI::App& command, RenderArguments& arguments);
 /// solve and the files.
 Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
                                  const Progress& progress = {});
+
+/// What was typed for a picture, as values.
+struct AskedPicture {
+  ViewerState state;
+  PictureSettings settings;
+  CheckSettings check;
+};
+
+/// `render --sequence`: a picture of each frame, all with one camera, which sees all frames, and
+/// one scale. Errors: as above.
+Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
+                                          const AskedPicture& asked, Drawing& drawing,
+                                          const Progress& progress);
 
 struct ViewArguments {
   std::string model;

@@ -2,6 +2,7 @@
 #include "app/cli/many_work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -22,13 +23,25 @@ namespace {
 /// Warnings of answers that are shown; they are alike from source to source.
 constexpr std::size_t kMaxWarnings = 5;
 
+}  // namespace
+
+void RowSums::add(std::span<const double> row) {
+  for (const double d : row) {
+    if (!std::isfinite(d)) {
+      ++unreached;
+      continue;
+    }
+    least = std::min(least, d);
+    most = std::max(most, d);
+    mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
+  }
+}
+
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {
   for (const Warning& warning : more) {
     if (std::ranges::find(all, warning) == all.end()) all.push_back(warning);
   }
 }
-
-}  // namespace
 
 Result<NpyType> number_type(const SolveArguments& arguments) {
   if (arguments.dtype.empty()) {
@@ -81,7 +94,7 @@ Result<void> check_room(const std::string& path, double bytes) {
   return Error{ErrorCode::kBadFile,
                one_line(path) + ": the file would take " + bytes_in_words(bytes) + ", and " +
                    bytes_in_words(static_cast<double>(*room)) +
-                   " are free there; take fewer sources, --dtype float32 or another place"};
+                   " are free there; take fewer rows, --dtype float32 or another place"};
 }
 
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,

@@ -21,7 +21,7 @@
 #include "geotherm/mesh_report.h"
 
 // What `solve --each` and `solve --pairs` have in common: many source sets, answers that come in a
-// stream.
+// stream. Some of it serves `solve --sequence`, too.
 namespace geotherm::app {
 
 /// Set-up's share of the bar.
@@ -48,6 +48,18 @@ struct ManyFigures {
   std::optional<SampleCheck> error;     ///< of some of the sources; none: not to be checked
   std::optional<SampleCheck> replaced;  ///< of the poor method that this one stands for
 };
+
+/// Of all rows of distances.
+struct RowSums {
+  double least = kUnreached, most = 0, mean = 0;  ///< of those that are finite
+  double reached = 0;                             ///< how many are
+  std::int64_t unreached = 0;
+
+  void add(std::span<const double> row);
+};
+
+/// Adds the warnings that are not there yet.
+void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more);
 
 /// Takes the distances from source number `row`. In the order of the sources. An error ends the
 /// work and is what solve_many() returns.

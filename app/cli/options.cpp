@@ -82,6 +82,14 @@ Result<std::vector<Source>> sources_of(const SourceArguments& arguments) {
   return sources;
 }
 
+std::vector<std::string> typed_sources(const SourceArguments& arguments) {
+  std::vector<std::string> typed = arguments.sources;
+  if (!arguments.file.empty()) {
+    typed.push_back((arguments.curve ? "curve of " : "file ") + arguments.file);
+  }
+  return typed;
+}
+
 namespace {
 
 const char* heading_of(SettingGroup group) {

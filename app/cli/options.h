@@ -68,6 +68,9 @@ Result<std::vector<Source>> some_sources_of(const SourceArguments& arguments);
 /// All sources that were named; none is no error here. Errors: kBadInput, kBadFile.
 Result<std::vector<Source>> sources_of(const SourceArguments& arguments);
 
+/// How the sources were given, for the file of a picture.
+std::vector<std::string> typed_sources(const SourceArguments& arguments);
+
 /// How distances are to be checked, as typed.
 struct CheckArguments {
   bool check = false;

@@ -169,9 +169,12 @@ std::string picture_table(const PictureFigures& f) {
     table.add_row({"path", line.field + " to " + one_line(line.target) + ": " +
                                significant(line.length, 6) + " long"});
   }
+  if (!f.frames.empty()) table.add_row({"frames", f.frames});
   table.add_row({"device", device_in_words(f.device)});
   std::string time;
-  if (f.solve) {
+  if (!f.frame_times.empty()) {
+    time = f.frame_times + "; all: ";
+  } else if (f.solve) {
     time = "set-up " + milliseconds(f.solve->method->timing().setup) + " ms, query " +
            milliseconds(f.solve->result.timing.query) + " ms, ";
   }

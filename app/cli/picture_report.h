@@ -30,6 +30,7 @@ struct PictureFigures {
   };
   std::vector<Line> lines;           ///< paths that are drawn
   double draw_ms = 0, write_ms = 0;  ///< all frames together
+  std::string frames, frame_times;   ///< in words, of a surface that moves; empty: it does not
 };
 
 /// "bunny, 4,000 faces, t = 0.0123, cholmod": what stands under a picture.

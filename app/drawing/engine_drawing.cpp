@@ -75,8 +75,10 @@ class EngineDrawing final : public Drawing {
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
     engine::Scene scene = scene_of(data, settings, scale);
+    const std::vector<glm::vec3> framed = scene_vectors(data.framed);
+    const std::vector<glm::vec3>& fitted = framed.empty() ? positions : framed;
     for (int i = 0; i < frame_count(settings); ++i) {
-      scene.camera = camera_of(data, frame_camera(settings, i), positions, extent, layout.insets);
+      scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, layout.insets);
       auto image = engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
       if (!image) {
         if (image.error().code == ErrorCode::kNoDevice) close();  // lost: the next is another one

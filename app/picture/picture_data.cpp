@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <set>
 
 #include "geotherm/quality_fields.h"
@@ -20,22 +21,24 @@ PictureData::Vector to_float(const Vec3& v) {
 /// The map from model to scene; in steps that stay within the range of doubles whatever it is.
 class SceneSpace {
  public:
-  explicit SceneSpace(const TriangleMesh& mesh) {
+  /// Of the vertices that faces use.
+  explicit SceneSpace(const TriangleMesh& mesh)
+      : SceneSpace(mesh.faces() | std::views::join |
+                   std::views::transform([&mesh](Index v) { return mesh.positions()[v]; })) {}
+
+  template <std::ranges::forward_range Points>
+  explicit SceneSpace(Points&& points) {
     Vec3 low = Vec3::Constant(kUnreached);
     Vec3 high = -low;
-    for (const Face& face : mesh.faces()) {
-      for (const Index v : face) {
-        low = low.cwiseMin(mesh.positions()[v]);
-        high = high.cwiseMax(mesh.positions()[v]);
-      }
+    for (const Vec3& p : points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     centre_ = 0.5 * low + 0.5 * high;
     const double half = (0.5 * high - 0.5 * low).maxCoeff();
     if (half > 0) box_ = half;
     double radius = 0;
-    for (const Face& face : mesh.faces()) {
-      for (const Index v : face) radius = std::max(radius, in_box(mesh.positions()[v]).norm());
-    }
+    for (const Vec3& p : points) radius = std::max(radius, in_box(p).norm());
     if (radius > 0) radius_ = radius;
   }
 
@@ -61,9 +64,11 @@ constexpr double kFullAngle = 90;
 
 }  // namespace
 
-PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
+namespace {
+
+/// The faces, and the vertices that they use; others are put on one of these.
+PictureData picture_in(const SceneSpace& scene, const TriangleMesh& mesh) {
   PictureData data;
-  const SceneSpace scene(mesh);
   data.centre = scene.centre();
   data.model_per_scene = scene.model_per_scene();
   const auto vertices = static_cast<std::size_t>(mesh.vertex_count());
@@ -74,6 +79,21 @@ PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> 
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
   }
+  return data;
+}
+
+}  // namespace
+
+PictureData picture_of_frame(const TriangleMesh& mesh, std::span<const Vec3> extent) {
+  const SceneSpace scene(extent);
+  PictureData data = picture_in(scene, mesh);
+  for (const Vec3& p : extent) data.framed.push_back(scene.of(p));
+  return data;
+}
+
+PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume) {
+  const SceneSpace scene(mesh);
+  PictureData data = picture_in(scene, mesh);
   data.volume = std::move(volume);
   if (!data.volume) return data;
   for (const Tet& tet : data.volume->tets()) {
@@ -135,10 +155,11 @@ void add_line(PictureData& data, std::span<const Vec3> points, const std::string
   data.lines.push_back(std::move(line));
 }
 
-void add_distances(PictureData& data, std::span<const double> distances) {
-  double most = 0;
+void add_distances(PictureData& data, std::span<const double> distances,
+                   std::optional<double> unit) {
+  double most = unit.value_or(0);
   for (const double d : distances) {
-    if (std::isfinite(d)) most = std::max(most, d);
+    if (!unit && std::isfinite(d)) most = std::max(most, d);
   }
   data.value_unit = most > 0 ? most : 1;
   data.largest_value = most > 0 ? 1 : 0;

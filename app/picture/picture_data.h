@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +32,7 @@ struct PictureData {
 
   std::vector<Vector> positions;                    ///< V
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< F, as in the file
+  std::vector<Vector> framed;                       ///< what the camera fits; empty: `positions`
   Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
@@ -40,7 +42,8 @@ struct PictureData {
   bool solid = false;            ///< closed, all faces counter-clockwise from outside
 
   std::vector<float> values;  ///< V: distance / value_unit, or kNoPictureValue; empty: no solve
-  double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0
+  double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0, or
+                              ///< that of another frame
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
   bool is_signed = false;     ///< `values` run from -1 to 1: a difference
   std::vector<float> face_values;  ///< F: of a view with a colour a face (set_face_values())
@@ -76,6 +79,10 @@ struct PictureData {
 /// does.
 PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> volume = nullptr);
 
+/// A frame of a surface that moves, in the scene of these points (model units), which the camera
+/// fits: with the points of all frames it stands still. Precondition: there are some.
+PictureData picture_of_frame(const TriangleMesh& mesh, std::span<const Vec3> extent);
+
 /// Whether the mesh is one closed surface whose faces all run counter-clockwise seen from outside.
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report);
 
@@ -90,8 +97,10 @@ std::array<float, 3> line_colour(std::string_view name);
 /// Adds a line on the surface, over those that are there. points: model units.
 void add_line(PictureData& data, std::span<const Vec3> points, const std::string& name);
 
-/// Sets the distances; those that are not finite have no value. distances: V.
-void add_distances(PictureData& data, std::span<const double> distances);
+/// Sets the distances; those that are not finite have no value. distances: V. `unit`: at the end of
+/// the scale, > 0; absent: the largest of them.
+void add_distances(PictureData& data, std::span<const double> distances,
+                   std::optional<double> unit = {});
 
 /// Shows a signed error instead: 0 in the middle of a diverging map, both of its ends equally far.
 /// signed_error: V, model units, not finite where there is none. title: over the colour bar.

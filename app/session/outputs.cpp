@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -12,7 +13,6 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
-#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -104,14 +104,14 @@ bool Outputs::uses_stdout() const {
 }
 
 Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
+  const auto file = std::ranges::find(files_, path, &File::path);
+  if (group_ && file != files_.end() && file->is_new) group_->add(path);
   Result<void> done = write();
   if (!done) {
     remove_written();
     return with_hint(done.error(), {"make room there, or choose another place"});
   }
-  for (File& file : files_) {
-    if (file.path == path) file.written = true;
-  }
+  if (file != files_.end()) file->written = true;
   return done;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geotherm/error.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 
@@ -33,6 +34,10 @@ class Outputs {
   /// The same for `text` as a whole; where `path` is "-" it ends up in `standard_output`.
   Result<void> write_text(const std::string& path, std::string text, std::string& standard_output);
 
+  /// From here on files that are new are of use together alone: until this object goes, a signal
+  /// that ends the program removes them.
+  void keep_together() { group_.emplace(); }
+
   /// The files that were written and were not there before.
   std::vector<std::string> made() const;
 
@@ -51,6 +56,7 @@ class Outputs {
   };
   std::vector<File> files_;
   std::vector<Input> inputs_;
+  std::optional<FileGroup> group_;
 };
 
 /// Whether a file of distances holds the mesh as well, so that a property can be added to it

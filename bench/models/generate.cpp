@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "bench/models/generate.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -45,6 +48,23 @@ Result<TriangleMesh> generate_model(std::string_view name, Index faces, const Pr
   Result<generate::DraftMesh> made = maker->make(faces, progress);
   if (!made) return made.error();
   return TriangleMesh::build(std::move(made->positions), std::move(made->faces));
+}
+
+std::vector<Vec3> waving(const TriangleMesh& mesh, double phase) {
+  constexpr double kHeight = 0.08;  // of the box's longest side
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : mesh.positions()) box.extend(p);
+  Eigen::Index along = 0;
+  const double length = box.sizes().maxCoeff(&along);
+  const Eigen::Index first = (along + 1) % 3, second = (along + 2) % 3;
+  std::vector<Vec3> moved(mesh.positions().begin(), mesh.positions().end());
+  if (!(length > 0)) return moved;
+  for (Vec3& p : moved) {
+    const double angle = 2 * std::numbers::pi * (p[along] - box.min()[along]) / length - phase;
+    p[first] += kHeight * length * std::sin(angle);
+    p[second] += kHeight * length * std::cos(angle);
+  }
+  return moved;
 }
 
 }  // namespace geotherm

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
@@ -21,5 +22,11 @@ inline constexpr Index kMaxModelFaces = 5'000'000;
 /// the message lists the names), a size outside the limits (kBadInput), kCancelled.
 Result<TriangleMesh> generate_model(std::string_view name, Index faces,
                                     const Progress& progress = {});
+
+/// V x 3: the vertices of a mesh through which a wave runs along the longest side of its box, as
+/// long as that; `phase` (radians) says how far it has come, and 2 pi is the beginning again. What
+/// lies side by side is sheared, so that no face folds. A small animation for documentation, tests
+/// and benchmark. Cost: O(V).
+std::vector<Vec3> waving(const TriangleMesh& mesh, double phase);
 
 }  // namespace geotherm

@@ -127,6 +127,27 @@ std::string target_of(const std::string& path) {
 
 }  // namespace
 
+/// Never freed: the handler of a signal may be reading the list at any moment.
+struct FileGroup::File {
+  std::string path;
+  std::atomic<bool> lives = true;
+  File* next = nullptr;
+
+  inline static std::atomic<File*> last = nullptr;
+};
+
+void FileGroup::add(const std::string& path) {
+  auto* const file = new File{path};
+  file->next = File::last;
+  while (!File::last.compare_exchange_weak(file->next, file)) {
+  }
+  files_.push_back(file);
+}
+
+FileGroup::~FileGroup() {
+  for (File* const file : files_) file->lives = false;
+}
+
 void remove_unfinished_files() noexcept {
   constexpr int kMaxWaits = 1000, kMilliseconds = 1;
   closed = true;
@@ -135,6 +156,10 @@ void remove_unfinished_files() noexcept {
       ::poll(nullptr, 0, kMilliseconds);
     }
     if (slot.state == kOpen) ::unlink(slot.path.data());
+  }
+  // After those: what is renamed in between is among these.
+  for (const FileGroup::File* file = FileGroup::File::last; file; file = file->next) {
+    if (file->lives) ::unlink(file->path.c_str());
   }
 }
 

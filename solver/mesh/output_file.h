@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "geotherm/error.h"
 
@@ -46,8 +48,30 @@ std::optional<std::uint64_t> room_for(const std::string& path);
 /// output. Errors (kBadFile) carry the path and the system's reason; the temporary is removed.
 Result<void> write_file(const std::string& path, std::string_view bytes);
 
+/// Files that are of use together alone. While this lives, remove_unfinished_files() removes them,
+/// whole or not.
+class FileGroup {
+ public:
+  FileGroup() = default;
+  FileGroup(FileGroup&& other) noexcept : files_(std::exchange(other.files_, {})) {}
+  FileGroup& operator=(FileGroup&& other) noexcept {
+    std::swap(files_, other.files_);
+    return *this;
+  }
+  ~FileGroup();
+
+  /// Precondition: no such file is there yet; call it before it is written.
+  void add(const std::string& path);
+
+ private:
+  struct File;
+  friend void remove_unfinished_files() noexcept;
+  std::vector<File*> files_;
+};
+
 /// Removes what GrowingFile and write_file() have begun beside their targets, on every thread, and
-/// lets it begin nothing more: for the handler of a signal that ends the program.
+/// the files of groups, and lets it begin nothing more: for the handler of a signal that ends the
+/// program.
 /// Async-signal-safe; waits up to a second for a thread that opens a file at this moment.
 void remove_unfinished_files() noexcept;
 

@@ -145,6 +145,14 @@ Result<void> check_mesh_format(std::string_view name) {
   return {};
 }
 
+Result<io::RawMesh> io::read_raw_mesh(const std::string& path) {
+  const auto known = format_of_file(path, {});
+  if (!known) return known.error();
+  return read_file<io::RawMesh>(
+      [](const std::string&, io::RawMesh raw) { return Result<io::RawMesh>(std::move(raw)); }, path,
+      **known);
+}
+
 Result<MeshFile> read_mesh(const std::string& path) {
   const auto known = format_of_file(path, {});
   if (!known) return known.error();

@@ -15,6 +15,7 @@ namespace {
 
 using app::kNoPictureValue;
 using app::picture_of;
+using app::picture_of_frame;
 using app::picture_scale;
 using app::PictureData;
 using app::PictureScale;
@@ -65,6 +66,29 @@ TEST(PictureSceneOf, OnePointIsAtTheOrigin) {
   const PictureData data = picture_of(*finish({{p, p, p}, {{0, 1, 2}}}));
   for (const PictureData::Vector& place : data.positions) EXPECT_EQ(wide(place), Vec3::Zero());
   EXPECT_EQ(data.model_per_scene, 1);
+}
+
+TEST(PictureOfAFrame, LiesInTheSceneOfAllFramesWhichTheCameraFits) {
+  const std::vector<Vec3> extent = {{0, 0, 0}, {10, 0, 0}, {0, 2, 0}};
+  const MeshPtr first = finish({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  const MeshPtr last = finish({{{9, 0, 0}, {10, 0, 0}, {9, 1, 0}}, {{0, 1, 2}}});
+  const PictureData a = picture_of_frame(*first, extent), b = picture_of_frame(*last, extent);
+  EXPECT_EQ(a.centre, Vec3(5, 1, 0));
+  EXPECT_EQ(a.model_per_scene, b.model_per_scene);
+  EXPECT_EQ(a.framed, b.framed);
+  EXPECT_EQ(a.framed.size(), extent.size());
+  const double moved = (wide(b.positions[0]) - wide(a.positions[0])).norm();
+  EXPECT_NEAR(moved * a.model_per_scene, 9, 9 * kFloat);
+}
+
+TEST(PictureOfAFrame, KeepsTheScaleOfAnotherFrame) {
+  const MeshPtr mesh = finish({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+  PictureData data = picture_of(*mesh);
+  add_distances(data, std::vector<double>{0, 1, 4}, 2.0);
+  EXPECT_EQ(data.values, (std::vector<float>{0, 0.5, 2}));
+  EXPECT_EQ(picture_scale(data, PictureSettings()).max, 2);
+  add_distances(data, std::vector<double>{0, 0, 0}, 2.0);
+  EXPECT_EQ(picture_scale(data, PictureSettings()).max, 2);
 }
 
 TEST(PictureSceneOf, PointsWithoutFacesDoNotCount) {

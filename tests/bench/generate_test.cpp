@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "geotherm/mesh_report.h"
+
 namespace geotherm {
 namespace {
 
@@ -244,6 +246,30 @@ INSTANTIATE_TEST_SUITE_P(ClosedModels, ClosedModelTest,
 INSTANTIATE_TEST_SUITE_P(AllModels, GenerateModelNameTest,
                          testing::Values("terrain", "sleeve", "cube", "gargoyle", "bunny"),
                          model_name);
+
+TEST(WavingModel, MovesWithoutFoldingAndComesBack) {
+  constexpr double kTurn = 2 * std::numbers::pi, kRoundOff = 1e-12;
+  for (const char* name : {"bunny", "terrain"}) {
+    const auto mesh = generate_model(name, 2000);
+    ASSERT_TRUE(mesh);
+    const auto begin = waving(*mesh, 0), middle = waving(*mesh, kTurn / 2),
+               end = waving(*mesh, kTurn);
+    const double size = inspect_mesh(*mesh).box_max.norm();
+    double moved = 0;
+    for (std::size_t v = 0; v < begin.size(); ++v) {
+      EXPECT_LT((begin[v] - end[v]).norm(), kRoundOff * size);
+      moved = std::max(moved, (begin[v] - middle[v]).norm());
+    }
+    EXPECT_GT(moved, 0.1 * size);
+    const auto here = mesh->moved(begin), there = mesh->moved(middle);
+    ASSERT_TRUE(here && there);
+    for (const auto& frame : {*here, *there}) {
+      const MeshReport report = inspect_mesh(frame);
+      EXPECT_EQ(report.degenerate_faces, 0);
+      EXPECT_GT(report.smallest_angle, 2);
+    }
+  }
+}
 
 TEST(GenerateModel, UnknownNameIsAnErrorThatListsTheNames) {
   const Result<TriangleMesh> made = generate_model("teapot", 2000);

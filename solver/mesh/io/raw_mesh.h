@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geotherm/error.h"
 #include "geotherm/types.h"
 
 namespace geotherm::io {
@@ -92,5 +93,9 @@ RawMesh read_obj(const InputFile& file);
 RawMesh read_off(std::string_view text);
 RawMesh read_ply(std::string_view bytes);
 RawMesh read_stl(std::string_view bytes);
+
+/// A file by its extension, with its polygons as fans. Errors: those of read_mesh(), which throws
+/// nothing either.
+Result<RawMesh> read_raw_mesh(const std::string& path);
 
 }  // namespace geotherm::io

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+// `geotherm render --sequence`: a picture of each frame of a surface that moves.
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/picture_report.h"
+#include "app/cli/sequence_work.h"
+#include "app/picture/picture_scale.h"
+#include "app/session/explored.h"
+#include "app/session/outputs.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+#include "solver/mesh/frames.h"
+
+namespace geotherm::app {
+namespace {
+
+/// What does not go with frames. Errors: kBadInput.
+Result<void> refuse_other_pictures(const RenderArguments& arguments, const AskedPicture& asked) {
+  const auto refuse = [](const std::string& option, const std::string& cure) {
+    return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + cure};
+  };
+  const View view = asked.settings.view;
+  if (asked.settings.turntable > 0) {
+    return refuse("--turntable", "whose pictures are those of the frames; leave one of them out");
+  }
+  if (!arguments.targets.empty()) {
+    return refuse("--path", "which draws distances alone; leave one of them out");
+  }
+  if (view == View::kExactError) {
+    return refuse("--view exact-error", "whose first frame alone is checked; choose another view");
+  }
+  if (view == View::kRegions && asked.state.options.method == MethodKind::kHeat) {
+    return refuse("--view regions by heat",
+                  "for heat does not know the nearest source; add --method wavefront");
+  }
+  return {};
+}
+
+/// The name with a place for numbers. Errors: kBadInput.
+Result<NumberedPath> numbered_output(const std::string& path) {
+  auto numbered = NumberedPath::parse(path);
+  if (!numbered) return about("--output", numbered.error());
+  if (io::file_extension(path) == ".png") return numbered;
+  return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
+                                         ".png; give -o 'frame_%04d.png'"};
+}
+
+/// Points that enclose all frames almost as closely as all of their vertices: the farthest ones in
+/// directions on all sides.
+class FramesExtent {
+ public:
+  FramesExtent() {
+    constexpr int kDirections = 256;
+    for (int i = 0; i < kDirections; ++i) {  // a spiral on the sphere
+      const double z = 1 - (2 * i + 1.0) / kDirections;
+      const double angle = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
+      const double r = std::sqrt(1 - z * z);
+      sides_.push_back({Vec3(r * std::cos(angle), r * std::sin(angle), z)});
+    }
+  }
+
+  void add(const TriangleMesh& mesh) {
+    std::vector<char> used(mesh.positions().size(), 0);
+    for (const Face& face : mesh.faces()) {
+      for (const Index v : face) used[static_cast<std::size_t>(v)] = 1;
+    }
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (!used[v]) continue;
+      const Vec3& p = mesh.positions()[v];
+      for (Side& side : sides_) {
+        const double far = side.direction.dot(p);
+        if (far <= side.far) continue;
+        side.far = far;
+        side.point = p;
+      }
+    }
+  }
+
+  std::vector<Vec3> points() const {
+    std::vector<Vec3> out;
+    for (const Side& side : sides_) out.push_back(side.point);
+    return out;
+  }
+
+ private:
+  struct Side {
+    Vec3 direction;
+    double far = -kUnreached;
+    Vec3 point = Vec3::Zero();
+  };
+  std::vector<Side> sides_;
+};
+
+/// Reads all frames once: a frame that is bad ends the run before anything is solved.
+Result<std::vector<Vec3>> extent_of(const Sequence& sequence, const Progress& progress) {
+  const std::int64_t count = sequence.frames.count();
+  FramesExtent extent;
+  bool some = false;
+  for (std::int64_t k = 0; k < count; ++k) {
+    if (!report(progress, "reading", static_cast<double>(k) / static_cast<double>(count))) {
+      return cancelled_error();
+    }
+    const auto mesh = sequence.frames.read(k);
+    if (!mesh && !sequence.skip_bad) return mesh.error();
+    if (!mesh) continue;
+    extent.add(*mesh);
+    some = true;
+  }
+  if (!some) extent.add(*sequence.model.mesh);  // solve_frames() says that all frames are bad
+  return extent.points();
+}
+
+/// Draws frame after frame.
+class FramePainter {
+ public:
+  FramePainter(Drawing& drawing, const NumberedPath& paths, std::vector<Vec3> extent,
+               Outputs& outputs, PictureFigures& figures)
+      : drawing_(drawing),
+        paths_(paths),
+        extent_(std::move(extent)),
+        outputs_(outputs),
+        figures_(figures) {}
+
+  Result<void> paint(std::int64_t number, const Answer& answer) {
+    figures_.solve = answer;
+    PictureData data = data_of(answer);
+    figures_.scale = picture_scale(data, figures_.settings);
+    data.caption = caption_of(figures_) + ", frame " + std::to_string(number);
+    const std::string path = paths_.path(number);
+    Stopwatch watch;
+    return drawing_.draw(data, figures_.settings,
+                         [&](int, const DrawnPicture& picture) -> Result<void> {
+                           figures_.draw_ms += watch.lap();
+                           auto texts = picture_texts(figures_, 0);
+                           texts.push_back({"geotherm:frame", std::to_string(number)});
+                           auto bytes = png_bytes(picture, texts);
+                           if (!bytes) return bytes.error();
+                           std::string nowhere;
+                           auto written = outputs_.write_text(path, *std::move(bytes), nowhere);
+                           if (!written) return written;
+                           figures_.paths.push_back(path);
+                           figures_.write_ms += watch.lap();
+                           return {};
+                         });
+  }
+
+ private:
+  /// With the scales of the first frame.
+  PictureData data_of(const Answer& answer) {
+    const TriangleMesh& mesh = *answer.model.mesh;
+    const View view = figures_.settings.view;
+    const bool first = !unit_;
+    PictureData data = picture_of_frame(mesh, extent_);
+    add_sources(data, mesh, answer.sources);
+    add_distances(data, answer.result.distances, unit_);
+    unit_ = data.value_unit;
+    data.nearest = answer.result.nearest_source;
+    set_face_values(data, mesh, view, &answer.result);
+    if (first) largest_face_value_ = data.largest_face_value;
+    data.largest_face_value = largest_face_value_;
+    if (!shows_arrows(view)) return data;
+    if (first) solid_ = is_solid(mesh, inspect_mesh(mesh));
+    data.solid = solid_;
+    add_fields(data, mesh, answer.result);
+    return data;
+  }
+
+  Drawing& drawing_;
+  const NumberedPath& paths_;
+  std::vector<Vec3> extent_;
+  Outputs& outputs_;
+  PictureFigures& figures_;
+  std::optional<double> unit_;
+  float largest_face_value_ = 0;
+  bool solid_ = false;
+};
+
+Result<void> expect_pictures(const RenderArguments& arguments, const Sequence& sequence,
+                             const NumberedPath& paths, Outputs& outputs) {
+  protect_inputs(arguments.model, arguments.sources, outputs);
+  if (!is_numbered(sequence.path)) outputs.protect(sequence.path, "the sequence itself");
+  for (std::int64_t k = 0; k < sequence.frames.count(); ++k) {
+    const std::string path = paths.path(sequence.frames.number(k));
+    if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
+  }
+  if (arguments.json.empty()) return {};
+  return outputs.expect(arguments.json, "--json");
+}
+
+}  // namespace
+
+Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
+                                          const AskedPicture& asked, Drawing& drawing,
+                                          const Progress& progress) {
+  if (auto fits = refuse_other_pictures(arguments, asked); !fits) return fits.error();
+  const auto paths = numbered_output(arguments.output);
+  if (!paths) return paths.error();
+  const auto named = some_sources_of(arguments.sources);
+  if (!named) return named.error();
+  auto device = drawing.open(asked.settings);
+  if (!device) return device.error();
+  auto sequence = begin_sequence(arguments.model, arguments.sequence, asked.state, *named,
+                                 asked.check, progress);
+  if (!sequence) return sequence.error();
+  sequence->query.fields = needs_fields(asked.settings.view);
+  sequence->query.nearest = asked.settings.view == View::kRegions;
+  Outputs outputs;
+  outputs.keep_together();
+  if (auto expected = expect_pictures(arguments, *sequence, *paths, outputs); !expected) {
+    return expected.error();
+  }
+
+  constexpr double kReadShare = 0.05;
+  auto extent = extent_of(*sequence, part_of(progress, 0, kReadShare));
+  if (!extent) return extent.error();
+  PictureFigures pictures;
+  pictures.model = sequence->model.name;
+  pictures.model_argument = arguments.model;
+  pictures.vertices = sequence->model.mesh->vertex_count();
+  pictures.faces = sequence->model.mesh->face_count();
+  pictures.sources = typed_sources(arguments.sources);
+  pictures.command = arguments.command;
+  pictures.settings = asked.settings;
+  pictures.device = *std::move(device);
+  FramePainter painter(drawing, *paths, *std::move(extent), outputs, pictures);
+  const auto paint = [&](std::int64_t k, const Answer* answer) -> Result<void> {
+    return answer ? painter.paint(sequence->frames.number(k), *answer) : Result<void>();
+  };
+  auto figures = solve_frames(*sequence, paint, {}, part_of(progress, kReadShare, 1), {});
+  if (!figures) {
+    outputs.remove_written();
+    return figures.error();
+  }
+
+  note_unused_settings(arguments.settings, asked.state.options, figures->warnings);
+  CommandOutput out{"", figures->warnings, {}};
+  pictures.frames = frames_in_words(*sequence, *figures);
+  pictures.frame_times = frame_times_in_words(*sequence, *figures);
+  if (!arguments.json.empty()) {
+    Json json = sequence_json(*sequence, *figures);
+    json["picture"] = picture_json(pictures)["picture"];
+    const auto written = outputs.write_text(arguments.json, to_text(json), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = picture_table(pictures);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "app/cli/sequence_work.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <utility>
+
+#include "app/cli/many_work.h"
+#include "app/session/machine.h"
+#include "app/session/model_solver.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "geotherm/build_method.h"
+#include "solver/core/memory.h"
+#include "solver/core/stopwatch.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr std::string_view kFramesStage = "frames";
+/// Frames after which freed memory is handed back, so that what threads leave behind does not grow
+/// with the frames. To do it after each would cost a tenth of their time.
+constexpr std::int64_t kBetweenReleases = 16;
+/// Bad frames that are named in warnings, and frames whose warnings are shown.
+constexpr std::size_t kMaxNamed = 5;
+
+struct ReadFrame {
+  Result<TriangleMesh> mesh;
+  double milliseconds = 0;
+};
+
+std::future<ReadFrame> read_beside(const Frames& frames, std::int64_t k) {
+  return std::async(std::launch::async, [frames, k] {
+    const Stopwatch watch;
+    auto mesh = frames.read(k);
+    return ReadFrame{std::move(mesh), watch.milliseconds()};
+  });
+}
+
+/// What goes on, whatever a frame holds.
+bool ends_the_run(const Error& error) {
+  return error.code == ErrorCode::kCancelled || error.code == ErrorCode::kOutOfMemory;
+}
+
+/// Solves frame after frame. Every answer takes the place of the one before it.
+class FrameSolver {
+ public:
+  FrameSolver(const Sequence& sequence, SequenceFigures& figures)
+      : sequence_(sequence), figures_(figures) {}
+
+  Result<void> solve(std::int64_t k, TriangleMesh mesh, const Progress& progress) {
+    auto moved = std::make_shared<const TriangleMesh>(std::move(mesh));
+    return figures_.answer ? solve_next(k, std::move(moved), progress)
+                           : solve_first(k, std::move(moved), progress);
+  }
+
+ private:
+  Result<void> solve_first(std::int64_t k, std::shared_ptr<const TriangleMesh> mesh,
+                           const Progress& progress) {
+    Model model = sequence_.model;
+    model.mesh = std::move(mesh);
+    model.name = sequence_.frames.name(k);
+    ModelSolver solver(std::move(model));
+    auto answer = solver.solve(sequence_.options, sequence_.sources,
+                               {sequence_.query, sequence_.check}, progress);
+    if (!answer) return answer.error();
+    figures_.setup_ms += answer->setup_ms;
+    figures_.query_ms += answer->result.timing.query;
+    figures_.warnings = answer->warnings;
+    figures_.answer = *std::move(answer);
+    return {};
+  }
+
+  Result<void> solve_next(std::int64_t k, std::shared_ptr<const TriangleMesh> mesh,
+                          const Progress& progress) {
+    constexpr double kSetupPart = 0.9;
+    Answer& answer = *figures_.answer;
+    const std::string name = sequence_.frames.name(k);
+    Stopwatch watch;
+    auto method = build_method_moved(mesh, answer.options, answer.method.get(),
+                                     part_of(progress, 0.0, kSetupPart));
+    if (!method) return about_model(name, method.error());
+    figures_.setup_ms += watch.lap();
+    auto result = (*method)->solve(sequence_.sources.set, sequence_.query,
+                                   part_of(progress, kSetupPart, 1.0));
+    if (!result) return about_model(name, result.error());
+    figures_.query_ms += watch.lap();
+    note(name, (*method)->warnings());
+    note(name, result->warnings);
+    answer.model.name = name;
+    answer.model.mesh = std::move(mesh);
+    answer.method = *std::move(method);
+    answer.setup = answer.method->timing();
+    answer.result = *std::move(result);
+    answer.distance = summarize(answer.result.distances);
+    return {};
+  }
+
+  /// Adds what was not said of the first frame.
+  void note(const std::string& name, const std::vector<Warning>& warnings) {
+    for (Warning warning : warnings) {
+      if (std::ranges::find(figures_.answer->warnings, warning) != figures_.answer->warnings.end())
+        continue;
+      if (noted_ == kMaxNamed) return;
+      ++noted_;
+      warning.message.insert(0, name + ": ");
+      figures_.warnings.push_back(std::move(warning));
+    }
+  }
+
+  const Sequence& sequence_;
+  SequenceFigures& figures_;
+  std::size_t noted_ = 0;
+};
+
+void note_bad_frames(const Sequence& sequence, SequenceFigures& figures) {
+  if (figures.bad.empty()) return;
+  for (std::size_t i = 0; i < std::min(figures.bad.size(), kMaxNamed); ++i) {
+    figures.warnings.push_back({"left out: " + figures.bad[i].why});
+  }
+  if (figures.bad.size() <= kMaxNamed) return;
+  const auto more = std::ssize(figures.bad) - static_cast<std::ptrdiff_t>(kMaxNamed);
+  figures.warnings.push_back({counted(more, "more frame is", "more frames are") + " left out, of " +
+                              counted(sequence.frames.count(), "frame", "frames")});
+}
+
+}  // namespace
+
+void add_sequence_options(CLI::App& command, SequenceArguments& arguments) {
+  command
+      .add_option("--sequence", arguments.frames,
+                  "the surface moves: where its vertices are, frame after frame, in numbered "
+                  "meshes (frame_%04d.obj) or in one .npy (frames x vertices x 3), .pc2 or .mdd; "
+                  "faces and sources are the model's")
+      ->type_name("FRAMES")
+      ->group("Sequences");
+  command
+      .add_flag("--skip-bad", arguments.skip_bad,
+                "with --sequence: a frame that cannot be read or solved is left out (NaN in rows) "
+                "and counted; otherwise it ends the run")
+      ->group("Sequences");
+}
+
+Result<void> refuse_with_sequence(const SequenceArguments& sequence, const CheckArguments& check) {
+  if (sequence.frames.empty()) {
+    if (!sequence.skip_bad) return {};
+    return Error{ErrorCode::kBadInput, "--skip-bad is about --sequence; leave it out"};
+  }
+  if (sequence.skip_bad && check.on_poor == "fail") {
+    return Error{ErrorCode::kBadInput,
+                 "--on-poor fail ends the run and --skip-bad goes on; leave one of them out"};
+  }
+  return {};
+}
+
+Result<Sequence> begin_sequence(const std::string& name, const SequenceArguments& arguments,
+                                const ViewerState& asked, const std::vector<Source>& sources,
+                                const CheckSettings& check, const Progress& progress) {
+  auto model = load_model(name, asked.reading, progress);
+  if (!model) return model.error();
+  if (!model->is_mesh()) {
+    return Error{ErrorCode::kBadInput, "--sequence moves the vertices of triangles, and " +
+                                           one_line(model->name) + " is read as " +
+                                           std::string(domain_name(*model)) +
+                                           "; give a mesh, or --domain triangles"};
+  }
+  auto placed = resolve_sources(sources, *model);
+  if (!placed) return placed.error();
+  auto frames = Frames::open(arguments.frames, model->mesh);
+  if (!frames) return about("--sequence", frames.error());
+  return Sequence{*std::move(model), *std::move(frames), arguments.frames,   arguments.skip_bad,
+                  asked.options,     *std::move(placed), {.quality = false}, check};
+}
+
+Result<SequenceFigures> solve_frames(const Sequence& sequence, const TakeAnswer& take,
+                                     const std::string& output, const Progress& progress,
+                                     const Announce& announce) {
+  const Frames& frames = sequence.frames;
+  const std::int64_t count = frames.count();
+  const std::string all = counted(count, "frame", "frames");
+  const Progress estimate = with_estimate({}, announce, kFramesStage, all, output);
+  SequenceFigures figures;
+  FrameSolver solver(sequence, figures);
+  const Stopwatch watch;
+  std::future<ReadFrame> next = read_beside(frames, 0);
+  for (std::int64_t k = 0; k < count; ++k) {
+    const double from = static_cast<double>(k) / static_cast<double>(count);
+    const double to = static_cast<double>(k + 1) / static_cast<double>(count);
+    const std::string stage = "frame " + grouped(k + 1) + " of " + all;
+    if (!report(progress, stage, from)) return cancelled_error();
+    ReadFrame read = next.get();
+    figures.read_ms += read.milliseconds;
+    if (k + 1 < count) next = read_beside(frames, k + 1);
+    const Result<void> solved =
+        read.mesh ? solver.solve(k, *std::move(read.mesh),
+                                 part_of(with_prefix(progress, stage + ": "), from, to))
+                  : Result<void>(read.mesh.error());
+    if (!solved && (!sequence.skip_bad || ends_the_run(solved.error()))) return solved.error();
+    if (!solved) figures.bad.push_back({k, told(solved.error())});
+    if (auto taken = take(k, solved ? &*figures.answer : nullptr); !taken) return taken.error();
+    if (k % kBetweenReleases == 0) release_freed_memory();
+    report(estimate, kFramesStage, to);
+  }
+  figures.wall_ms = watch.milliseconds();
+  figures.peak_rss_mb = peak_rss_mb();
+  if (!figures.answer) {
+    return Error{ErrorCode::kBadFile,
+                 "none of " + all + " can be solved; the first says: " + figures.bad.front().why};
+  }
+  figures.answer->model.name = sequence.model.name;
+  note_bad_frames(sequence, figures);
+  return figures;
+}
+
+std::string frames_in_words(const Sequence& sequence, const SequenceFigures& figures) {
+  std::string text = grouped(sequence.frames.count()) + " of " + one_line(sequence.path);
+  if (!figures.bad.empty()) text += ", " + grouped(std::ssize(figures.bad)) + " of them bad";
+  return text;
+}
+
+Json sequence_json(const Sequence& sequence, const SequenceFigures& figures) {
+  const Answer& answer = *figures.answer;
+  const auto count = static_cast<double>(sequence.frames.count());
+  Json bad = Json::array();
+  for (const BadFrame& frame : figures.bad) {
+    bad.push_back({{"frame", sequence.frames.number(frame.k)}, {"reason", frame.why}});
+  }
+  Json json = {
+      {"model", model_json(sequence.model.name, answer.mesh)},
+      {"options", options_json(*answer.method, answer.options, answer.result)},
+      {"sources", sources_json(sequence.sources.set)},
+      {"frames",
+       {{"path", sequence.path},
+        {"count", sequence.frames.count()},
+        {"first", sequence.frames.number(0)},
+        {"bad", figures.bad.size()},
+        {"bad_frames", std::move(bad)}}},
+      {"timing_ms",
+       {{"load", sequence.model.load_ms},
+        {"read", figures.read_ms},
+        {"setup", figures.setup_ms},
+        {"query", figures.query_ms},
+        {"frames", figures.wall_ms},
+        {"frame", figures.wall_ms / count}}},
+      {"memory_mb", {{"factor", answer.method->memory_mb()}, {"peak_rss", figures.peak_rss_mb}}},
+      {"warnings", told(figures.warnings)}};
+  if (answer.error) json["error"] = error_json(*answer.error);
+  if (answer.replaced) json["replaced"] = error_json(*answer.replaced);
+  return json;
+}
+
+std::string frame_times_in_words(const Sequence& sequence, const SequenceFigures& figures) {
+  const auto count = static_cast<double>(sequence.frames.count());
+  const auto solved = count - static_cast<double>(figures.bad.size());
+  return milliseconds(figures.wall_ms / count) + " ms a frame: set-up " +
+         milliseconds(figures.setup_ms / solved) + ", query " +
+         milliseconds(figures.query_ms / solved) + ", reading " +
+         milliseconds(figures.read_ms / count) + " beside the one before";
+}
+
+}  // namespace geotherm::app

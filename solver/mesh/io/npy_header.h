@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace geotherm::io {
+
+/// What a .npy file says about its numbers (versions 1 to 3 of the format, NEP 1).
+struct NpyHeader {
+  std::string type;  ///< "f8", "u1", ...: kind and bytes of a number
+  std::endian order = std::endian::little;
+  bool fortran = false;  ///< the first axis runs fastest
+  std::vector<std::int64_t> shape;
+  std::size_t begins = 0;      ///< the numbers
+  std::size_t type_place = 0;  ///< byte of the header, for messages; so is the next one
+  std::size_t shape_place = 0;
+};
+
+/// `bytes`: the file, or enough of its beginning. Throws ReadFailure with the byte.
+NpyHeader read_npy_header(std::string_view bytes);
+
+}  // namespace geotherm::io
