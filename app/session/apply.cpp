@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include "app/picture/picture_text.h"
 #include "app/session/command.h"
@@ -45,6 +46,7 @@ class Applier {
     }
     s_.model = c.model;
     s_.reading = {};
+    s_.sculpture = {};
     std::erase_if(s_.sources, std::not_fn(fits_any_model));
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
@@ -143,6 +145,22 @@ class Applier {
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
     s_.sources = {RandomVertices{count, seed + 1}};
+    return {};
+  }
+
+  Result<void> operator()(const command::Sculpt& c) {
+    s_.sculpture.strokes.push_back(std::make_shared<const Stroke>(c.stroke));
+    return {};
+  }
+
+  Result<void> operator()(const command::ExtendStroke& c) {
+    auto& strokes = s_.sculpture.strokes;
+    if (strokes.empty()) {
+      return bad("there is no stroke to extend", {"begin one with sculpt pull RADIUS STRENGTH POINT"});
+    }
+    Stroke longer = *strokes.back();
+    longer.points.insert(longer.points.end(), c.points.begin(), c.points.end());
+    strokes.back() = std::make_shared<const Stroke>(std::move(longer));
     return {};
   }
 
@@ -251,6 +269,7 @@ class Applier {
   Result<void> operator()(const command::Compare& /*c*/) { return {}; }
   Result<void> operator()(const command::SavePicture& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveDistances& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveMesh& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveSession& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveLog& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveFigures& /*c*/) { return {}; }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "app/session/state.h"
 #include "geotherm/error.h"
@@ -75,6 +76,17 @@ struct FewerSources {  // source fewer
 };
 struct ShuffleSources {  // source shuffle
   bool operator==(const ShuffleSources&) const = default;
+};
+
+/// Begins a stroke of the sculpting brush.
+struct Sculpt {  // sculpt pull|push|smooth RADIUS STRENGTH POINT...
+  Stroke stroke;
+  bool operator==(const Sculpt&) const = default;
+};
+/// Goes on with the last one.
+struct ExtendStroke {  // sculpt extend POINT...
+  std::vector<FacePoint> points;
+  bool operator==(const ExtendStroke&) const = default;
 };
 
 /// Degrees; the elevation stays within -90 to 90.
@@ -160,6 +172,11 @@ struct SaveDistances {  // save distances FILE
   std::string path;
   bool operator==(const SaveDistances&) const = default;
 };
+/// The mesh that is shown: what was sculpted, where it was.
+struct SaveMesh {  // save mesh FILE
+  std::string path;
+  bool operator==(const SaveMesh&) const = default;
+};
 /// The commands that lead to the present state.
 struct SaveSession {  // save session FILE
   std::string path;
@@ -192,11 +209,12 @@ using Command =
     std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
                  command::AddSources, command::MoveSource, command::RemoveSource,
                  command::ExtendCurve, command::ClearSources, command::MoreSources,
-                 command::FewerSources, command::ShuffleSources, command::Orbit, command::Zoom,
+                 command::FewerSources, command::ShuffleSources, command::Sculpt,
+                 command::ExtendStroke, command::Orbit, command::Zoom,
                  command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
                  command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
                  command::Pick, command::Target, command::Compare, command::SavePicture,
-                 command::SaveDistances, command::SaveSession, command::SaveLog,
+                 command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
                  command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
@@ -223,7 +241,7 @@ Result<ViewerState> apply(const ViewerState& state, const Command& command);
 /// Commands that lead from initial_state() to `state`, and back to it exactly.
 std::vector<Command> commands_to(const ViewerState& state);
 
-/// Whether undo takes the command back: what concerns sources, method, picture, A and B; not the
+/// Whether undo takes the command back: what concerns sources, strokes, method, picture, A and B; not the
 /// camera. `merged`: together with the one before it, as of a drag.
 struct UndoRule {
   bool undoable = false, merged = false;

@@ -49,6 +49,19 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   }
 }
 
+/// What is to be said about a model's mesh.
+void describe(ExploredModel& model) {
+  model.mesh = inspect_mesh(*model.model.mesh);
+  if (const auto& space = model.model.space) {
+    model.mesh.unreferenced_vertices = space->unused_vertices();
+  }
+  model.warnings = model.model.notes;
+  for (Warning& warning :
+       model.model.is_mesh() ? mesh_warnings(model.mesh) : std::vector<Warning>()) {
+    model.warnings.push_back(std::move(warning));
+  }
+}
+
 }  // namespace
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
@@ -94,20 +107,16 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   // What belonged to the old model goes before the new one needs the room.
   solver_.reset();
   placed_.clear();
+  sculptor_.reset();
+  sculpture_ = {};
+  inspected_ = true;
   model_.reset();
+  read_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
-  model->mesh = inspect_mesh(*mesh);
-  if (const auto& space = model->model.space) {
-    model->mesh.unreferenced_vertices = space->unused_vertices();
-  }
-  model->warnings = model->model.notes;
-  for (Warning& warning :
-       model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
-    model->warnings.push_back(std::move(warning));
-  }
+  describe(*model);
   auto base = std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
@@ -118,12 +127,68 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!rays) return rays.error();
   auto whole = std::make_shared<ExploredModel>(*model);
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
-  model_ = std::move(whole);
+  read_ = model_ = std::move(whole);
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
   solver_->set_summary(model_->mesh);
   model_text_ = request.model;
   reading_ = request.reading;
   opening_ = request.opening;
+  return {};
+}
+
+/// Puts the vertices where the strokes want them. What belongs to another surface goes; the method
+/// stays until the next one has taken over what it can.
+Result<void> Explorer::move(const ExploreRequest& request, const Progress& progress) {
+  if (sculpture_ == request.sculpture) return {};
+  if (auto surface = refuse_space(read_->model, "strokes are"); !surface) return surface;
+  if (!sculptor_) sculptor_.emplace(read_->model.mesh);
+  if (auto done = sculptor_->follow(request.sculpture); !done) return done;
+  inspected_ = request.sculpture.strokes.empty();
+  if (inspected_) {
+    model_ = read_;
+    solver_->set_summary(model_->mesh);
+  } else {
+    auto moved = moved_model(progress);
+    if (!moved) return moved.error();
+    model_ = *std::move(moved);
+  }
+  placed_.clear();
+  solver_->move(model_->model);
+  sculpture_ = request.sculpture;
+  return {};
+}
+
+/// The model with the vertices where the sculptor has them. What is said of its mesh is old.
+Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(const Progress& progress) const {
+  auto positions = sculptor_->positions();
+  auto mesh = read_->model.mesh->moved(std::move(positions));
+  if (!mesh) return mesh.error();
+  auto moved = std::make_shared<ExploredModel>(*model_);
+  moved->model.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
+  moved->model.name = read_->model.name + " (sculpted)";
+  auto base = std::make_shared<PictureData>(*read_->base);
+  move_picture(*base, *moved->model.mesh);
+  base->solid = false;  // a stroke may have gone through to the other side
+  moved->base = std::move(base);
+  auto rays = read_->rays->moved(moved->model.mesh);
+  if (!rays) {
+    auto built = RayTree::build(moved->model.mesh, progress);
+    if (!built) return built.error();
+    rays = *std::move(built);
+  }
+  moved->rays = std::make_shared<const RayTree>(*std::move(rays));
+  return std::shared_ptr<const ExploredModel>(std::move(moved));
+}
+
+/// What is said of the mesh, once it rests.
+Result<void> Explorer::inspect(const Progress& progress) {
+  if (inspected_) return {};
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
+  auto model = std::make_shared<ExploredModel>(*model_);
+  describe(*model);
+  solver_->set_summary(model->mesh);
+  model_ = std::move(model);
+  inspected_ = true;
   return {};
 }
 
@@ -181,6 +246,10 @@ Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored&
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
                                    const Early& early) try {
   if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
+  if (auto moved = move(request, progress); !moved) return moved.error();
+  if (request.quality) {
+    if (auto done = inspect(progress); !done) return done.error();
+  }
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;

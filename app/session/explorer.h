@@ -8,6 +8,7 @@
 
 #include "app/session/explored.h"
 #include "app/session/model_solver.h"
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/progress.h"
 
@@ -18,6 +19,7 @@ struct ExploreRequest {
   std::string model;
   ModelReading reading;
   std::uint64_t opening = 0;  ///< another number forces the model to be read again
+  Sculpture sculpture;
   std::vector<SourceSpec> sources;
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
@@ -33,7 +35,7 @@ struct ExploreRequest {
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
-    return same_setup(other) && sources == other.sources && fields >= other.fields &&
+    return same_setup(other) && sculpture == other.sculpture && sources == other.sources && fields >= other.fields &&
            quality >= other.quality && nearest >= other.nearest &&
            (check == other.check || other.check == Check::kOff) && target == other.target;
   }
@@ -52,6 +54,9 @@ class Explorer {
 
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
+  Result<void> move(const ExploreRequest& request, const Progress& progress);
+  Result<std::shared_ptr<const ExploredModel>> moved_model(const Progress& progress) const;
+  Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
                                                const MethodOptions& options,
@@ -62,7 +67,11 @@ class Explorer {
   Result<void> check_afterwards(const ExploreRequest& request, Explored& explored,
                                 const Progress& progress, const Early& early);
 
-  std::shared_ptr<const ExploredModel> model_;
+  std::shared_ptr<const ExploredModel> read_;   ///< as its file has it
+  std::shared_ptr<const ExploredModel> model_;  ///< as it is sculpted
+  std::optional<Sculptor> sculptor_;            ///< of `read_`, from the first stroke on
+  Sculpture sculpture_;                         ///< that led to `model_`
+  bool inspected_ = true;                       ///< ExploredModel::mesh is of `model_` as it is
   std::string model_text_;
   ModelReading reading_;
   std::uint64_t opening_ = 0;

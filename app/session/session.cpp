@@ -25,7 +25,7 @@ bool is_any_of(const Command& command) {
 
 /// Those that need answers that belong to the state.
 bool needs_answers(const Command& command) {
-  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh, command::SaveFigures,
                    command::Compare, command::Quit>(command);
 }
 

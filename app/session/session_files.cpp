@@ -76,6 +76,18 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
                         [&] { return write_distances(save.path, *mesh, values, nearest); });
 }
 
+Result<void> save_mesh(const command::SaveMesh& save, const Session& session) {
+  const Explored& explored = session.explored();
+  if (!explored.model || session.stale()) return not_yet("vertices");
+  if (auto surface = refuse_space(explored.model->model, "saved meshes are"); !surface) {
+    return surface;
+  }
+  auto outputs = output_file(session.state().model, save.path, "save mesh");
+  if (!outputs) return outputs.error();
+  return outputs->write(save.path,
+                        [&] { return write_mesh(save.path, *explored.model->model.mesh); });
+}
+
 Result<void> save_figures(const command::SaveFigures& save, const Session& session) {
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
@@ -111,6 +123,8 @@ Result<void> Session::State::save(const Command& command, const Session& session
     done = hooks.save_picture(*picture, session);
   } else if (const auto* distances = std::get_if<command::SaveDistances>(&command)) {
     done = save_distances(*distances, session);
+  } else if (const auto* mesh = std::get_if<command::SaveMesh>(&command)) {
+    done = save_mesh(*mesh, session);
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
     done = save_figures(*figures, session);
   } else if (std::holds_alternative<command::SaveSession>(command)) {

@@ -9,6 +9,7 @@
 #include "app/picture/picture_settings.h"
 #include "app/session/check.h"
 #include "app/session/model.h"
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/build_method.h"
 
@@ -26,6 +27,7 @@ enum class Shown {
 struct ViewerState {
   std::string model;                  ///< a path or a bundled name; empty: none is open
   ModelReading reading;               ///< how the model is read
+  Sculpture sculpture;                ///< what was done to the surface since it was opened
   std::vector<SourceSpec> sources;    ///< one set
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B

@@ -32,6 +32,9 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Keep{});
   }
   add_settings(now, state, commands);
+  for (const auto& stroke : state.sculpture.strokes) {
+    commands.emplace_back(command::Sculpt{*stroke});
+  }
   // After the method: not every method takes every source.
   if (now.sources != state.sources) {
     if (state.sources.empty()) {
@@ -60,12 +63,13 @@ UndoRule undo_rule(const Command& command) {
     return (std::holds_alternative<Kinds>(command) || ...);
   };
   const bool merged =
-      is(static_cast<std::variant<command::MoveSource, command::ExtendCurve>*>(nullptr));
+      is(static_cast<
+          std::variant<command::MoveSource, command::ExtendCurve, command::ExtendStroke>*>(nullptr));
   const bool undoable =
       merged ||
       is(static_cast<std::variant<
              command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
-             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Keep,
+             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Sculpt, command::Keep,
              command::Forget, command::Swap, command::Show, command::Flip, command::Target>*>(
           nullptr));
   return {undoable, merged};

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <new>
 #include <span>
@@ -227,6 +228,30 @@ Result<RayTree> RayTree::build(std::shared_ptr<const TriangleMesh> mesh, const P
                  "the memory ended in the ray tree of " + std::to_string(face_count) + " faces",
                  {"take a mesh with fewer faces"}};
   }
+}
+
+std::optional<RayTree> RayTree::moved(std::shared_ptr<const TriangleMesh> mesh) const {
+  auto state = std::make_shared<State>();
+  state->mesh = std::move(mesh);
+  state->frame = frame_of(*state->mesh);
+  state->tree = state_->tree;
+  BoxTree& tree = state->tree;
+  const auto faces = state->mesh->faces();
+  const auto whole = std::ranges::count_if(faces, std::not_fn(repeats_corner));
+  if (whole != static_cast<std::ptrdiff_t>(tree.ids.size())) return std::nullopt;
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parents
+    BoxNode& node = tree.nodes[i];
+    node.box = {};
+    if (node.count == 0) {
+      node.box.add(tree.nodes[node.first].box);
+      node.box.add(tree.nodes[node.first + 1].box);
+      continue;
+    }
+    for (const Index f : std::span(tree.ids).subspan(node.first, node.count)) {
+      node.box.add(box_of(state->corners(f)));
+    }
+  }
+  return RayTree(std::move(state));
 }
 
 std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction) const {

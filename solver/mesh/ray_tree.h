@@ -27,6 +27,11 @@ class RayTree {
   static Result<RayTree> build(std::shared_ptr<const TriangleMesh> mesh,
                                const Progress& progress = {});
 
+  /// The same tree over a mesh with the same faces whose vertices are elsewhere: answers are those
+  /// of one that is built afresh, as fast while the surface has kept most of its shape. Null where
+  /// that has faces this tree has left out. Precondition: check_moved(). Cost: O(F).
+  std::optional<RayTree> moved(std::shared_ptr<const TriangleMesh> mesh) const;
+
   /// The nearest face in front of `origin` along `direction` (any length above 0, finite; model
   /// units), seen from either side; the lowest number among equals. Faces that repeat a corner or
   /// have no area are never met. The weights sum to 1 exactly. Nothing where the ray misses, or is
