@@ -58,6 +58,8 @@ std::optional<FilePurpose> purpose_of(Action action) {
       return FilePurpose::kSaveFigures;
     case Action::kSaveLog:
       return FilePurpose::kSaveLog;
+    case Action::kSaveMesh:
+      return FilePurpose::kSaveMesh;
     default:
       return std::nullopt;
   }
@@ -108,8 +110,9 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
 
 /// One thing at a time: first what the mouse is set to, then what is marked, then the work.
 void stop(Frame& frame) {
-  if (frame.ui.input.brush) {
-    frame.ui.input.brush = false;
+  CanvasInput& input = frame.ui.input;
+  if (input.brush || input.sculpt) {
+    input.brush = input.sculpt = false;
   } else if (frame.session.work().busy) {
     frame.out.cancel = true;
   } else if (frame.state().target) {
@@ -124,6 +127,11 @@ void turn_switch(Frame& frame, Action action) {
   switch (action) {
     case Action::kBrush:
       frame.ui.input.brush = !frame.ui.input.brush;
+      frame.ui.input.sculpt = false;
+      return;
+    case Action::kSculpt:
+      frame.ui.input.sculpt = !frame.ui.input.sculpt;
+      frame.ui.input.brush = false;
       return;
     case Action::kLeftPanel:
       layout.left = !layout.left;
@@ -171,6 +179,9 @@ bool is_possible(const Frame& frame, Action action) {
     case Action::kSavePicture:
     case Action::kCompare:
       return frame.model() != nullptr;
+    case Action::kSculpt:
+    case Action::kSaveMesh:
+      return frame.model() && !frame.model()->model.space;
     case Action::kFewerSources:
     case Action::kShuffleSources:
       return frame.model() && !frame.state().sources.empty();
@@ -198,6 +209,8 @@ bool is_on(const Frame& frame, Action action) {
       return frame.state().rotating;
     case Action::kBrush:
       return frame.ui.input.brush;
+    case Action::kSculpt:
+      return frame.ui.input.sculpt;
     case Action::kLeftPanel:
       return frame.ui.layout.left;
     case Action::kRightPanel:

@@ -11,6 +11,7 @@ enum class Action {
   kSavePicture,
   kSaveDistances,
   kSaveFigures,
+  kSaveMesh,
   kSaveLog,
   kQuit,
   kUndo,
@@ -36,6 +37,7 @@ enum class Action {
   kClearSources,
   kBoundarySource,
   kBrush,
+  kSculpt,
   kKeep,
   kFlip,
   kSwap,
@@ -48,7 +50,7 @@ enum class Action {
   kTheme,
   kKeys,
   kAbout,
-  kStop,  ///< the brush, the picked point or the work, in this order
+  kStop,  ///< brush or sculpting, the picked point or the work, in this order
 };
 
 struct Frame;

@@ -45,6 +45,7 @@ enum class FilePurpose {
   kSaveSession,
   kSaveLog,
   kSaveFigures,
+  kSaveMesh,
 };
 
 /// The extension of session files, which are scripts of commands.

@@ -148,6 +148,7 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   draw_side_bars(frame);
   draw_status_bar(frame);
   draw_canvas_overlay(frame);
+  draw_sculpt_bar(frame);
   draw_canvas_menu(frame);
   take_keys(frame);
   ui.dialog.draw(frame);

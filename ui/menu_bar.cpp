@@ -58,6 +58,7 @@ void draw_file_menu(Frame& frame) {
   draw_menu_action(frame, "Save distances\u2026", Action::kSaveDistances);
   draw_menu_action(frame, "Save figures\u2026", Action::kSaveFigures);
   draw_menu_action(frame, "Save log\u2026", Action::kSaveLog);
+  draw_menu_action(frame, "Save mesh\u2026", Action::kSaveMesh);
   ImGui::Separator();
   draw_menu_action(frame, "Quit", Action::kQuit);
   ImGui::EndMenu();
@@ -74,6 +75,7 @@ void draw_edit_menu(Frame& frame) {
   draw_menu_action(frame, "Boundary as source", Action::kBoundarySource);
   draw_menu_action(frame, "Clear sources", Action::kClearSources);
   draw_menu_action(frame, "Brush", Action::kBrush);
+  draw_menu_action(frame, "Sculpt", Action::kSculpt);
   ImGui::EndMenu();
 }
 
