@@ -48,6 +48,8 @@ std::optional<FilePurpose> purpose_of(Action action) {
       return FilePurpose::kOpenModel;
     case Action::kOpenSession:
       return FilePurpose::kOpenSession;
+    case Action::kOpenSequence:
+      return FilePurpose::kOpenSequence;
     case Action::kSaveSession:
       return FilePurpose::kSaveSession;
     case Action::kSavePicture:
@@ -65,6 +67,12 @@ std::optional<FilePurpose> purpose_of(Action action) {
   }
 }
 
+/// The frame so many after the one that is shown, round the end. Precondition: there are frames.
+app::Command frame_beside(const Frame& frame, int step) {
+  const int frames = frame.model()->frames;
+  return app::command::ShowFrame{(frame.state().timeline.frame + step + frames) % frames};
+}
+
 /// What an action sends, where it sends something.
 std::optional<app::Command> command_of(const Frame& frame, Action action) {
   if (const auto view = view_of(action)) {
@@ -79,6 +87,14 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
       return app::command::Redo{};
     case Action::kRotate:
       return app::command::Rotate{!frame.state().rotating};
+    case Action::kPlay:
+      return app::command::Play{!frame.state().timeline.playing};
+    case Action::kNextFrame:
+      return frame_beside(frame, 1);
+    case Action::kPreviousFrame:
+      return frame_beside(frame, -1);
+    case Action::kLoop:
+      return app::command::Loop{!frame.state().timeline.loop};
     case Action::kFrame:
       return app::command::Frame{};
     case Action::kMoreSources:
@@ -179,8 +195,14 @@ bool is_possible(const Frame& frame, Action action) {
     case Action::kSavePicture:
     case Action::kCompare:
       return frame.model() != nullptr;
+    case Action::kPlay:
+    case Action::kNextFrame:
+    case Action::kPreviousFrame:
+    case Action::kLoop:
+      return frame.model() && frame.model()->frames > 0;
     case Action::kSculpt:
     case Action::kSaveMesh:
+    case Action::kOpenSequence:
       return frame.model() && !frame.model()->model.space;
     case Action::kFewerSources:
     case Action::kShuffleSources:
@@ -211,6 +233,10 @@ bool is_on(const Frame& frame, Action action) {
       return frame.ui.input.brush;
     case Action::kSculpt:
       return frame.ui.input.sculpt;
+    case Action::kPlay:
+      return frame.state().timeline.playing;
+    case Action::kLoop:
+      return frame.state().timeline.loop;
     case Action::kLeftPanel:
       return frame.ui.layout.left;
     case Action::kRightPanel:

@@ -7,6 +7,7 @@ namespace geotherm::ui {
 enum class Action {
   kOpenModel,
   kOpenSession,
+  kOpenSequence,
   kSaveSession,
   kSavePicture,
   kSaveDistances,
@@ -48,6 +49,10 @@ enum class Action {
   kRightPanel,
   kLogPanel,
   kTheme,
+  kPlay,
+  kNextFrame,
+  kPreviousFrame,
+  kLoop,
   kKeys,
   kAbout,
   kStop,  ///< brush or sculpting, the picked point or the work, in this order

@@ -53,6 +53,13 @@ float sculpt_ring(const Frame& frame, const std::optional<SurfacePoint>& hovered
 /// The tools of the sculpting brush, over the picture while it is on.
 void draw_sculpt_bar(Frame& frame);
 
+/// Play, step, loop and scrub, over the picture while there is a sequence.
+void draw_timeline(Frame& frame);
+
+/// Sends the next frame when the one that is shown has its distances and its time is over. True:
+/// it is not over yet.
+bool play(Frame& frame);
+
 /// The mouse on the picture: one stroke from press to release at a time.
 class CanvasInput {
  public:

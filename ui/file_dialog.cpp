@@ -73,6 +73,7 @@ constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
 constexpr std::string_view kSessions[] = {kSessionExtension};
 constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
 constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
+constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd"};
 constexpr std::string_view kFigures[] = {".json"};
 
 constexpr FileTask kTasks[] = {
@@ -84,6 +85,7 @@ constexpr FileTask kTasks[] = {
     {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
     {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
     {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
+    {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
 };
 
 }  // namespace
@@ -189,6 +191,9 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
       break;
     case FilePurpose::kSaveMesh:
       frame.send(command::SaveMesh{path});
+      break;
+    case FilePurpose::kOpenSequence:
+      frame.send(command::ShowSequence{path});
       break;
   }
   folder_ = file.parent_path();

@@ -46,6 +46,7 @@ enum class FilePurpose {
   kSaveLog,
   kSaveFigures,
   kSaveMesh,
+  kOpenSequence,
 };
 
 /// The extension of session files, which are scripts of commands.

@@ -82,6 +82,8 @@ struct UiState {
   WriteQuestion write_question;
   SourcesForm sources;
   SculptForm sculpt;
+  double played_at = 0;  ///< ImGui's time when a frame was sent last
+  bool scrubs = false;   ///< the timeline is dragged
   LogForm log;
   std::set<std::string> left_out;  ///< backends that are not to be compared
   std::vector<Notice> notices;

@@ -26,6 +26,10 @@ constexpr KeyBinding kKeys[] = {
     {"n", Action::kNonDelaunay, "View", "edges that are not Delaunay"},
     {"p", Action::kRotate, "View", "turn the model, and stop again"},
     {"f", Action::kFrame, "View", "the whole model in the middle"},
+    {"Space", Action::kPlay, "View", "play the frames, and pause"},
+    {".", Action::kNextFrame, "View", "one frame on"},
+    {",", Action::kPreviousFrame, "View", "one frame back"},
+    {"l", Action::kLoop, "View", "play on or off from the last frame to the first"},
     {"+", Action::kMoreSources, "Sources", "one more random source"},
     {"-", Action::kFewerSources, "Sources", "one random source fewer"},
     {"h", Action::kShuffleSources, "Sources", "as many sources at new random places"},
@@ -79,7 +83,8 @@ struct NamedKey {
   int code;
 };
 constexpr NamedKey kNamed[] = {
-    {"Esc", kKeyEscape}, {"Tab", kKeyTab}, {"Enter", kKeyEnter}, {"Home", kKeyHome}};
+    {"Esc", kKeyEscape}, {"Tab", kKeyTab}, {"Enter", kKeyEnter}, {"Home", kKeyHome},
+    {"Space", kKeySpace}};
 
 /// "Ctrl+Shift+Z" -> the modifiers and "Z".
 std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) {

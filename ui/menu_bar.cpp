@@ -52,6 +52,7 @@ void draw_file_menu(Frame& frame) {
     ImGui::EndMenu();
   }
   draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);
+  draw_menu_action(frame, "Open sequence\u2026", Action::kOpenSequence);
   ImGui::Separator();
   draw_menu_action(frame, "Save session\u2026", Action::kSaveSession);
   draw_menu_action(frame, "Save picture\u2026", Action::kSavePicture);
@@ -112,6 +113,11 @@ void draw_view_menu(Frame& frame) {
   ImGui::Separator();
   draw_menu_action(frame, "Rotate", Action::kRotate);
   draw_menu_action(frame, "Whole model", Action::kFrame);
+  ImGui::Separator();
+  draw_menu_action(frame, "Play frames", Action::kPlay);
+  draw_menu_action(frame, "Next frame", Action::kNextFrame);
+  draw_menu_action(frame, "Previous frame", Action::kPreviousFrame);
+  draw_menu_action(frame, "Loop", Action::kLoop);
   ImGui::Separator();
   draw_menu_action(frame, "Left side bar", Action::kLeftPanel);
   draw_menu_action(frame, "Right side bar", Action::kRightPanel);

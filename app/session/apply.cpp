@@ -46,6 +46,7 @@ class Applier {
     }
     s_.model = c.model;
     s_.reading = {};
+    s_.timeline = {};
     s_.sculpture = {};
     std::erase_if(s_.sources, std::not_fn(fits_any_model));
     if (s_.sources.empty()) s_.sources = {kFirstSource};
@@ -161,6 +162,31 @@ class Applier {
     Stroke longer = *strokes.back();
     longer.points.insert(longer.points.end(), c.points.begin(), c.points.end());
     strokes.back() = std::make_shared<const Stroke>(std::move(longer));
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowSequence& c) {
+    if (s_.model.empty()) {
+      return bad("there is no model whose vertices could move", {"open one first: open MODEL"});
+    }
+    s_.timeline = {.sequence = c.path, .loop = s_.timeline.loop};
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowFrame& c) {
+    if (s_.timeline.sequence.empty()) return no_sequence();
+    s_.timeline.frame = c.index;
+    return {};
+  }
+
+  Result<void> operator()(const command::Play& c) {
+    if (c.on && s_.timeline.sequence.empty()) return no_sequence();
+    s_.timeline.playing = c.on;
+    return {};
+  }
+
+  Result<void> operator()(const command::Loop& c) {
+    s_.timeline.loop = c.on;
     return {};
   }
 
@@ -280,6 +306,10 @@ class Applier {
  private:
   static Error nothing_kept() {
     return bad("no settings are kept as B", {"keep some first: keep"});
+  }
+
+  static Error no_sequence() {
+    return bad("there are no frames", {"name those of a surface that moves: sequence FRAMES"});
   }
 
   std::vector<SourceSpec>::reverse_iterator last_random() {

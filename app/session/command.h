@@ -89,6 +89,27 @@ struct ExtendStroke {  // sculpt extend POINT...
   bool operator==(const ExtendStroke&) const = default;
 };
 
+/// A surface that moves: Frames::open()'s path; empty: none, the model as its file has it. Begins at
+/// frame 0.
+struct ShowSequence {  // sequence PATH, sequence none
+  std::string path;
+  bool operator==(const ShowSequence&) const = default;
+};
+struct ShowFrame {  // frame INDEX
+  int index = 0;
+  bool operator==(const ShowFrame&) const = default;
+};
+/// The window shows a frame after the other, each by `frame`.
+struct Play {  // play on|off
+  bool on = false;
+  bool operator==(const Play&) const = default;
+};
+/// Whether the first frame follows the last.
+struct Loop {  // loop on|off
+  bool on = true;
+  bool operator==(const Loop&) const = default;
+};
+
 /// Degrees; the elevation stays within -90 to 90.
 struct Orbit {  // camera orbit AZIMUTH ELEVATION
   double azimuth = 0, elevation = 0;
@@ -210,7 +231,8 @@ using Command =
                  command::AddSources, command::MoveSource, command::RemoveSource,
                  command::ExtendCurve, command::ClearSources, command::MoreSources,
                  command::FewerSources, command::ShuffleSources, command::Sculpt,
-                 command::ExtendStroke, command::Orbit, command::Zoom,
+                 command::ExtendStroke, command::ShowSequence, command::ShowFrame, command::Play,
+                 command::Loop, command::Orbit, command::Zoom,
                  command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
                  command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
                  command::Pick, command::Target, command::Compare, command::SavePicture,
@@ -241,8 +263,8 @@ Result<ViewerState> apply(const ViewerState& state, const Command& command);
 /// Commands that lead from initial_state() to `state`, and back to it exactly.
 std::vector<Command> commands_to(const ViewerState& state);
 
-/// Whether undo takes the command back: what concerns sources, strokes, method, picture, A and B; not the
-/// camera. `merged`: together with the one before it, as of a drag.
+/// Whether undo takes the command back: what concerns sources, strokes, method, picture, A and B;
+/// not camera and timeline. `merged`: together with the one before it, as of a drag.
 struct UndoRule {
   bool undoable = false, merged = false;
 };

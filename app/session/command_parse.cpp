@@ -105,6 +105,24 @@ Result<Command> read_extend_stroke(WordReader& reader) {
   return Command(command::ExtendStroke{*std::move(points)});
 }
 
+Result<Command> read_sequence(WordReader& reader) {
+  const std::string& path = reader.next();
+  return Command(command::ShowSequence{path == "none" ? "" : path});
+}
+
+Result<Command> read_frame(WordReader& reader) {
+  const auto index = reader.whole("the number of a frame, from 0");
+  if (!index) return index.error();
+  return Command(command::ShowFrame{*index});
+}
+
+template <class Kind>
+Result<Command> read_switch(WordReader& reader) {
+  const auto on = reader.one_of({"on", "off"});
+  if (!on) return on.error();
+  return Command(Kind{*on == 0});
+}
+
 Result<Command> read_orbit(WordReader& reader) {
   const auto n = all_numbers(reader);
   if (!n) return n.error();
@@ -144,12 +162,6 @@ Result<Command> read_place(WordReader& reader) {
   const auto up = reader.number(-kMaxPan, kMaxPan);
   if (!up) return up.error();
   return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
-}
-
-Result<Command> read_rotate(WordReader& reader) {
-  const auto on = reader.one_of({"on", "off"});
-  if (!on) return on.error();
-  return Command(command::Rotate{*on == 0});
 }
 
 Result<Command> read_show(WordReader& reader) {
@@ -214,13 +226,17 @@ const Form kForms[] = {
     {"sculpt push", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPush>},
     {"sculpt smooth", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kSmooth>},
     {"sculpt extend", "POINT...", 1, kAny, read_extend_stroke},
+    {"sequence", "FRAMES|none", 1, 1, read_sequence},
+    {"frame", "INDEX", 1, 1, read_frame},
+    {"play", "on|off", 1, 1, read_switch<command::Play>},
+    {"loop", "on|off", 1, 1, read_switch<command::Loop>},
     {"camera orbit", "AZIMUTH ELEVATION", 2, 2, read_orbit},
     {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
     {"camera pan", "RIGHT UP", 2, 2, read_pan},
     {"camera centre", "X Y Z", 3, 3, read_centre},
     {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
     {"camera frame", "", 0, 0, plain<command::Frame>},
-    {"rotate", "on|off", 1, 1, read_rotate},
+    {"rotate", "on|off", 1, 1, read_switch<command::Rotate>},
     {"keep", "", 0, 0, plain<command::Keep>},
     {"forget", "", 0, 0, plain<command::Forget>},
     {"swap", "", 0, 0, plain<command::Swap>},

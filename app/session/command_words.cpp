@@ -164,9 +164,9 @@ Result<double> WordReader::number(double least, double most) {
   return *value;
 }
 
-Result<int> WordReader::whole() {
+Result<int> WordReader::whole(const char* what) {
   const auto value = number_in<int>(peek());
-  if (!value || *value < 0) return fail("the number of a source, from 0");
+  if (!value || *value < 0) return fail(what);
   ++next_;
   return *value;
 }
@@ -271,6 +271,14 @@ struct Printer {
   std::string operator()(const command::ExtendStroke& c) const {
     return points("sculpt extend", c.points);
   }
+  std::string operator()(const command::ShowSequence& c) const {
+    return words("sequence", {c.path.empty() ? "none" : c.path});
+  }
+  std::string operator()(const command::ShowFrame& c) const {
+    return "frame " + std::to_string(c.index);
+  }
+  std::string operator()(const command::Play& c) const { return c.on ? "play on" : "play off"; }
+  std::string operator()(const command::Loop& c) const { return c.on ? "loop on" : "loop off"; }
   std::string operator()(const command::Orbit& c) const {
     return numbers("camera orbit", {c.azimuth, c.elevation});
   }

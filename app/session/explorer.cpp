@@ -65,7 +65,8 @@ void describe(ExploredModel& model) {
 }  // namespace
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
-/// anew: a curve is a walk over the mesh, a point in space a search over all faces.
+/// anew: a curve is a walk over the mesh, a point in space a search over all faces. They are placed on
+/// the model as its file has it, and go with the surface.
 Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
                                                      Explored& explored) {
   std::vector<Placed> placed;
@@ -80,7 +81,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
       placed.push_back(*known);
     } else {
       const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
-      auto places = resolve_sources({&named, 1}, model_->model);
+      auto places = resolve_sources({&named, 1}, read_->model);
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
     }
@@ -107,8 +108,9 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   // What belonged to the old model goes before the new one needs the room.
   solver_.reset();
   placed_.clear();
+  pose_ = {};
+  sequence_.reset();
   sculptor_.reset();
-  sculpture_ = {};
   inspected_ = true;
   model_.reset();
   read_.reset();
@@ -136,47 +138,87 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   return {};
 }
 
-/// Puts the vertices where the strokes want them. What belongs to another surface goes; the method
-/// stays until the next one has taken over what it can.
+/// The mesh before it is sculpted.
+Result<std::shared_ptr<const TriangleMesh>> Explorer::frame_mesh(const Pose& pose) {
+  if (pose.sequence.empty()) {
+    sequence_.reset();
+    return read_->model.mesh;
+  }
+  if (!sequence_ || sequence_->path != pose.sequence) {
+    auto frames = Frames::open(pose.sequence, read_->model.mesh);
+    if (!frames) return frames.error();
+    sequence_ = Sequence{pose.sequence, *std::move(frames), -1, nullptr};
+  }
+  const std::int64_t count = sequence_->frames.count();
+  if (pose.frame >= count) {
+    return Error{ErrorCode::kBadInput,
+                 "there is no frame " + std::to_string(pose.frame),
+                 {"frames are 0 to " + std::to_string(count - 1)}};
+  }
+  if (sequence_->frame != pose.frame) {
+    auto mesh = sequence_->frames.read(pose.frame);
+    if (!mesh) return mesh.error();
+    sequence_->mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
+    sequence_->frame = pose.frame;
+  }
+  return sequence_->mesh;
+}
+
+/// Puts the vertices where frame and strokes want them. What belongs to another surface goes; the
+/// method stays until the next one has taken over what it can.
 Result<void> Explorer::move(const ExploreRequest& request, const Progress& progress) {
-  if (sculpture_ == request.sculpture) return {};
-  if (auto surface = refuse_space(read_->model, "strokes are"); !surface) return surface;
-  if (!sculptor_) sculptor_.emplace(read_->model.mesh);
-  if (auto done = sculptor_->follow(request.sculpture); !done) return done;
-  inspected_ = request.sculpture.strokes.empty();
+  const Pose& pose = request.pose;
+  if (pose_ == pose) return {};
+  const bool carved = !pose.sculpture.strokes.empty();
+  if (carved || !pose.sequence.empty()) {
+    auto surface = refuse_space(read_->model, carved ? "strokes are" : "frames are");
+    if (!surface) return surface;
+  }
+  auto mesh = frame_mesh(pose);
+  if (!mesh) return mesh.error();
+  if (carved) {
+    if (!sculptor_ || carved_ != *mesh) sculptor_.emplace(*mesh);
+    carved_ = *mesh;
+    if (auto done = sculptor_->follow(pose.sculpture); !done) return done;
+    auto bent = (*mesh)->moved(sculptor_->positions());
+    if (!bent) return bent.error();
+    mesh = std::make_shared<const TriangleMesh>(*std::move(bent));
+  }
+  inspected_ = *mesh == read_->model.mesh;
   if (inspected_) {
     model_ = read_;
     solver_->set_summary(model_->mesh);
   } else {
-    auto moved = moved_model(progress);
+    auto moved = moved_model(*std::move(mesh), progress);
     if (!moved) return moved.error();
     model_ = *std::move(moved);
   }
-  placed_.clear();
   solver_->move(model_->model);
-  sculpture_ = request.sculpture;
+  pose_ = pose;
   return {};
 }
 
-/// The model with the vertices where the sculptor has them. What is said of its mesh is old.
-Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(const Progress& progress) const {
-  auto positions = sculptor_->positions();
-  auto mesh = read_->model.mesh->moved(std::move(positions));
-  if (!mesh) return mesh.error();
+/// The model with its vertices elsewhere. What is said of its mesh is old.
+Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
+    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) const {
   auto moved = std::make_shared<ExploredModel>(*model_);
-  moved->model.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
-  moved->model.name = read_->model.name + " (sculpted)";
+  std::vector<std::string> what;
+  if (sequence_) what.push_back(sequence_->frames.name(sequence_->frame));
+  if (!sequence_ || mesh != sequence_->mesh) what.emplace_back("sculpted");
+  moved->model.name = read_->model.name + " (" + joined(what) + ")";
+  moved->frames = sequence_ ? static_cast<int>(sequence_->frames.count()) : 0;
   auto base = std::make_shared<PictureData>(*read_->base);
-  move_picture(*base, *moved->model.mesh);
+  move_picture(*base, *mesh);
   base->solid = false;  // a stroke may have gone through to the other side
   moved->base = std::move(base);
-  auto rays = read_->rays->moved(moved->model.mesh);
+  auto rays = read_->rays->moved(mesh);
   if (!rays) {
-    auto built = RayTree::build(moved->model.mesh, progress);
+    auto built = RayTree::build(mesh, progress);
     if (!built) return built.error();
     rays = *std::move(built);
   }
   moved->rays = std::make_shared<const RayTree>(*std::move(rays));
+  moved->model.mesh = std::move(mesh);
   return std::shared_ptr<const ExploredModel>(std::move(moved));
 }
 

@@ -11,15 +11,25 @@
 #include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/progress.h"
+#include "solver/mesh/frames.h"
 
 namespace geotherm::app {
+
+/// Where the vertices of a model are.
+struct Pose {
+  std::string sequence;  ///< Frames::open()'s path; empty: where its file has them
+  int frame = 0;
+  Sculpture sculpture;  ///< on top of that
+
+  bool operator==(const Pose&) const = default;
+};
 
 /// What a session asks for.
 struct ExploreRequest {
   std::string model;
   ModelReading reading;
   std::uint64_t opening = 0;  ///< another number forces the model to be read again
-  Sculpture sculpture;
+  Pose pose;
   std::vector<SourceSpec> sources;
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
@@ -35,7 +45,7 @@ struct ExploreRequest {
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
-    return same_setup(other) && sculpture == other.sculpture && sources == other.sources && fields >= other.fields &&
+    return same_setup(other) && pose == other.pose && sources == other.sources && fields >= other.fields &&
            quality >= other.quality && nearest >= other.nearest &&
            (check == other.check || other.check == Check::kOff) && target == other.target;
   }
@@ -55,7 +65,9 @@ class Explorer {
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
   Result<void> move(const ExploreRequest& request, const Progress& progress);
-  Result<std::shared_ptr<const ExploredModel>> moved_model(const Progress& progress) const;
+  Result<std::shared_ptr<const TriangleMesh>> frame_mesh(const Pose& pose);
+  Result<std::shared_ptr<const ExploredModel>> moved_model(
+      std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) const;
   Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
@@ -68,9 +80,17 @@ class Explorer {
                                 const Progress& progress, const Early& early);
 
   std::shared_ptr<const ExploredModel> read_;   ///< as its file has it
-  std::shared_ptr<const ExploredModel> model_;  ///< as it is sculpted
-  std::optional<Sculptor> sculptor_;            ///< of `read_`, from the first stroke on
-  Sculpture sculpture_;                         ///< that led to `model_`
+  std::shared_ptr<const ExploredModel> model_;  ///< in the pose `pose_`
+  Pose pose_;
+  struct Sequence {
+    std::string path;
+    Frames frames;
+    int frame = -1;                            ///< that was read last; negative: none
+    std::shared_ptr<const TriangleMesh> mesh;  ///< of that
+  };
+  std::optional<Sequence> sequence_;            ///< of `read_`
+  std::shared_ptr<const TriangleMesh> carved_;  ///< what `sculptor_` began with
+  std::optional<Sculptor> sculptor_;            ///< from the first stroke on
   bool inspected_ = true;                       ///< ExploredModel::mesh is of `model_` as it is
   std::string model_text_;
   ModelReading reading_;

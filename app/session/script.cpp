@@ -113,6 +113,9 @@ bool continues(const Command& before, const Command& now) {
     return std::holds_alternative<command::ExtendCurve>(before) ||
            std::holds_alternative<command::AddSources>(before);
   }
+  if (std::holds_alternative<command::ShowFrame>(now)) {
+    return std::holds_alternative<command::ShowFrame>(before);
+  }
   if (std::holds_alternative<command::ExtendStroke>(now)) {
     return std::holds_alternative<command::ExtendStroke>(before) ||
            std::holds_alternative<command::Sculpt>(before);

@@ -50,7 +50,7 @@ ExploreRequest Session::State::wanted() const {
   request.model = state.model;
   request.reading = state.reading;
   request.opening = opening;
-  request.sculpture = state.sculpture;
+  request.pose = {state.timeline.sequence, state.timeline.frame, state.sculpture};
   request.sources = state.sources;
   request.options = state.options;
   request.kept = state.kept;

@@ -32,6 +32,10 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Keep{});
   }
   add_settings(now, state, commands);
+  const Timeline& timeline = state.timeline;
+  if (!timeline.sequence.empty()) commands.emplace_back(command::ShowSequence{timeline.sequence});
+  if (timeline.frame > 0) commands.emplace_back(command::ShowFrame{timeline.frame});
+  if (!timeline.loop) commands.emplace_back(command::Loop{false});
   for (const auto& stroke : state.sculpture.strokes) {
     commands.emplace_back(command::Sculpt{*stroke});
   }
@@ -46,6 +50,7 @@ std::vector<Command> commands_to(const ViewerState& state) {
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});
+  if (timeline.playing) commands.emplace_back(command::Play{true});
   if (state.rotating) commands.emplace_back(command::Rotate{true});
   return commands;
 }
