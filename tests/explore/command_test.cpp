@@ -72,6 +72,12 @@ INSTANTIATE_TEST_SUITE_P(
                  "sculpt smooth 2 0 face:0:0:0:1"},
         TextCase{"ExtendStroke", ExtendStroke{{{3, {1, 0, 0}}, {4, {0, 1, 0}}}},
                  "sculpt extend face:3:1:0:0 face:4:0:1:0"},
+        TextCase{"Sequence", ShowSequence{"walk.pc2"}, "sequence walk.pc2"},
+        TextCase{"SequenceNumbered", ShowSequence{"f_%04d.obj"}, "sequence f_%04d.obj"},
+        TextCase{"NoSequence", ShowSequence{}, "sequence none"},
+        TextCase{"ShowFrame", ShowFrame{12}, "frame 12"},
+        TextCase{"PlayOn", Play{true}, "play on"}, TextCase{"PlayOff", Play{false}, "play off"},
+        TextCase{"LoopOff", Loop{false}, "loop off"}, TextCase{"LoopOn", Loop{true}, "loop on"},
         TextCase{"Orbit", Orbit{10, -5.5}, "camera orbit 10 -5.5"},
         TextCase{"Zoom", Zoom{1.25}, "camera zoom 1.25"},
         TextCase{"ZoomAt", Zoom{0.5, 0.1, -0.2}, "camera zoom 0.5 0.1 -0.2"},
@@ -104,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Command, EveryKindHasATextCase) {
   // The list above must grow with the variant.
-  EXPECT_EQ(std::variant_size_v<Command>, 39U);
+  EXPECT_EQ(std::variant_size_v<Command>, 43U);
 }
 
 class SettingText : public testing::TestWithParam<std::string> {};
