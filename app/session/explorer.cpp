@@ -211,7 +211,7 @@ Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
   move_picture(*base, *mesh);
   base->solid = false;  // a stroke may have gone through to the other side
   moved->base = std::move(base);
-  auto rays = read_->rays->moved(mesh);
+  auto rays = model_->rays->moved(mesh);
   if (!rays) {
     auto built = RayTree::build(mesh, progress);
     if (!built) return built.error();

@@ -22,6 +22,9 @@ constexpr double kPad = 1e-13;
 /// Origins farther out than this (frame units) are moved towards the model along the ray.
 constexpr double kNear = 4;
 
+/// Coordinates of a model that has moved (frame units) up to which it lies nearer than that.
+constexpr double kMaxReach = 2;
+
 /// Components of a direction are taken to be at least this, which moves no ray by as much as kPad.
 constexpr double kMinComponent = 1e-30;
 
@@ -231,24 +234,36 @@ Result<RayTree> RayTree::build(std::shared_ptr<const TriangleMesh> mesh, const P
 }
 
 std::optional<RayTree> RayTree::moved(std::shared_ptr<const TriangleMesh> mesh) const {
-  auto state = std::make_shared<State>();
-  state->mesh = std::move(mesh);
-  state->frame = frame_of(*state->mesh);
-  state->tree = state_->tree;
-  BoxTree& tree = state->tree;
-  const auto faces = state->mesh->faces();
+  const auto faces = mesh->faces();
+  const auto before = state_->mesh->positions(), after = mesh->positions();
   const auto whole = std::ranges::count_if(faces, std::not_fn(repeats_corner));
-  if (whole != static_cast<std::ptrdiff_t>(tree.ids.size())) return std::nullopt;
+  if (whole != static_cast<std::ptrdiff_t>(state_->tree.ids.size())) return std::nullopt;
+  std::vector<char> moves(after.size());
+  for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = before[v] != after[v] ? 1 : 0;
+  auto state = std::make_shared<State>(State{std::move(mesh), state_->frame, state_->tree});
+  BoxTree& tree = state->tree;
+  std::vector<char> grows(tree.nodes.size());
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parents
     BoxNode& node = tree.nodes[i];
-    node.box = {};
     if (node.count == 0) {
-      node.box.add(tree.nodes[node.first].box);
+      grows[i] = grows[node.first] | grows[node.first + 1];
+      if (grows[i] == 0) continue;
+      node.box = tree.nodes[node.first].box;
       node.box.add(tree.nodes[node.first + 1].box);
       continue;
     }
-    for (const Index f : std::span(tree.ids).subspan(node.first, node.count)) {
-      node.box.add(box_of(state->corners(f)));
+    const auto ids = std::span(tree.ids).subspan(node.first, node.count);
+    for (const Index f : ids) {
+      for (const Index v : faces[f]) grows[i] = grows[i] | moves[v];
+    }
+    if (grows[i] == 0) continue;
+    node.box = {};
+    for (const Index f : ids) {
+      const std::array<Vec3, 3> corners = state->corners(f);
+      for (const Vec3& corner : corners) {
+        if (!(corner.cwiseAbs().maxCoeff() <= kMaxReach)) return std::nullopt;
+      }
+      node.box.add(box_of(corners));
     }
   }
   return RayTree(std::move(state));
