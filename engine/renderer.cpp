@@ -27,9 +27,9 @@ struct Renderer::State {
   bool solid = false;
   std::optional<MovingDrawMesh> moving;  ///< of a model that moves
   std::vector<std::uint32_t> origin;     ///< DrawMesh::origin
-  std::vector<float> gathered;        ///< values by drawn vertex
-  std::vector<std::int32_t> regions;  ///< by the model's vertices; empty: none
-  std::optional<ArrowPlaces> places;  ///< made when arrows first come
+  std::vector<float> gathered;           ///< values by drawn vertex
+  std::vector<std::int32_t> regions;     ///< by the model's vertices; empty: none
+  std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
 

@@ -129,7 +129,8 @@ void CanvasInput::begin(Frame& frame, int button) {
   // Places belong to what is shown; while other sources are on their way, they cannot be taken.
   const bool settled = frame.explored().sources == frame.state().sources;
   place_.reset();
-  if (button == 0 && plain && !brush && !sculpt && settled) place_ = place_at(frame, press_.x, press_.y);
+  if (button == 0 && plain && !brush && !sculpt && settled)
+    place_ = place_at(frame, press_.x, press_.y);
   if (button == 0) begin_with_tool(frame);
 }
 

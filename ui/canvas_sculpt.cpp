@@ -16,8 +16,8 @@ namespace {
 
 using app::SculptTool;
 
-constexpr float kSpacing = 0.25F;     ///< between touches, in radii as they are seen
-constexpr float kLeastSpacing = 2;    ///< pixels at scale 1
+constexpr float kSpacing = 0.25F;        ///< between touches, in radii as they are seen
+constexpr float kLeastSpacing = 2;       ///< pixels at scale 1
 constexpr std::size_t kMaxTouches = 24;  ///< of one frame, where the pointer has leapt
 constexpr float kMinRadius = 0.005F, kMaxRadius = 0.3F, kMinStrength = 0.01F;
 constexpr int kDigits = 4;  ///< of a radius: more is not seen
@@ -39,8 +39,8 @@ std::optional<app::FacePoint> face_point_at(const Frame& frame, float x, float y
 /// Pixels that a radius about a point of the surface covers: three lengths at right angles, seen
 /// from anywhere, have squares that sum to twice the circle's.
 float seen_radius(const Frame& frame, const app::FacePoint& point, double radius) {
-  const Vec3 middle = position_at(*frame.model()->model.mesh,
-                                  SurfacePoint::in_face(point.face, point.weights));
+  const Vec3 middle =
+      position_at(*frame.model()->model.mesh, SurfacePoint::in_face(point.face, point.weights));
   const auto seen = frame.canvas.place_of(middle);
   float sum = 0;
   for (int k = 0; k < 3 && seen; ++k) {

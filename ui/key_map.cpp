@@ -82,9 +82,11 @@ struct NamedKey {
   std::string_view name;
   int code;
 };
-constexpr NamedKey kNamed[] = {
-    {"Esc", kKeyEscape}, {"Tab", kKeyTab}, {"Enter", kKeyEnter}, {"Home", kKeyHome},
-    {"Space", kKeySpace}};
+constexpr NamedKey kNamed[] = {{"Esc", kKeyEscape},
+                               {"Tab", kKeyTab},
+                               {"Enter", kKeyEnter},
+                               {"Home", kKeyHome},
+                               {"Space", kKeySpace}};
 
 /// "Ctrl+Shift+Z" -> the modifiers and "Z".
 std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) {

@@ -57,7 +57,7 @@ enum class MouseAction {
   kMoveSource,
   kPaint,
   kSculpt,
-  kSculptBack,    ///< the other way
+  kSculptBack,  ///< the other way
   kSculptSmooth,
   kSetSource,
   kAddSource,

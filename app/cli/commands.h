@@ -244,8 +244,8 @@ struct ViewArguments {
   PictureArguments picture;
   std::string sequence;  ///< Frames::open()'s path; empty: the model alone
   std::string script;    ///< commands to run, in the window or without
-  std::string replay;  ///< commands to run without a window and without writing files
-  std::string output;  ///< the picture at the end, without a window
+  std::string replay;    ///< commands to run without a window and without writing files
+  std::string output;    ///< the picture at the end, without a window
   bool headless = false;
   std::string scale;
   bool validation = false;

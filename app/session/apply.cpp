@@ -157,7 +157,8 @@ class Applier {
   Result<void> operator()(const command::ExtendStroke& c) {
     auto& strokes = s_.sculpture.strokes;
     if (strokes.empty()) {
-      return bad("there is no stroke to extend", {"begin one with sculpt pull RADIUS STRENGTH POINT"});
+      return bad("there is no stroke to extend",
+                 {"begin one with sculpt pull RADIUS STRENGTH POINT"});
     }
     Stroke longer = *strokes.back();
     longer.points.insert(longer.points.end(), c.points.begin(), c.points.end());

@@ -89,8 +89,8 @@ struct ExtendStroke {  // sculpt extend POINT...
   bool operator==(const ExtendStroke&) const = default;
 };
 
-/// A surface that moves: Frames::open()'s path; empty: none, the model as its file has it. Begins at
-/// frame 0.
+/// A surface that moves: Frames::open()'s path; empty: none, the model as its file has it. Begins
+/// at frame 0.
 struct ShowSequence {  // sequence PATH, sequence none
   std::string path;
   bool operator==(const ShowSequence&) const = default;
@@ -226,18 +226,16 @@ struct Quit {  // quit
 
 }  // namespace command
 
-using Command =
-    std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
-                 command::AddSources, command::MoveSource, command::RemoveSource,
-                 command::ExtendCurve, command::ClearSources, command::MoreSources,
-                 command::FewerSources, command::ShuffleSources, command::Sculpt,
-                 command::ExtendStroke, command::ShowSequence, command::ShowFrame, command::Play,
-                 command::Loop, command::Orbit, command::Zoom,
-                 command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
-                 command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
-                 command::Pick, command::Target, command::Compare, command::SavePicture,
-                 command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
-                 command::SaveFigures, command::Undo, command::Redo, command::Quit>;
+using Command = std::variant<
+    command::Open, command::Reset, command::Run, command::Set, command::SetSources,
+    command::AddSources, command::MoveSource, command::RemoveSource, command::ExtendCurve,
+    command::ClearSources, command::MoreSources, command::FewerSources, command::ShuffleSources,
+    command::Sculpt, command::ExtendStroke, command::ShowSequence, command::ShowFrame,
+    command::Play, command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
+    command::Place, command::Frame, command::Rotate, command::Keep, command::Forget, command::Swap,
+    command::Show, command::Flip, command::Pick, command::Target, command::Compare,
+    command::SavePicture, command::SaveDistances, command::SaveMesh, command::SaveSession,
+    command::SaveLog, command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);

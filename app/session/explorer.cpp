@@ -65,8 +65,8 @@ void describe(ExploredModel& model) {
 }  // namespace
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
-/// anew: a curve is a walk over the mesh, a point in space a search over all faces. They are placed on
-/// the model as its file has it, and go with the surface.
+/// anew: a curve is a walk over the mesh, a point in space a search over all faces. They are placed
+/// on the model as its file has it, and go with the surface.
 Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
                                                      Explored& explored) {
   std::vector<Placed> placed;
@@ -113,6 +113,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   sculptor_.reset();
   inspected_ = true;
   model_.reset();
+  rays_.reset();
   read_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
@@ -130,6 +131,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   auto whole = std::make_shared<ExploredModel>(*model);
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
   read_ = model_ = std::move(whole);
+  rays_ = read_->rays;
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
   solver_->set_summary(model_->mesh);
   model_text_ = request.model;
@@ -189,7 +191,9 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
     model_ = read_;
     solver_->set_summary(model_->mesh);
   } else {
-    auto moved = moved_model(*std::move(mesh), progress);
+    // Nothing is picked while frames are played.
+    const bool plays = !request.quality && pose.frame != pose_.frame;
+    auto moved = moved_model(*std::move(mesh), !plays, progress);
     if (!moved) return moved.error();
     model_ = *std::move(moved);
   }
@@ -198,9 +202,20 @@ Result<void> Explorer::move(const ExploreRequest& request, const Progress& progr
   return {};
 }
 
+Result<void> Explorer::make_rays(ExploredModel& model, const Progress& progress) {
+  auto rays = rays_->moved(model.model.mesh);
+  if (!rays) {
+    auto built = RayTree::build(model.model.mesh, progress);
+    if (!built) return built.error();
+    rays = *std::move(built);
+  }
+  model.rays = rays_ = std::make_shared<const RayTree>(*std::move(rays));
+  return {};
+}
+
 /// The model with its vertices elsewhere. What is said of its mesh is old.
 Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
-    std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) const {
+    std::shared_ptr<const TriangleMesh> mesh, bool with_rays, const Progress& progress) {
   auto moved = std::make_shared<ExploredModel>(*model_);
   std::vector<std::string> what;
   if (sequence_) what.push_back(sequence_->frames.name(sequence_->frame));
@@ -211,14 +226,11 @@ Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
   move_picture(*base, *mesh);
   base->solid = false;  // a stroke may have gone through to the other side
   moved->base = std::move(base);
-  auto rays = model_->rays->moved(mesh);
-  if (!rays) {
-    auto built = RayTree::build(mesh, progress);
-    if (!built) return built.error();
-    rays = *std::move(built);
-  }
-  moved->rays = std::make_shared<const RayTree>(*std::move(rays));
   moved->model.mesh = std::move(mesh);
+  moved->rays = nullptr;
+  if (with_rays) {
+    if (auto made = make_rays(*moved, progress); !made) return made.error();
+  }
   return std::shared_ptr<const ExploredModel>(std::move(moved));
 }
 
@@ -227,6 +239,9 @@ Result<void> Explorer::inspect(const Progress& progress) {
   if (inspected_) return {};
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   auto model = std::make_shared<ExploredModel>(*model_);
+  if (!model->rays) {
+    if (auto made = make_rays(*model, progress); !made) return made;
+  }
   describe(*model);
   solver_->set_summary(model->mesh);
   model_ = std::move(model);

@@ -45,8 +45,8 @@ struct ExploreRequest {
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
-    return same_setup(other) && pose == other.pose && sources == other.sources && fields >= other.fields &&
-           quality >= other.quality && nearest >= other.nearest &&
+    return same_setup(other) && pose == other.pose && sources == other.sources &&
+           fields >= other.fields && quality >= other.quality && nearest >= other.nearest &&
            (check == other.check || other.check == Check::kOff) && target == other.target;
   }
 };
@@ -66,8 +66,10 @@ class Explorer {
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
   Result<void> move(const ExploreRequest& request, const Progress& progress);
   Result<std::shared_ptr<const TriangleMesh>> frame_mesh(const Pose& pose);
-  Result<std::shared_ptr<const ExploredModel>> moved_model(
-      std::shared_ptr<const TriangleMesh> mesh, const Progress& progress) const;
+  Result<std::shared_ptr<const ExploredModel>> moved_model(std::shared_ptr<const TriangleMesh> mesh,
+                                                           bool with_rays,
+                                                           const Progress& progress);
+  Result<void> make_rays(ExploredModel& model, const Progress& progress);
   Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
@@ -81,6 +83,7 @@ class Explorer {
 
   std::shared_ptr<const ExploredModel> read_;   ///< as its file has it
   std::shared_ptr<const ExploredModel> model_;  ///< in the pose `pose_`
+  std::shared_ptr<const RayTree> rays_;         ///< the last that was made
   Pose pose_;
   struct Sequence {
     std::string path;

@@ -136,8 +136,7 @@ bool merge(Command& last, const Command& now) {
   }
   if (const auto* more = std::get_if<command::ExtendStroke>(&now)) {
     auto* const begun = std::get_if<command::Sculpt>(&last);
-    append(begun != nullptr ? begun->stroke.points
-                            : std::get<command::ExtendStroke>(last).points,
+    append(begun != nullptr ? begun->stroke.points : std::get<command::ExtendStroke>(last).points,
            more->points);
     return true;
   }
@@ -223,12 +222,11 @@ Result<void> check_name(const std::string& path, const Command& command) {
 const std::string* saved_path(const Command& command) {
   return std::visit(
       []<class Kind>(const Kind& c) -> const std::string* {
-        constexpr bool kSaves = std::is_same_v<Kind, command::SavePicture> ||
-                                std::is_same_v<Kind, command::SaveDistances> ||
-                                std::is_same_v<Kind, command::SaveMesh> ||
-                                std::is_same_v<Kind, command::SaveFigures> ||
-                                std::is_same_v<Kind, command::SaveSession> ||
-                                std::is_same_v<Kind, command::SaveLog>;
+        constexpr bool kSaves =
+            std::is_same_v<Kind, command::SavePicture> ||
+            std::is_same_v<Kind, command::SaveDistances> ||
+            std::is_same_v<Kind, command::SaveMesh> || std::is_same_v<Kind, command::SaveFigures> ||
+            std::is_same_v<Kind, command::SaveSession> || std::is_same_v<Kind, command::SaveLog>;
         if constexpr (kSaves) return &c.path;
         return nullptr;
       },

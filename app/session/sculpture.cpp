@@ -25,9 +25,8 @@ bool goes_on(const Stroke& part, const Stroke& whole) {
 }  // namespace
 
 bool operator==(const Sculpture& a, const Sculpture& b) {
-  return std::ranges::equal(a.strokes, b.strokes, [](const auto& x, const auto& y) {
-    return x == y || *x == *y;
-  });
+  return std::ranges::equal(a.strokes, b.strokes,
+                            [](const auto& x, const auto& y) { return x == y || *x == *y; });
 }
 
 Sculptor::Sculptor(std::shared_ptr<const TriangleMesh> mesh)
@@ -68,10 +67,10 @@ void Sculptor::take_back(const Done& stroke) {
 Result<void> Sculptor::touch(Done& stroke, const FacePoint& point) {
   if (point.face < 0 || point.face >= mesh_->face_count() ||
       repeats_corner(mesh_->faces()[point.face])) {
-    return Error{ErrorCode::kBadInput,
-                 "there is no face " + std::to_string(point.face) + " to sculpt",
-                 {"faces with three corners are among 0 to " +
-                  std::to_string(mesh_->face_count() - 1)}};
+    return Error{
+        ErrorCode::kBadInput,
+        "there is no face " + std::to_string(point.face) + " to sculpt",
+        {"faces with three corners are among 0 to " + std::to_string(mesh_->face_count() - 1)}};
   }
   const auto& [tool, radius, strength, points] = stroke.stroke;
   const std::vector<Moved> all = patch(point, radius);

@@ -59,7 +59,7 @@ class Sculptor {
 
  private:
   struct Done {
-    Stroke stroke;                                ///< as far as it has been done
+    Stroke stroke;                               ///< as far as it has been done
     std::vector<std::pair<Index, Vec3>> before;  ///< where vertices were that it has moved
     std::uint32_t number = 0;
   };

@@ -25,8 +25,8 @@ bool is_any_of(const Command& command) {
 
 /// Those that need answers that belong to the state.
 bool needs_answers(const Command& command) {
-  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh, command::SaveFigures,
-                   command::Compare, command::Quit>(command);
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh,
+                   command::SaveFigures, command::Compare, command::Quit>(command);
 }
 
 bool same_but_camera(const ViewerState& a, ViewerState b) {

@@ -23,7 +23,8 @@ std::string summary(const Explored& explored, const Explored& before) {
   const Answer& a = *explored.a;
   std::string text = "solved with " + solver_at_work(*a.method, a.result) + ": query " +
                      milliseconds(a.result.timing.query) + " ms";
-  if (!before.a || before.a->method != a.method) text += ", set-up " + milliseconds(a.setup_ms) + " ms";
+  if (!before.a || before.a->method != a.method)
+    text += ", set-up " + milliseconds(a.setup_ms) + " ms";
   text += ", largest distance " + significant(a.distance.max);
   if (explored.difference) {
     text += "; A - B: at most " + significant(explored.difference->most) + ", mean " +

@@ -34,8 +34,8 @@ struct Timeline {
 /// All that decides what the program shows; a plain value. What commands change and session files
 /// hold. Answers, panels and windows are not part of it.
 struct ViewerState {
-  std::string model;                  ///< a path or a bundled name; empty: none is open
-  ModelReading reading;               ///< how the model is read
+  std::string model;     ///< a path or a bundled name; empty: none is open
+  ModelReading reading;  ///< how the model is read
   Timeline timeline;
   Sculpture sculpture;                ///< what was done to the surface since it was opened
   std::vector<SourceSpec> sources;    ///< one set

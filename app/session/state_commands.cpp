@@ -67,16 +67,16 @@ UndoRule undo_rule(const Command& command) {
   const auto is = [&command]<class... Kinds>(std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(command) || ...);
   };
-  const bool merged =
-      is(static_cast<
-          std::variant<command::MoveSource, command::ExtendCurve, command::ExtendStroke>*>(nullptr));
+  const bool merged = is(
+      static_cast<std::variant<command::MoveSource, command::ExtendCurve, command::ExtendStroke>*>(
+          nullptr));
   const bool undoable =
       merged ||
-      is(static_cast<std::variant<
-             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
-             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Sculpt, command::Keep,
-             command::Forget, command::Swap, command::Show, command::Flip, command::Target>*>(
-          nullptr));
+      is(static_cast<
+          std::variant<command::SetSources, command::AddSources, command::RemoveSource,
+                       command::ClearSources, command::MoreSources, command::FewerSources,
+                       command::ShuffleSources, command::Sculpt, command::Keep, command::Forget,
+                       command::Swap, command::Show, command::Flip, command::Target>*>(nullptr));
   return {undoable, merged};
 }
 

@@ -183,8 +183,8 @@ struct MovingDrawMesh::State {
       const Group& group = groups[first_group[v] + g];
       for (std::uint32_t label = 0; label < 3; ++label) {
         if ((group.labels >> label & 1U) == 0) continue;
-        mesh.vertices[group.copies[label]] = {
-            positions[v], packed(now.normals[g], static_cast<int>(label))};
+        mesh.vertices[group.copies[label]] = {positions[v],
+                                              packed(now.normals[g], static_cast<int>(label))};
       }
     }
     return true;

@@ -42,15 +42,14 @@ TEST_F(SessionSculpt, ALogHasALineForEachStrokeAndReplaysToTheSameBits) {
   run({"open " + small_model(), "source set 5"});
   const std::vector<Vec3> flat = positions();
   sculpt();
-  run({"undo", "redo", "save log " + folder() + "l.geotherm", "save session " + folder() +
-                                                                  "s.geotherm"});
+  run({"undo", "redo", "save log " + folder() + "l.geotherm",
+       "save session " + folder() + "s.geotherm"});
   const std::vector<Vec3> bent = positions();
   EXPECT_NE(bent, flat);
   const auto lines = read_script(folder() + "l.geotherm");
   ASSERT_TRUE(lines);
-  const auto strokes = std::ranges::count_if(*lines, [](const ScriptLine& line) {
-    return to_text(line.command).starts_with("sculpt ");
-  });
+  const auto strokes = std::ranges::count_if(
+      *lines, [](const ScriptLine& line) { return to_text(line.command).starts_with("sculpt "); });
   EXPECT_EQ(strokes, 2);
   for (const char* file : {"l.geotherm", "s.geotherm"}) {
     Session replay;

@@ -33,9 +33,7 @@ class SessionTimeline : public SessionFixture {
     const auto all = session.explored().model->model.mesh->positions();
     return {all.begin(), all.end()};
   }
-  const std::vector<double>& distances() const {
-    return session.explored().a->result.distances;
-  }
+  const std::vector<double>& distances() const { return session.explored().a->result.distances; }
   void expect_near(const std::vector<double>& a, const std::vector<double>& b) const {
     ASSERT_EQ(a.size(), b.size());
     const double largest = session.explored().a->distance.max;
@@ -92,8 +90,7 @@ TEST_F(SessionTimeline, ALogKeepsTheLastOfTheFramesThatWerePlayedAndReplays) {
     Session replay;
     ASSERT_TRUE(replay.submit(command::Run{folder() + file})) << file;
     EXPECT_EQ(replay.state(), session.state()) << file;
-    EXPECT_TRUE(std::ranges::equal(replay.explored().model->model.mesh->positions(), bent))
-        << file;
+    EXPECT_TRUE(std::ranges::equal(replay.explored().model->model.mesh->positions(), bent)) << file;
   }
 }
 
@@ -122,8 +119,7 @@ TEST_F(SessionTimeline, SaysWhatIsWrongWithFrames) {
   EXPECT_EQ(refused("frame 1"),
             "there are no frames; name those of a surface that moves: sequence FRAMES");
   EXPECT_NE(refused("play on").find("there are no frames"), std::string::npos);
-  EXPECT_NE(refused("sequence " + folder() + "missing.npy").find("missing.npy"),
-            std::string::npos);
+  EXPECT_NE(refused("sequence " + folder() + "missing.npy").find("missing.npy"), std::string::npos);
   run({"sequence " + frames()});
   EXPECT_EQ(refused("frame 4"), "there is no frame 4; frames are 0 to 3");
   EXPECT_NE(refused("frame -1").find("column 7"), std::string::npos);

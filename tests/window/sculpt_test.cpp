@@ -12,8 +12,7 @@ class Sculpt : public PlayedWindow {
  protected:
   /// Runs a log without a window and saves what it leads to.
   std::string replayed_mesh(const std::string& log) {
-    std::ofstream(path("again.geotherm"))
-        << bytes_of(path(log)) << "save mesh again.ply\n";
+    std::ofstream(path("again.geotherm")) << bytes_of(path(log)) << "save mesh again.ply\n";
     const ProgramRun run =
         run_program(path("."), {"view", "--headless", "--script", "again.geotherm"});
     EXPECT_EQ(run.code, 0) << run.err;
@@ -35,10 +34,9 @@ TEST_F(Sculpt, AStrokeBendsTheSurfaceAndReplaysToTheSameBits) {
   const std::vector<std::string> commands = log();  // log1
   EXPECT_NE(line_with(commands, "sculpt pull "), "");
   EXPECT_NE(line_with(commands, "sculpt smooth "), "");
-  EXPECT_EQ(std::ranges::count_if(commands, [](const auto& line) {
-              return line.starts_with("sculpt ");
-            }),
-            2);
+  EXPECT_EQ(
+      std::ranges::count_if(commands, [](const auto& line) { return line.starts_with("sculpt "); }),
+      2);
   const std::string bent = bytes_of(path("bent.ply"));
   EXPECT_NE(bent, bytes_of(path("before.ply")));
   EXPECT_EQ(replayed_mesh("log1.geotherm"), bent);
