@@ -18,6 +18,7 @@ class Sculpting : public UiTest {
   void SetUp() override {
     open_square();
     type("s");
+    frame();
     sent();
   }
 
@@ -149,7 +150,7 @@ TEST_F(TimelineBar, StepsRoundTheEnds) {
 
 TEST_F(TimelineBar, PlaysFrameAfterFrameInItsTimeAndStopsWhereItDoesNotLoop) {
   click_item("Timeline/loop");
-  type(" ");
+  key(kKeySpace);
   EXPECT_TRUE(session_.state().timeline.playing);
   EXPECT_TRUE(last_.dragging) << "no figures of quality while it plays";
   int most = 0, drawn = 0;
