@@ -203,6 +203,7 @@ bool WindowLoop::gives_way(const ui::FrameOutput& out) const {
 
 Result<void> WindowLoop::draw_frame(bool fast) {
   if (auto updated = screen_->update(*session_, area()); !updated) return updated;
+  clock_.begin_drawing();
   drawn_version_ = session_->explored().version;
   drawn_at_ = Clock::now();
   const Stopwatch watch;

@@ -30,8 +30,12 @@ class FrameClock {
   bool frame_is_due() const { return frames_left_ > 0; }
 
   void begin_frame() {
-    const Clock::time_point now = Clock::now();
     if (frames_left_ > 0) --frames_left_;
+  }
+
+  /// Those that are laid out and give way to work do not count.
+  void begin_drawing() {
+    const Clock::time_point now = Clock::now();
     // A pause is no slow frame.
     if (!begins_.empty() && now - begins_.back() > std::chrono::seconds(1)) begins_.clear();
     begins_.push_back(now);
