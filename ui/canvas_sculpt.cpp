@@ -31,7 +31,7 @@ double radius_of(const Frame& frame) {
 }
 
 /// With weights in thousandths: logs hold many points, and nobody sees the rest.
-app::FacePoint shortened(const SurfacePoint& point) {
+app::FacePoint short_point(const SurfacePoint& point) {
   constexpr long kParts = 1000;
   const long a = std::lround(point.weights[0] * kParts);
   const long b = std::min(std::lround(point.weights[1] * kParts), kParts - a);
@@ -42,7 +42,7 @@ app::FacePoint shortened(const SurfacePoint& point) {
 std::optional<app::FacePoint> face_point_at(const Frame& frame, float x, float y) {
   const auto point = frame.canvas.surface_at(x, y);
   const bool fits = point && !point->is_vertex() && point->face < frame.model()->mesh.faces;
-  return fits ? std::optional(shortened(*point)) : std::nullopt;
+  return fits ? std::optional(short_point(*point)) : std::nullopt;
 }
 
 /// Pixels that a radius about a point of the surface covers: three lengths at right angles, seen
