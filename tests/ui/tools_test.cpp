@@ -18,7 +18,7 @@ class Sculpting : public UiTest {
   void SetUp() override {
     open_square();
     type("s");
-    frame();
+    frames(3);  // until the bar has found its width
     sent();
   }
 

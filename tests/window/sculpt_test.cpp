@@ -38,12 +38,12 @@ TEST_F(Sculpt, AStrokeBendsTheSurfaceAndReplaysToTheSameBits) {
       std::ranges::count_if(commands, [](const auto& line) { return line.starts_with("sculpt "); }),
       2);
   const std::string bent = bytes_of(path("bent.ply"));
-  EXPECT_NE(bent, bytes_of(path("before.ply")));
-  EXPECT_EQ(replayed_mesh("log1.geotherm"), bent);
+  EXPECT_TRUE(bent != bytes_of(path("before.ply")));
+  EXPECT_TRUE(replayed_mesh("log1.geotherm") == bent);
   press("ctrl+z");
   press("ctrl+z");
   run({"save mesh undone.ply"});
-  EXPECT_EQ(bytes_of(path("undone.ply")), bytes_of(path("before.ply")));
+  EXPECT_TRUE(bytes_of(path("undone.ply")) == bytes_of(path("before.ply")));
   move_to(kPanel);
   EXPECT_LE(share_that_differs(canvas_on_screen(), before), kSamePicture);
   quit();
@@ -61,7 +61,7 @@ TEST_F(Sculpt, FramesPlayUntilTheLastWithTheirDistances) {
   EXPECT_NE(line_with(log(), "frame 4"), "");
   EXPECT_GT(share_that_differs(canvas_on_screen(), first), kSamePicture);
   run({"save distances last.csv", "frame 0", "save distances first.csv"});
-  EXPECT_NE(bytes_of(path("last.csv")), bytes_of(path("first.csv")));
+  EXPECT_TRUE(bytes_of(path("last.csv")) != bytes_of(path("first.csv")));
   quit();
 }
 
