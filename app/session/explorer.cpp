@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <new>
 
 #include "app/session/progress.h"
@@ -218,7 +219,10 @@ Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
     std::shared_ptr<const TriangleMesh> mesh, bool with_rays, const Progress& progress) {
   auto moved = std::make_shared<ExploredModel>(*model_);
   std::vector<std::string> what;
-  if (sequence_) what.push_back(sequence_->frames.name(sequence_->frame));
+  if (sequence_) {
+    const std::filesystem::path name(sequence_->frames.name(sequence_->frame));
+    what.push_back(name.filename().string());
+  }
   if (!sequence_ || mesh != sequence_->mesh) what.emplace_back("sculpted");
   moved->model.name = read_->model.name + " (" + joined(what) + ")";
   moved->frames = sequence_ ? static_cast<int>(sequence_->frames.count()) : 0;
