@@ -61,15 +61,22 @@ class Hand {
   /// As while something is dragged, or as when the picture rests.
   Result<void> frame(bool fast = true) { return screen_->draw({}, fast); }
 
+  /// Until what is shown is what the command asks for.
+  Result<void> follow(const Command& command) {
+    const std::uint64_t before = session_.explored().version;
+    if (auto done = session_.submit(command); !done) return done;
+    while (session_.explored().version == before || session_.stale()) {
+      bell_.wait();
+      session_.update();
+    }
+    return {};
+  }
+
   /// One drag of a source, from the mouse to the picture.
   Result<double> drag(Index vertex) {
     const Stopwatch watch;
-    const std::uint64_t before = session_.explored().version;
-    const command::MoveSource move{0, VertexList{{vertex}}};
-    if (auto done = session_.submit(move); !done) return done.error();
-    while (session_.explored().version == before) {
-      bell_.wait();
-      session_.update();
+    if (auto done = follow(command::MoveSource{0, VertexList{{vertex}}}); !done) {
+      return done.error();
     }
     query_.push_back(session_.explored().a->result.timing.query);
     Stopwatch part;
@@ -93,6 +100,32 @@ class Hand {
     row.query_ms = median(query_);
     row.upload_ms = median(upload_);
     row.frame_ms = median(frame_);
+    session_.set_dragging(false);
+    return session_.finish();
+  }
+
+  /// Touches side by side, each from the mouse to the picture of its distances.
+  Result<void> measure_stroke(ExploreRow& row) {
+    session_.set_dragging(true);
+    const MeshReport mesh = session_.explored().model->mesh;
+    const double radius = 0.06 * (mesh.box_max - mesh.box_min).norm();
+    const auto point = [&](int i) {
+      return FacePoint{(1000 + 7 * i) % mesh.faces, {0.25, 0.25, 0.5}};
+    };
+    if (auto done = session_.submit(command::Sculpt{{SculptTool::kPull, radius, 0.05, {point(0)}}});
+        !done)
+      return done;
+    std::vector<double> all, setups;
+    for (int i = 1; i <= kDrags; ++i) {
+      const Stopwatch watch;
+      if (auto done = follow(command::ExtendStroke{{point(i)}}); !done) return done;
+      if (auto done = screen_->update(session_, kArea); !done) return done;
+      if (auto done = frame(); !done) return done;
+      if (i > 3) all.push_back(watch.milliseconds());
+      setups.push_back(session_.explored().a->setup_ms);
+    }
+    row.stroke_ms = median(all);
+    row.stroke_setup_ms = median(setups);
     session_.set_dragging(false);
     return session_.finish();
   }
@@ -152,7 +185,8 @@ Result<ExploreRow> measure_mesh(const char* name, Index faces) {
     Hand hand(*std::move(screen));
     if (auto done = hand.open(path); !done) return done;
     if (auto done = hand.measure_switch(row); !done) return done;
-    return hand.measure_drag(row);
+    if (auto done = hand.measure_drag(row); !done) return done;
+    return hand.measure_stroke(row);
   }();
   std::error_code unknown;
   std::filesystem::remove(path, unknown);

@@ -138,6 +138,8 @@ std::string to_json(const BenchRun& run) {
                               {"upload_ms", value(row.upload_ms)},
                               {"frame_ms", value(row.frame_ms)},
                               {"drag_ratio", value(row.drag_ratio())},
+                              {"stroke_ms", value(row.stroke_ms)},
+                              {"stroke_setup_ms", value(row.stroke_setup_ms)},
                               {"switch_ms", value(row.switch_ms)},
                               {"longest_frame_ms", value(row.longest_frame_ms)},
                               {"frame_ratio", value(row.frame_ratio())}});

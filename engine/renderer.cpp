@@ -25,12 +25,29 @@ struct Renderer::State {
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
   bool solid = false;
-  std::vector<std::uint32_t> origin;  ///< DrawMesh::origin
-  std::vector<float> gathered;        ///< values by drawn vertex
-  std::vector<std::int32_t> regions;  ///< by the model's vertices; empty: none
-  std::optional<ArrowPlaces> places;  ///< made when arrows first come
+  std::optional<MovingDrawMesh> moving;  ///< of a model that moves
+  std::vector<std::uint32_t> origin;     ///< DrawMesh::origin
+  std::vector<float> gathered;           ///< values by drawn vertex
+  std::vector<std::int32_t> regions;     ///< by the model's vertices; empty: none
+  std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
+
+  /// Draws this mesh, of these positions; what was set on another is gone. Throws, and leaves then
+  /// what was there.
+  void draw(const DrawMesh& mesh, std::vector<glm::vec3> of) {
+    std::vector<float> values(mesh.vertices.size(), kNoValue);
+    std::vector<std::uint32_t> origins = mesh.origin;
+    recorder.set_surface(mesh, values);  // the last that can fail
+    positions = std::move(of);
+    origin = std::move(origins);
+    gathered = std::move(values);
+    places.reset();
+    primary.clear();
+    secondary.clear();
+    regions.clear();
+    lines.set({});
+  }
 
   /// Values and regions by drawn vertex, as they are drawn together.
   void upload_regions(std::span<const std::int32_t> from) {
@@ -64,22 +81,29 @@ Result<Renderer> Renderer::build(const Device& device, int samples) {
 
 Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
   return guarded("loading the model", [&]() -> Result<void> {
-    DrawMesh mesh = build_draw_mesh(geometry);
-    std::vector<glm::vec3> positions(geometry.positions.begin(), geometry.positions.end());
     std::vector<std::array<std::uint32_t, 3>> faces(geometry.faces.begin(), geometry.faces.end());
-    std::vector<float> gathered(mesh.vertices.size(), kNoValue);
-    state_->recorder.set_surface(mesh, gathered);  // the last that can fail
     State& s = *state_;
-    s.positions = std::move(positions);
+    s.draw(build_draw_mesh(geometry), {geometry.positions.begin(), geometry.positions.end()});
     s.faces = std::move(faces);
     s.solid = geometry.solid;
-    s.origin = std::move(mesh.origin);
-    s.gathered = std::move(gathered);
+    s.moving.reset();
+    return {};
+  });
+}
+
+Result<void> Renderer::move_surface(std::span<const glm::vec3> positions) {
+  assert(positions.size() == state_->positions.size());
+  return guarded("moving the model", [&]() -> Result<void> {
+    State& s = *state_;
+    const bool known = s.moving.has_value();
+    if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid});
+    if (!known || !s.moving->move(positions)) {
+      s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
+      return {};
+    }
+    s.recorder.set_vertices(s.moving->mesh().vertices);
+    s.positions.assign(positions.begin(), positions.end());
     s.places.reset();
-    s.primary.clear();
-    s.secondary.clear();
-    s.regions.clear();
-    s.lines.set({});
     return {};
   });
 }

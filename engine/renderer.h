@@ -55,6 +55,10 @@ class Renderer {
   /// Replaces the model; all that was set on it is gone. Cost: normals and creases of all
   /// faces, then the upload.
   Result<void> set_surface(const SurfaceGeometry& geometry);
+  /// The same model with its vertices elsewhere, as many as set_surface() had; all else that was
+  /// set has to be set again. Cost: the first time that of set_surface(), then what has moved and a
+  /// copy of V vertices.
+  Result<void> move_surface(std::span<const glm::vec3> positions);
   /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
   Result<void> set_values(std::span<const float> values);
   /// One place in the colours a vertex, -1 where there is none (Paint::kRegions); empty: no

@@ -48,6 +48,8 @@ std::optional<FilePurpose> purpose_of(Action action) {
       return FilePurpose::kOpenModel;
     case Action::kOpenSession:
       return FilePurpose::kOpenSession;
+    case Action::kOpenSequence:
+      return FilePurpose::kOpenSequence;
     case Action::kSaveSession:
       return FilePurpose::kSaveSession;
     case Action::kSavePicture:
@@ -58,9 +60,17 @@ std::optional<FilePurpose> purpose_of(Action action) {
       return FilePurpose::kSaveFigures;
     case Action::kSaveLog:
       return FilePurpose::kSaveLog;
+    case Action::kSaveMesh:
+      return FilePurpose::kSaveMesh;
     default:
       return std::nullopt;
   }
+}
+
+/// The frame so many after the one that is shown, round the end. Precondition: there are frames.
+app::Command frame_beside(const Frame& frame, int step) {
+  const int frames = frame.model()->frames;
+  return app::command::ShowFrame{(frame.state().timeline.frame + step + frames) % frames};
 }
 
 /// What an action sends, where it sends something.
@@ -77,6 +87,14 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
       return app::command::Redo{};
     case Action::kRotate:
       return app::command::Rotate{!frame.state().rotating};
+    case Action::kPlay:
+      return app::command::Play{!frame.state().timeline.playing};
+    case Action::kNextFrame:
+      return frame_beside(frame, 1);
+    case Action::kPreviousFrame:
+      return frame_beside(frame, -1);
+    case Action::kLoop:
+      return app::command::Loop{!frame.state().timeline.loop};
     case Action::kFrame:
       return app::command::Frame{};
     case Action::kMoreSources:
@@ -108,8 +126,9 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
 
 /// One thing at a time: first what the mouse is set to, then what is marked, then the work.
 void stop(Frame& frame) {
-  if (frame.ui.input.brush) {
-    frame.ui.input.brush = false;
+  CanvasInput& input = frame.ui.input;
+  if (input.brush || input.sculpt) {
+    input.brush = input.sculpt = false;
   } else if (frame.session.work().busy) {
     frame.out.cancel = true;
   } else if (frame.state().target) {
@@ -124,6 +143,11 @@ void turn_switch(Frame& frame, Action action) {
   switch (action) {
     case Action::kBrush:
       frame.ui.input.brush = !frame.ui.input.brush;
+      frame.ui.input.sculpt = false;
+      return;
+    case Action::kSculpt:
+      frame.ui.input.sculpt = !frame.ui.input.sculpt;
+      frame.ui.input.brush = false;
       return;
     case Action::kLeftPanel:
       layout.left = !layout.left;
@@ -171,6 +195,15 @@ bool is_possible(const Frame& frame, Action action) {
     case Action::kSavePicture:
     case Action::kCompare:
       return frame.model() != nullptr;
+    case Action::kPlay:
+    case Action::kNextFrame:
+    case Action::kPreviousFrame:
+    case Action::kLoop:
+      return frame.model() && frame.model()->frames > 0;
+    case Action::kSculpt:
+    case Action::kSaveMesh:
+    case Action::kOpenSequence:
+      return frame.model() && !frame.model()->model.space;
     case Action::kFewerSources:
     case Action::kShuffleSources:
       return frame.model() && !frame.state().sources.empty();
@@ -198,6 +231,12 @@ bool is_on(const Frame& frame, Action action) {
       return frame.state().rotating;
     case Action::kBrush:
       return frame.ui.input.brush;
+    case Action::kSculpt:
+      return frame.ui.input.sculpt;
+    case Action::kPlay:
+      return frame.state().timeline.playing;
+    case Action::kLoop:
+      return frame.state().timeline.loop;
     case Action::kLeftPanel:
       return frame.ui.layout.left;
     case Action::kRightPanel:

@@ -7,10 +7,12 @@ namespace geotherm::ui {
 enum class Action {
   kOpenModel,
   kOpenSession,
+  kOpenSequence,
   kSaveSession,
   kSavePicture,
   kSaveDistances,
   kSaveFigures,
+  kSaveMesh,
   kSaveLog,
   kQuit,
   kUndo,
@@ -36,6 +38,7 @@ enum class Action {
   kClearSources,
   kBoundarySource,
   kBrush,
+  kSculpt,
   kKeep,
   kFlip,
   kSwap,
@@ -46,9 +49,13 @@ enum class Action {
   kRightPanel,
   kLogPanel,
   kTheme,
+  kPlay,
+  kNextFrame,
+  kPreviousFrame,
+  kLoop,
   kKeys,
   kAbout,
-  kStop,  ///< the brush, the picked point or the work, in this order
+  kStop,  ///< brush or sculpting, the picked point or the work, in this order
 };
 
 struct Frame;

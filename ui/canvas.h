@@ -32,6 +32,34 @@ void draw_canvas_overlay(Frame& frame);
 /// Makes notices of the failures that the log has gained.
 void take_notices(Frame& frame);
 
+/// What the sculpting brush does on a stroke of the mouse; nothing where that is another one.
+std::optional<app::SculptTool> sculpt_tool(MouseAction action, app::SculptTool chosen);
+
+/// A stroke of the sculpting brush: touches at even steps along the way of the mouse.
+class SculptStroke {
+ public:
+  /// False: there is no surface at the pixel.
+  bool begin(Frame& frame, app::SculptTool tool, float x, float y);
+  void go_on(Frame& frame, float x, float y);
+
+ private:
+  float x_ = 0, y_ = 0;  ///< of the last touch
+  float step_ = 1;       ///< pixels
+};
+
+/// Pixels that a touch at this point would move; 0: none.
+float sculpt_ring(const Frame& frame, const std::optional<SurfacePoint>& hovered);
+
+/// The tools of the sculpting brush, over the picture while it is on.
+void draw_sculpt_bar(Frame& frame);
+
+/// Play, step, loop and scrub, over the picture while there is a sequence.
+void draw_timeline(Frame& frame);
+
+/// Sends the next frame when the one that is shown has its distances and its time is over. True:
+/// it is not over yet.
+bool play(Frame& frame);
+
 /// The mouse on the picture: one stroke from press to release at a time.
 class CanvasInput {
  public:
@@ -44,7 +72,8 @@ class CanvasInput {
   const std::optional<SurfacePoint>& hovered() const { return hovered_; }
   const std::optional<InsidePoint>& hovered_inside() const { return hovered_inside_; }
 
-  bool brush = false;  ///< left drags paint
+  bool brush = false;   ///< left drags paint
+  bool sculpt = false;  ///< left drags sculpt; not together with `brush`
 
  private:
   struct Mouse {
@@ -57,6 +86,7 @@ class CanvasInput {
   void move_source(Frame& frame, Mouse to);
   void paint(Frame& frame, Mouse to);
   void click(Frame& frame);
+  void begin_with_tool(Frame& frame);
   void give_back_sources(Frame& frame);
   void zoom_with_wheel(Frame& frame);
   void draw_marks(Frame& frame) const;
@@ -69,6 +99,7 @@ class CanvasInput {
   std::optional<std::size_t> place_;   ///< of Explored::places, under the press
   int entry_ = -1;                     ///< the source that is moved
   std::optional<app::SourceSpec> moved_to_;
+  SculptStroke stroke_;
   Index painted_ = kNoIndex;  ///< the curve's last vertex
   std::optional<SurfacePoint> hovered_;
   std::optional<InsidePoint> hovered_inside_;

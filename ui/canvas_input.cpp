@@ -129,12 +129,23 @@ void CanvasInput::begin(Frame& frame, int button) {
   // Places belong to what is shown; while other sources are on their way, they cannot be taken.
   const bool settled = frame.explored().sources == frame.state().sources;
   place_.reset();
-  if (button == 0 && plain && !brush && settled) place_ = place_at(frame, press_.x, press_.y);
-  if (button != 0 || !brush) return;
-  action_ = mouse_action(modifiers_, "Left drag with the brush");
-  if (!action_) return;
-  paint(frame, press_);  // at once: a touch of the brush is a source, too
-  if (painted_ == kNoIndex) action_.reset();
+  if (button == 0 && plain && !brush && !sculpt && settled)
+    place_ = place_at(frame, press_.x, press_.y);
+  if (button == 0) begin_with_tool(frame);
+}
+
+/// At once: a touch of the brush is a source, too.
+void CanvasInput::begin_with_tool(Frame& frame) {
+  if (brush) {
+    action_ = mouse_action(modifiers_, "Left drag with the brush");
+    if (!action_) return;
+    paint(frame, press_);
+    if (painted_ == kNoIndex) action_.reset();
+  } else if (sculpt) {
+    action_ = mouse_action(modifiers_, "Left drag while sculpting");
+    const auto tool = action_ ? sculpt_tool(*action_, frame.ui.sculpt.tool) : std::nullopt;
+    if (!tool || !stroke_.begin(frame, *tool, press_.x, press_.y)) action_.reset();
+  }
 }
 
 void CanvasInput::follow(Frame& frame) {
@@ -166,6 +177,10 @@ void CanvasInput::drag(Frame& frame, Mouse from, Mouse to) {
       return move_source(frame, to);
     case MouseAction::kPaint:
       return paint(frame, to);
+    case MouseAction::kSculpt:
+    case MouseAction::kSculptBack:
+    case MouseAction::kSculptSmooth:
+      return stroke_.go_on(frame, to.x, to.y);
     default:
       return;
   }
@@ -257,6 +272,9 @@ void CanvasInput::draw_marks(Frame& frame) const {
     list->AddCircle(at, frame.px(radius), accent, 0, frame.px(1.8F));
   };
   if (brush) return ring(mouse, 6);
+  if (sculpt && (button_ < 0 || action_)) {
+    return ring(mouse, std::max(3.0F, sculpt_ring(frame, hovered_) / frame.px(1)));
+  }
   if (action_ || button_ >= 0) return;
   if (const auto place = place_at(frame, mouse.x, mouse.y)) {
     const auto seen = frame.canvas.place_of(frame.explored().places[*place].position);

@@ -89,6 +89,7 @@ void draw_canvas_menu(Frame& frame) {
   draw_menu_action(frame, "Whole model", Action::kFrame);
   draw_menu_action(frame, "Rotate", Action::kRotate);
   draw_menu_action(frame, "Brush", Action::kBrush);
+  draw_menu_action(frame, "Sculpt", Action::kSculpt);
   draw_menu_action(frame, "Clear sources", Action::kClearSources);
   ImGui::EndPopup();
 }

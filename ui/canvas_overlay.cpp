@@ -110,7 +110,8 @@ void draw_shown_badge(Frame& frame) {
     text += "  \u00b7  " + app::method_caption(*answer->method);
   }
   const Rect& canvas = frame.ui.places.canvas;
-  draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(20)}, text);
+  const float down = frame.ui.input.sculpt ? 62 : 20;  // below the bar of the tools
+  draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(down)}, text);
 }
 
 void draw_picked(Frame& frame) {

@@ -72,6 +72,8 @@ constexpr std::string_view kPictures[] = {".png"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
 constexpr std::string_view kSessions[] = {kSessionExtension};
 constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
+constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
+constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd"};
 constexpr std::string_view kFigures[] = {".json"};
 
 constexpr FileTask kTasks[] = {
@@ -82,6 +84,8 @@ constexpr FileTask kTasks[] = {
     {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
     {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
     {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
+    {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
+    {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
 };
 
 }  // namespace
@@ -94,6 +98,7 @@ std::string suggested_name(const std::string& model, const FileTask& task) {
   std::string name = std::filesystem::path(model).stem().string();
   if (name.empty()) name = "geotherm";
   if (task.purpose == FilePurpose::kSaveLog) name += "-log";
+  if (task.purpose == FilePurpose::kSaveMesh) name += "-sculpted";
   return name + std::string(task.extensions.front());
 }
 
@@ -183,6 +188,12 @@ void FileDialog::finish(Frame& frame, const fs::path& file) {
       break;
     case FilePurpose::kSaveFigures:
       frame.send(command::SaveFigures{path});
+      break;
+    case FilePurpose::kSaveMesh:
+      frame.send(command::SaveMesh{path});
+      break;
+    case FilePurpose::kOpenSequence:
+      frame.send(command::ShowSequence{path});
       break;
   }
   folder_ = file.parent_path();

@@ -45,6 +45,8 @@ enum class FilePurpose {
   kSaveSession,
   kSaveLog,
   kSaveFigures,
+  kSaveMesh,
+  kOpenSequence,
 };
 
 /// The extension of session files, which are scripts of commands.

@@ -42,6 +42,13 @@ struct SourcesForm {
   int count = 5;
 };
 
+/// What the sculpting brush is set to.
+struct SculptForm {
+  app::SculptTool tool = app::SculptTool::kPull;
+  float radius = 0.06F;  ///< share of the model's size
+  float strength = 0.1F;
+};
+
 struct LogForm {
   std::array<bool, 4> shown = {true, true, true, true};  ///< by LogLine::Kind
   bool follow = true;
@@ -74,6 +81,9 @@ struct UiState {
   FileDialog dialog;
   WriteQuestion write_question;
   SourcesForm sources;
+  SculptForm sculpt;
+  double played_at = 0;  ///< ImGui's time when a frame was sent last
+  bool scrubs = false;   ///< the timeline is dragged
   LogForm log;
   std::set<std::string> left_out;  ///< backends that are not to be compared
   std::vector<Notice> notices;

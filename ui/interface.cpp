@@ -148,6 +148,8 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   draw_side_bars(frame);
   draw_status_bar(frame);
   draw_canvas_overlay(frame);
+  draw_sculpt_bar(frame);
+  draw_timeline(frame);
   draw_canvas_menu(frame);
   take_keys(frame);
   ui.dialog.draw(frame);
@@ -158,8 +160,9 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
 
   rotate(frame);
   ui.awake = is_active() || !out.commands.empty() ? kAwake : std::max(0, ui.awake - 1);
-  out.dragging = ui.input.is_dragging();
-  out.animating = session.state().rotating || ui.awake > 0;
+  const bool plays_on = play(frame);
+  out.dragging = ui.input.is_dragging() || ui.scrubs || session.state().timeline.playing;
+  out.animating = session.state().rotating || plays_on || ui.awake > 0;
   return out;
 }
 

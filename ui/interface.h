@@ -43,7 +43,7 @@ class Canvas {
 /// What a frame of the panels asks for.
 struct FrameOutput {
   std::vector<app::Command> commands;
-  bool dragging = false;   ///< the mouse moves camera or sources: draw fast
+  bool dragging = false;   ///< camera, sources or surface move: draw fast
   bool animating = false;  ///< the next frame is to follow at once
   bool cancel = false;     ///< the user asked to stop what runs: Session::cancel
 };

@@ -26,6 +26,10 @@ constexpr KeyBinding kKeys[] = {
     {"n", Action::kNonDelaunay, "View", "edges that are not Delaunay"},
     {"p", Action::kRotate, "View", "turn the model, and stop again"},
     {"f", Action::kFrame, "View", "the whole model in the middle"},
+    {"Space", Action::kPlay, "View", "play the frames, and pause"},
+    {".", Action::kNextFrame, "View", "one frame on"},
+    {",", Action::kPreviousFrame, "View", "one frame back"},
+    {"l", Action::kLoop, "View", "play on or off from the last frame to the first"},
     {"+", Action::kMoreSources, "Sources", "one more random source"},
     {"-", Action::kFewerSources, "Sources", "one random source fewer"},
     {"h", Action::kShuffleSources, "Sources", "as many sources at new random places"},
@@ -43,8 +47,9 @@ constexpr KeyBinding kKeys[] = {
     {"Ctrl+Z", Action::kUndo, "Edit", "undo"},
     {"Ctrl+Y", Action::kRedo, "Edit", "redo"},
     {"Ctrl+Shift+Z", Action::kRedo, "Edit", "redo"},
+    {"s", Action::kSculpt, "Edit", "sculpting on or off: pull, push, smooth"},
     {"Esc", Action::kStop, "Edit",
-     "close a dialog, end the brush, cancel the work, forget paths, forget the point"},
+     "close a dialog, end brush or sculpting, cancel the work, forget paths, forget the point"},
     {"F1", Action::kKeys, "Window", "this list of keys"},
     {"F2", Action::kLeftPanel, "Window", "left side bar"},
     {"F3", Action::kRightPanel, "Window", "right side bar"},
@@ -64,6 +69,9 @@ constexpr MouseBinding kMouse[] = {
     {"Alt+Left click", MouseAction::kRemoveSource, "Set sources", "remove the nearest source"},
     {"Left drag of a source", MouseAction::kMoveSource, "Set sources", "move it"},
     {"Left drag with the brush", MouseAction::kPaint, "Set sources", "paint a curve of sources"},
+    {"Left drag while sculpting", MouseAction::kSculpt, "Sculpt", "pull, or what the bar says"},
+    {"Ctrl+Left drag while sculpting", MouseAction::kSculptBack, "Sculpt", "push where it pulls"},
+    {"Shift+Left drag while sculpting", MouseAction::kSculptSmooth, "Sculpt", "smooth"},
     {"Ctrl+Left click", MouseAction::kPick, "Figures", "show the figures of this point"},
     {"Ctrl+Shift+Left click", MouseAction::kTarget, "Figures", "paths from here to the source"},
     {"Right click", MouseAction::kMenu, "Figures", "menu of this point"},
@@ -74,8 +82,11 @@ struct NamedKey {
   std::string_view name;
   int code;
 };
-constexpr NamedKey kNamed[] = {
-    {"Esc", kKeyEscape}, {"Tab", kKeyTab}, {"Enter", kKeyEnter}, {"Home", kKeyHome}};
+constexpr NamedKey kNamed[] = {{"Esc", kKeyEscape},
+                               {"Tab", kKeyTab},
+                               {"Enter", kKeyEnter},
+                               {"Home", kKeyHome},
+                               {"Space", kKeySpace}};
 
 /// "Ctrl+Shift+Z" -> the modifiers and "Z".
 std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) {

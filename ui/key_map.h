@@ -56,6 +56,9 @@ enum class MouseAction {
   kPan,
   kMoveSource,
   kPaint,
+  kSculpt,
+  kSculptBack,  ///< the other way
+  kSculptSmooth,
   kSetSource,
   kAddSource,
   kRemoveSource,

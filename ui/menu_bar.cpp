@@ -52,12 +52,14 @@ void draw_file_menu(Frame& frame) {
     ImGui::EndMenu();
   }
   draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);
+  draw_menu_action(frame, "Open sequence\u2026", Action::kOpenSequence);
   ImGui::Separator();
   draw_menu_action(frame, "Save session\u2026", Action::kSaveSession);
   draw_menu_action(frame, "Save picture\u2026", Action::kSavePicture);
   draw_menu_action(frame, "Save distances\u2026", Action::kSaveDistances);
   draw_menu_action(frame, "Save figures\u2026", Action::kSaveFigures);
   draw_menu_action(frame, "Save log\u2026", Action::kSaveLog);
+  draw_menu_action(frame, "Save mesh\u2026", Action::kSaveMesh);
   ImGui::Separator();
   draw_menu_action(frame, "Quit", Action::kQuit);
   ImGui::EndMenu();
@@ -74,6 +76,7 @@ void draw_edit_menu(Frame& frame) {
   draw_menu_action(frame, "Boundary as source", Action::kBoundarySource);
   draw_menu_action(frame, "Clear sources", Action::kClearSources);
   draw_menu_action(frame, "Brush", Action::kBrush);
+  draw_menu_action(frame, "Sculpt", Action::kSculpt);
   ImGui::EndMenu();
 }
 
@@ -110,6 +113,11 @@ void draw_view_menu(Frame& frame) {
   ImGui::Separator();
   draw_menu_action(frame, "Rotate", Action::kRotate);
   draw_menu_action(frame, "Whole model", Action::kFrame);
+  ImGui::Separator();
+  draw_menu_action(frame, "Play frames", Action::kPlay);
+  draw_menu_action(frame, "Next frame", Action::kNextFrame);
+  draw_menu_action(frame, "Previous frame", Action::kPreviousFrame);
+  draw_menu_action(frame, "Loop", Action::kLoop);
   ImGui::Separator();
   draw_menu_action(frame, "Left side bar", Action::kLeftPanel);
   draw_menu_action(frame, "Right side bar", Action::kRightPanel);

@@ -192,7 +192,7 @@ void draw_quality_panel(Frame& frame) {
   if (is_measured(answer->result.quality)) {
     draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
   } else {
-    draw_dim(frame, "Quality is measured when the drag ends.");
+    draw_dim(frame, "Quality is measured when nothing moves.");
   }
   for (const Warning& warning : answer->warnings) {
     draw_note(sentence(warning), frame.colours().warning);

@@ -83,6 +83,9 @@ void draw_progress(Frame& frame, double share, float height) {
 }
 
 void draw_work_row(Frame& frame) {
+  if (frame.ui.input.is_dragging() || frame.ui.scrubs || frame.state().timeline.playing) {
+    return;  // a row that comes and goes with each answer would move those below
+  }
   const app::SessionWork work = frame.session.work();
   const Palette& p = frame.colours();
   if (!work.busy) {

@@ -169,6 +169,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       ->type_name("FACTOR");
   command.add_flag("--validation", arguments.validation,
                    "what Vulkan's validation layer reports is an error");
+  add_sequence_option(command, arguments.sequence);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.settings, arguments.picture);
   add_source_options(command, arguments.sources);
@@ -177,6 +178,7 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       "Examples:\n"
       "  geotherm model.obj\n"
       "  geotherm view bunny -s 17 --view heat-gradient\n"
+      "  geotherm view body.obj --sequence walk.pc2\n"
       "  geotherm view --replay session.geotherm -o out.png");
 }
 
@@ -202,6 +204,7 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
     state.sources = opened->sources;
   }
   if (!sources->empty()) state.sources = *sources;
+  state.timeline.sequence = arguments.sequence;
   return commands_to(state);
 }
 

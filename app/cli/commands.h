@@ -69,6 +69,8 @@ struct SequenceArguments {
   bool skip_bad = false;  ///< a frame that cannot be solved does not end the run
 };
 
+/// --sequence alone.
+void add_sequence_option(CLI::App& command, std::string& frames);
 void add_sequence_options(CLI::App& command, SequenceArguments& arguments);
 
 struct SolveArguments {
@@ -240,9 +242,10 @@ struct ViewArguments {
   SettingArguments settings;
   SourceArguments sources;
   PictureArguments picture;
-  std::string script;  ///< commands to run, in the window or without
-  std::string replay;  ///< commands to run without a window and without writing files
-  std::string output;  ///< the picture at the end, without a window
+  std::string sequence;  ///< Frames::open()'s path; empty: the model alone
+  std::string script;    ///< commands to run, in the window or without
+  std::string replay;    ///< commands to run without a window and without writing files
+  std::string output;    ///< the picture at the end, without a window
   bool headless = false;
   std::string scale;
   bool validation = false;

@@ -129,14 +129,18 @@ void note_bad_frames(const Sequence& sequence, SequenceFigures& figures) {
 
 }  // namespace
 
-void add_sequence_options(CLI::App& command, SequenceArguments& arguments) {
+void add_sequence_option(CLI::App& command, std::string& frames) {
   command
-      .add_option("--sequence", arguments.frames,
+      .add_option("--sequence", frames,
                   "the surface moves: where its vertices are, frame after frame, in numbered "
                   "meshes (frame_%04d.obj) or in one .npy (frames x vertices x 3), .pc2 or .mdd; "
                   "faces and sources are the model's")
       ->type_name("FRAMES")
       ->group("Sequences");
+}
+
+void add_sequence_options(CLI::App& command, SequenceArguments& arguments) {
+  add_sequence_option(command, arguments.frames);
   command
       .add_flag("--skip-bad", arguments.skip_bad,
                 "with --sequence: a frame that cannot be read or solved is left out (NaN in rows) "

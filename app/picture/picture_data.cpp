@@ -103,6 +103,13 @@ PictureData picture_of(const TriangleMesh& mesh, std::shared_ptr<const TetMesh> 
   return data;
 }
 
+void move_picture(PictureData& data, const TriangleMesh& mesh) {
+  const SceneSpace scene(data.centre, data.model_per_scene);
+  for (const Face& face : mesh.faces()) {
+    for (const Index v : face) data.positions[v] = scene.of(mesh.positions()[v]);
+  }
+}
+
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {
   if (report.boundary_edges > 0 || report.nonmanifold_edges > 0 || report.inconsistent_faces > 0 ||
       report.edge_components != 1 || !report.orientable) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 
 #include "app/picture/picture_text.h"
 #include "app/session/command.h"
@@ -45,6 +46,8 @@ class Applier {
     }
     s_.model = c.model;
     s_.reading = {};
+    s_.timeline = {};
+    s_.sculpture = {};
     std::erase_if(s_.sources, std::not_fn(fits_any_model));
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
@@ -143,6 +146,48 @@ class Applier {
     }
     if (count == 0) count = std::max<Index>(1, static_cast<Index>(s_.sources.size()));
     s_.sources = {RandomVertices{count, seed + 1}};
+    return {};
+  }
+
+  Result<void> operator()(const command::Sculpt& c) {
+    s_.sculpture.strokes.push_back(std::make_shared<const Stroke>(c.stroke));
+    return {};
+  }
+
+  Result<void> operator()(const command::ExtendStroke& c) {
+    auto& strokes = s_.sculpture.strokes;
+    if (strokes.empty()) {
+      return bad("there is no stroke to extend",
+                 {"begin one with sculpt pull RADIUS STRENGTH POINT"});
+    }
+    Stroke longer = *strokes.back();
+    longer.points.insert(longer.points.end(), c.points.begin(), c.points.end());
+    strokes.back() = std::make_shared<const Stroke>(std::move(longer));
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowSequence& c) {
+    if (s_.model.empty()) {
+      return bad("there is no model whose vertices could move", {"open one first: open MODEL"});
+    }
+    s_.timeline = {.sequence = c.path, .loop = s_.timeline.loop};
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowFrame& c) {
+    if (s_.timeline.sequence.empty()) return no_sequence();
+    s_.timeline.frame = c.index;
+    return {};
+  }
+
+  Result<void> operator()(const command::Play& c) {
+    if (c.on && s_.timeline.sequence.empty()) return no_sequence();
+    s_.timeline.playing = c.on;
+    return {};
+  }
+
+  Result<void> operator()(const command::Loop& c) {
+    s_.timeline.loop = c.on;
     return {};
   }
 
@@ -251,6 +296,7 @@ class Applier {
   Result<void> operator()(const command::Compare& /*c*/) { return {}; }
   Result<void> operator()(const command::SavePicture& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveDistances& /*c*/) { return {}; }
+  Result<void> operator()(const command::SaveMesh& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveSession& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveLog& /*c*/) { return {}; }
   Result<void> operator()(const command::SaveFigures& /*c*/) { return {}; }
@@ -261,6 +307,10 @@ class Applier {
  private:
   static Error nothing_kept() {
     return bad("no settings are kept as B", {"keep some first: keep"});
+  }
+
+  static Error no_sequence() {
+    return bad("there are no frames", {"name those of a surface that moves: sequence FRAMES"});
   }
 
   std::vector<SourceSpec>::reverse_iterator last_random() {

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "app/session/state.h"
 #include "geotherm/error.h"
@@ -75,6 +76,38 @@ struct FewerSources {  // source fewer
 };
 struct ShuffleSources {  // source shuffle
   bool operator==(const ShuffleSources&) const = default;
+};
+
+/// Begins a stroke of the sculpting brush.
+struct Sculpt {  // sculpt pull|push|smooth RADIUS STRENGTH POINT...
+  Stroke stroke;
+  bool operator==(const Sculpt&) const = default;
+};
+/// Goes on with the last one.
+struct ExtendStroke {  // sculpt extend POINT...
+  std::vector<FacePoint> points;
+  bool operator==(const ExtendStroke&) const = default;
+};
+
+/// A surface that moves: Frames::open()'s path; empty: none, the model as its file has it. Begins
+/// at frame 0.
+struct ShowSequence {  // sequence PATH, sequence none
+  std::string path;
+  bool operator==(const ShowSequence&) const = default;
+};
+struct ShowFrame {  // frame INDEX
+  int index = 0;
+  bool operator==(const ShowFrame&) const = default;
+};
+/// The window shows a frame after the other, each by `frame`.
+struct Play {  // play on|off
+  bool on = false;
+  bool operator==(const Play&) const = default;
+};
+/// Whether the first frame follows the last.
+struct Loop {  // loop on|off
+  bool on = true;
+  bool operator==(const Loop&) const = default;
 };
 
 /// Degrees; the elevation stays within -90 to 90.
@@ -160,6 +193,11 @@ struct SaveDistances {  // save distances FILE
   std::string path;
   bool operator==(const SaveDistances&) const = default;
 };
+/// The mesh that is shown: what was sculpted, where it was.
+struct SaveMesh {  // save mesh FILE
+  std::string path;
+  bool operator==(const SaveMesh&) const = default;
+};
 /// The commands that lead to the present state.
 struct SaveSession {  // save session FILE
   std::string path;
@@ -188,16 +226,16 @@ struct Quit {  // quit
 
 }  // namespace command
 
-using Command =
-    std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
-                 command::AddSources, command::MoveSource, command::RemoveSource,
-                 command::ExtendCurve, command::ClearSources, command::MoreSources,
-                 command::FewerSources, command::ShuffleSources, command::Orbit, command::Zoom,
-                 command::Pan, command::Centre, command::Place, command::Frame, command::Rotate,
-                 command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
-                 command::Pick, command::Target, command::Compare, command::SavePicture,
-                 command::SaveDistances, command::SaveSession, command::SaveLog,
-                 command::SaveFigures, command::Undo, command::Redo, command::Quit>;
+using Command = std::variant<
+    command::Open, command::Reset, command::Run, command::Set, command::SetSources,
+    command::AddSources, command::MoveSource, command::RemoveSource, command::ExtendCurve,
+    command::ClearSources, command::MoreSources, command::FewerSources, command::ShuffleSources,
+    command::Sculpt, command::ExtendStroke, command::ShowSequence, command::ShowFrame,
+    command::Play, command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
+    command::Place, command::Frame, command::Rotate, command::Keep, command::Forget, command::Swap,
+    command::Show, command::Flip, command::Pick, command::Target, command::Compare,
+    command::SavePicture, command::SaveDistances, command::SaveMesh, command::SaveSession,
+    command::SaveLog, command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);
@@ -223,8 +261,8 @@ Result<ViewerState> apply(const ViewerState& state, const Command& command);
 /// Commands that lead from initial_state() to `state`, and back to it exactly.
 std::vector<Command> commands_to(const ViewerState& state);
 
-/// Whether undo takes the command back: what concerns sources, method, picture, A and B; not the
-/// camera. `merged`: together with the one before it, as of a drag.
+/// Whether undo takes the command back: what concerns sources, strokes, method, picture, A and B;
+/// not camera and timeline. `merged`: together with the one before it, as of a drag.
 struct UndoRule {
   bool undoable = false, merged = false;
 };

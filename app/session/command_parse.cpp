@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "app/picture/picture_text.h"
@@ -73,6 +74,55 @@ Result<Command> read_extend(WordReader& reader) {
   return Command(command::ExtendCurve{*vertices});
 }
 
+/// As many points as there are words.
+Result<std::vector<FacePoint>> all_points(WordReader& reader) {
+  std::vector<FacePoint> points;
+  while (!reader.at_end()) {
+    const auto point = reader.face_point();
+    if (!point) return reader.fail("a point in a face, face:ID:b0:b1:b2");
+    if (point->offset != 0) {
+      return reader.blame_last({ErrorCode::kBadInput, "a touch has no offset"});
+    }
+    points.push_back(*point);
+  }
+  return points;
+}
+
+template <SculptTool kTool>
+Result<Command> read_sculpt(WordReader& reader) {
+  const auto radius = reader.number(std::numeric_limits<double>::min(), kLargestNumber);
+  if (!radius) return radius.error();
+  const auto strength = reader.number(0, 1);
+  if (!strength) return strength.error();
+  auto points = all_points(reader);
+  if (!points) return points.error();
+  return Command(command::Sculpt{{kTool, *radius, *strength, *std::move(points)}});
+}
+
+Result<Command> read_extend_stroke(WordReader& reader) {
+  auto points = all_points(reader);
+  if (!points) return points.error();
+  return Command(command::ExtendStroke{*std::move(points)});
+}
+
+Result<Command> read_sequence(WordReader& reader) {
+  const std::string& path = reader.next();
+  return Command(command::ShowSequence{path == "none" ? "" : path});
+}
+
+Result<Command> read_frame(WordReader& reader) {
+  const auto index = reader.whole("the number of a frame, from 0");
+  if (!index) return index.error();
+  return Command(command::ShowFrame{*index});
+}
+
+template <class Kind>
+Result<Command> read_switch(WordReader& reader) {
+  const auto on = reader.one_of({"on", "off"});
+  if (!on) return on.error();
+  return Command(Kind{*on == 0});
+}
+
 Result<Command> read_orbit(WordReader& reader) {
   const auto n = all_numbers(reader);
   if (!n) return n.error();
@@ -112,12 +162,6 @@ Result<Command> read_place(WordReader& reader) {
   const auto up = reader.number(-kMaxPan, kMaxPan);
   if (!up) return up.error();
   return Command(command::Place{*azimuth, *elevation, *zoom, *right, *up});
-}
-
-Result<Command> read_rotate(WordReader& reader) {
-  const auto on = reader.one_of({"on", "off"});
-  if (!on) return on.error();
-  return Command(command::Rotate{*on == 0});
 }
 
 Result<Command> read_show(WordReader& reader) {
@@ -178,13 +222,21 @@ const Form kForms[] = {
     {"source more", "", 0, 0, plain<command::MoreSources>},
     {"source fewer", "", 0, 0, plain<command::FewerSources>},
     {"source shuffle", "", 0, 0, plain<command::ShuffleSources>},
+    {"sculpt pull", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPull>},
+    {"sculpt push", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kPush>},
+    {"sculpt smooth", "RADIUS STRENGTH POINT...", 3, kAny, read_sculpt<SculptTool::kSmooth>},
+    {"sculpt extend", "POINT...", 1, kAny, read_extend_stroke},
+    {"sequence", "FRAMES|none", 1, 1, read_sequence},
+    {"frame", "INDEX", 1, 1, read_frame},
+    {"play", "on|off", 1, 1, read_switch<command::Play>},
+    {"loop", "on|off", 1, 1, read_switch<command::Loop>},
     {"camera orbit", "AZIMUTH ELEVATION", 2, 2, read_orbit},
     {"camera zoom", "FACTOR [RIGHT UP]", 1, 3, read_zoom},
     {"camera pan", "RIGHT UP", 2, 2, read_pan},
     {"camera centre", "X Y Z", 3, 3, read_centre},
     {"camera place", "AZIMUTH ELEVATION ZOOM RIGHT UP", 5, 5, read_place},
     {"camera frame", "", 0, 0, plain<command::Frame>},
-    {"rotate", "on|off", 1, 1, read_rotate},
+    {"rotate", "on|off", 1, 1, read_switch<command::Rotate>},
     {"keep", "", 0, 0, plain<command::Keep>},
     {"forget", "", 0, 0, plain<command::Forget>},
     {"swap", "", 0, 0, plain<command::Swap>},
@@ -195,6 +247,7 @@ const Form kForms[] = {
     {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
     {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
     {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},
+    {"save mesh", "FILE", 1, 1, with_text<command::SaveMesh>},
     {"save session", "FILE", 1, 1, with_text<command::SaveSession>},
     {"save log", "FILE", 1, 1, with_text<command::SaveLog>},
     {"save figures", "FILE", 1, 1, with_text<command::SaveFigures>},

@@ -164,9 +164,9 @@ Result<double> WordReader::number(double least, double most) {
   return *value;
 }
 
-Result<int> WordReader::whole() {
+Result<int> WordReader::whole(const char* what) {
   const auto value = number_in<int>(peek());
-  if (!value || *value < 0) return fail("the number of a source, from 0");
+  if (!value || *value < 0) return fail(what);
   ++next_;
   return *value;
 }
@@ -232,6 +232,11 @@ std::string numbers(std::string text, std::initializer_list<double> more) {
   return text;
 }
 
+std::string points(std::string text, const std::vector<FacePoint>& more) {
+  for (const FacePoint& point : more) text += " " + to_text(SourceSpec(point));
+  return text;
+}
+
 struct Printer {
   std::string operator()(const command::Open& c) const { return words("open", {c.model}); }
   std::string operator()(const command::Reset&) const { return "reset"; }
@@ -258,6 +263,22 @@ struct Printer {
   std::string operator()(const command::MoreSources&) const { return "source more"; }
   std::string operator()(const command::FewerSources&) const { return "source fewer"; }
   std::string operator()(const command::ShuffleSources&) const { return "source shuffle"; }
+  std::string operator()(const command::Sculpt& c) const {
+    const Stroke& stroke = c.stroke;
+    const std::string tool = "sculpt " + geotherm::to_text(stroke.tool);
+    return points(numbers(tool, {stroke.radius, stroke.strength}), stroke.points);
+  }
+  std::string operator()(const command::ExtendStroke& c) const {
+    return points("sculpt extend", c.points);
+  }
+  std::string operator()(const command::ShowSequence& c) const {
+    return words("sequence", {c.path.empty() ? "none" : c.path});
+  }
+  std::string operator()(const command::ShowFrame& c) const {
+    return "frame " + std::to_string(c.index);
+  }
+  std::string operator()(const command::Play& c) const { return c.on ? "play on" : "play off"; }
+  std::string operator()(const command::Loop& c) const { return c.on ? "loop on" : "loop off"; }
   std::string operator()(const command::Orbit& c) const {
     return numbers("camera orbit", {c.azimuth, c.elevation});
   }
@@ -300,6 +321,7 @@ struct Printer {
   std::string operator()(const command::SaveDistances& c) const {
     return words("save distances", {c.path});
   }
+  std::string operator()(const command::SaveMesh& c) const { return words("save mesh", {c.path}); }
   std::string operator()(const command::SaveSession& c) const {
     return words("save session", {c.path});
   }

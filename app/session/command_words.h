@@ -36,7 +36,7 @@ class WordReader {
 
   // Of the next word; each precondition: !at_end().
   Result<double> number(double least, double most);
-  Result<int> whole();  ///< from 0
+  Result<int> whole(const char* what = "the number of a source, from 0");
   Result<std::vector<Index>> vertices();
   Result<SourceSpec> source();
   Result<FacePoint> face_point();

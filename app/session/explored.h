@@ -25,6 +25,7 @@ struct ExploredModel {
   std::vector<Warning> warnings;            ///< about file and mesh, one sentence each
   std::shared_ptr<const PictureData> base;  ///< without a solve
   std::shared_ptr<const RayTree> rays;      ///< null: not made yet
+  int frames = 0;                           ///< of the sequence; 0: there is none
 };
 
 /// A place on the model under one entry of the list of sources.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <new>
 
 #include "app/session/progress.h"
@@ -49,10 +50,24 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   }
 }
 
+/// What is to be said about a model's mesh.
+void describe(ExploredModel& model) {
+  model.mesh = inspect_mesh(*model.model.mesh);
+  if (const auto& space = model.model.space) {
+    model.mesh.unreferenced_vertices = space->unused_vertices();
+  }
+  model.warnings = model.model.notes;
+  for (Warning& warning :
+       model.model.is_mesh() ? mesh_warnings(model.mesh) : std::vector<Warning>()) {
+    model.warnings.push_back(std::move(warning));
+  }
+}
+
 }  // namespace
 
 /// All entries as one set, and the places of each. What the last request had as well is not placed
-/// anew: a curve is a walk over the mesh, a point in space a search over all faces.
+/// anew: a curve is a walk over the mesh, a point in space a search over all faces. They are placed
+/// on the model as its file has it, and go with the surface.
 Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& request,
                                                      Explored& explored) {
   std::vector<Placed> placed;
@@ -67,7 +82,7 @@ Result<std::vector<Warning>> Explorer::place_sources(const ExploreRequest& reque
       placed.push_back(*known);
     } else {
       const Source named{source, "source " + shortened(to_text(source)), ErrorCode::kBadInput};
-      auto places = resolve_sources({&named, 1}, model_->model);
+      auto places = resolve_sources({&named, 1}, read_->model);
       if (!places) return places.error();
       placed.push_back({source, *std::move(places)});
     }
@@ -94,20 +109,18 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   // What belonged to the old model goes before the new one needs the room.
   solver_.reset();
   placed_.clear();
+  pose_ = {};
+  sequence_.reset();
+  sculptor_.reset();
+  inspected_ = true;
   model_.reset();
+  rays_.reset();
+  read_.reset();
   auto model = std::make_shared<ExploredModel>();
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
-  model->mesh = inspect_mesh(*mesh);
-  if (const auto& space = model->model.space) {
-    model->mesh.unreferenced_vertices = space->unused_vertices();
-  }
-  model->warnings = model->model.notes;
-  for (Warning& warning :
-       model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
-    model->warnings.push_back(std::move(warning));
-  }
+  describe(*model);
   auto base = std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
@@ -118,12 +131,125 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!rays) return rays.error();
   auto whole = std::make_shared<ExploredModel>(*model);
   whole->rays = std::make_shared<const RayTree>(*std::move(rays));
-  model_ = std::move(whole);
+  read_ = model_ = std::move(whole);
+  rays_ = read_->rays;
   solver_.emplace(model_->model, ModelSolver::Use::kSession);
   solver_->set_summary(model_->mesh);
   model_text_ = request.model;
   reading_ = request.reading;
   opening_ = request.opening;
+  return {};
+}
+
+/// The mesh before it is sculpted.
+Result<std::shared_ptr<const TriangleMesh>> Explorer::frame_mesh(const Pose& pose) {
+  if (pose.sequence.empty()) {
+    sequence_.reset();
+    return read_->model.mesh;
+  }
+  if (!sequence_ || sequence_->path != pose.sequence) {
+    auto frames = Frames::open(pose.sequence, read_->model.mesh);
+    if (!frames) return frames.error();
+    sequence_ = Sequence{pose.sequence, *std::move(frames), -1, nullptr};
+  }
+  const std::int64_t count = sequence_->frames.count();
+  if (pose.frame >= count) {
+    return Error{ErrorCode::kBadInput,
+                 "there is no frame " + std::to_string(pose.frame),
+                 {"frames are 0 to " + std::to_string(count - 1)}};
+  }
+  if (sequence_->frame != pose.frame) {
+    auto mesh = sequence_->frames.read(pose.frame);
+    if (!mesh) return mesh.error();
+    sequence_->mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
+    sequence_->frame = pose.frame;
+  }
+  return sequence_->mesh;
+}
+
+/// Puts the vertices where frame and strokes want them. What belongs to another surface goes; the
+/// method stays until the next one has taken over what it can.
+Result<void> Explorer::move(const ExploreRequest& request, const Progress& progress) {
+  const Pose& pose = request.pose;
+  if (pose_ == pose) return {};
+  const bool carved = !pose.sculpture.strokes.empty();
+  if (carved || !pose.sequence.empty()) {
+    auto surface = refuse_space(read_->model, carved ? "strokes are" : "frames are");
+    if (!surface) return surface;
+  }
+  auto mesh = frame_mesh(pose);
+  if (!mesh) return mesh.error();
+  if (carved) {
+    if (!sculptor_ || carved_ != *mesh) sculptor_.emplace(*mesh);
+    carved_ = *mesh;
+    if (auto done = sculptor_->follow(pose.sculpture); !done) return done;
+    auto bent = (*mesh)->moved(sculptor_->positions());
+    if (!bent) return bent.error();
+    mesh = std::make_shared<const TriangleMesh>(*std::move(bent));
+  }
+  inspected_ = *mesh == read_->model.mesh;
+  if (inspected_) {
+    model_ = read_;
+    solver_->set_summary(model_->mesh);
+  } else {
+    // Nothing is picked while frames are played.
+    const bool plays = !request.quality && pose.frame != pose_.frame;
+    auto moved = moved_model(*std::move(mesh), !plays, progress);
+    if (!moved) return moved.error();
+    model_ = *std::move(moved);
+  }
+  solver_->move(model_->model);
+  pose_ = pose;
+  return {};
+}
+
+Result<void> Explorer::make_rays(ExploredModel& model, const Progress& progress) {
+  auto rays = rays_->moved(model.model.mesh);
+  if (!rays) {
+    auto built = RayTree::build(model.model.mesh, progress);
+    if (!built) return built.error();
+    rays = *std::move(built);
+  }
+  model.rays = rays_ = std::make_shared<const RayTree>(*std::move(rays));
+  return {};
+}
+
+/// The model with its vertices elsewhere. What is said of its mesh is old.
+Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
+    std::shared_ptr<const TriangleMesh> mesh, bool with_rays, const Progress& progress) {
+  auto moved = std::make_shared<ExploredModel>(*model_);
+  std::vector<std::string> what;
+  if (sequence_) {
+    const std::filesystem::path name(sequence_->frames.name(sequence_->frame));
+    what.push_back(name.filename().string());
+  }
+  if (!sequence_ || mesh != sequence_->mesh) what.emplace_back("sculpted");
+  moved->model.name = read_->model.name + " (" + joined(what) + ")";
+  moved->frames = sequence_ ? static_cast<int>(sequence_->frames.count()) : 0;
+  auto base = std::make_shared<PictureData>(*read_->base);
+  move_picture(*base, *mesh);
+  base->solid = false;  // a stroke may have gone through to the other side
+  moved->base = std::move(base);
+  moved->model.mesh = std::move(mesh);
+  moved->rays = nullptr;
+  if (with_rays) {
+    if (auto made = make_rays(*moved, progress); !made) return made.error();
+  }
+  return std::shared_ptr<const ExploredModel>(std::move(moved));
+}
+
+/// What is said of the mesh, once it rests.
+Result<void> Explorer::inspect(const Progress& progress) {
+  if (inspected_) return {};
+  if (!report(progress, "inspecting", -1)) return cancelled_error();
+  auto model = std::make_shared<ExploredModel>(*model_);
+  if (!model->rays) {
+    if (auto made = make_rays(*model, progress); !made) return made;
+  }
+  describe(*model);
+  solver_->set_summary(model->mesh);
+  model_ = std::move(model);
+  inspected_ = true;
   return {};
 }
 
@@ -181,6 +307,10 @@ Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored&
 Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress& progress,
                                    const Early& early) try {
   if (auto loaded = load(request, progress, early); !loaded) return loaded.error();
+  if (auto moved = move(request, progress); !moved) return moved.error();
+  if (request.quality) {
+    if (auto done = inspect(progress); !done) return done.error();
+  }
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;

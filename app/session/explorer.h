@@ -8,16 +8,28 @@
 
 #include "app/session/explored.h"
 #include "app/session/model_solver.h"
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/progress.h"
+#include "solver/mesh/frames.h"
 
 namespace geotherm::app {
+
+/// Where the vertices of a model are.
+struct Pose {
+  std::string sequence;  ///< Frames::open()'s path; empty: where its file has them
+  int frame = 0;
+  Sculpture sculpture;  ///< on top of that
+
+  bool operator==(const Pose&) const = default;
+};
 
 /// What a session asks for.
 struct ExploreRequest {
   std::string model;
   ModelReading reading;
   std::uint64_t opening = 0;  ///< another number forces the model to be read again
+  Pose pose;
   std::vector<SourceSpec> sources;
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B
@@ -33,8 +45,8 @@ struct ExploreRequest {
   }
   /// Whether what answers this also answers `other`.
   bool covers(const ExploreRequest& other) const {
-    return same_setup(other) && sources == other.sources && fields >= other.fields &&
-           quality >= other.quality && nearest >= other.nearest &&
+    return same_setup(other) && pose == other.pose && sources == other.sources &&
+           fields >= other.fields && quality >= other.quality && nearest >= other.nearest &&
            (check == other.check || other.check == Check::kOff) && target == other.target;
   }
 };
@@ -52,6 +64,13 @@ class Explorer {
 
  private:
   Result<void> load(const ExploreRequest& request, const Progress& progress, const Early& early);
+  Result<void> move(const ExploreRequest& request, const Progress& progress);
+  Result<std::shared_ptr<const TriangleMesh>> frame_mesh(const Pose& pose);
+  Result<std::shared_ptr<const ExploredModel>> moved_model(std::shared_ptr<const TriangleMesh> mesh,
+                                                           bool with_rays,
+                                                           const Progress& progress);
+  Result<void> make_rays(ExploredModel& model, const Progress& progress);
+  Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
                                                const MethodOptions& options,
@@ -62,7 +81,20 @@ class Explorer {
   Result<void> check_afterwards(const ExploreRequest& request, Explored& explored,
                                 const Progress& progress, const Early& early);
 
-  std::shared_ptr<const ExploredModel> model_;
+  std::shared_ptr<const ExploredModel> read_;   ///< as its file has it
+  std::shared_ptr<const ExploredModel> model_;  ///< in the pose `pose_`
+  std::shared_ptr<const RayTree> rays_;         ///< the last that was made
+  Pose pose_;
+  struct Sequence {
+    std::string path;
+    Frames frames;
+    int frame = -1;                            ///< that was read last; negative: none
+    std::shared_ptr<const TriangleMesh> mesh;  ///< of that
+  };
+  std::optional<Sequence> sequence_;            ///< of `read_`
+  std::shared_ptr<const TriangleMesh> carved_;  ///< what `sculptor_` began with
+  std::optional<Sculptor> sculptor_;            ///< from the first stroke on
+  bool inspected_ = true;                       ///< ExploredModel::mesh is of `model_` as it is
   std::string model_text_;
   ModelReading reading_;
   std::uint64_t opening_ = 0;

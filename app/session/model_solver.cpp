@@ -20,6 +20,12 @@ void add(std::vector<Warning>& all, const std::vector<Warning>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
+const ReadyMethod* find_in(const std::vector<ReadyMethod>& all, const MethodOptions& options) {
+  const auto known = std::ranges::find_if(
+      all, [&options](const ReadyMethod& ready) { return same_method(ready.options, options); });
+  return known == all.end() ? nullptr : &*known;
+}
+
 }  // namespace
 
 ModelSolver::ModelSolver(Model model, Use use) : model_(std::move(model)), use_(use) {}
@@ -32,12 +38,21 @@ bool ModelSolver::is_wanted(const ReadyMethod& ready) const {
 
 void ModelSolver::drop_unwanted() {
   std::erase_if(ready_, [this](const ReadyMethod& ready) { return !is_wanted(ready); });
+  std::erase_if(earlier_, [this](const ReadyMethod& ready) { return !is_wanted(ready); });
+}
+
+void ModelSolver::move(Model model) {
+  model_ = std::move(model);
+  for (ReadyMethod& ready : ready_) earlier_.push_back(std::move(ready));
+  ready_.clear();
+  waves_.reset();
+  on_waves_.clear();
+  reference_.reset();
+  paths_.reset();
 }
 
 const ReadyMethod* ModelSolver::find_ready(const MethodOptions& options) const {
-  const auto known = std::ranges::find_if(
-      ready_, [&options](const ReadyMethod& ready) { return same_method(ready.options, options); });
-  return known == ready_.end() ? nullptr : &*known;
+  return find_in(ready_, options);
 }
 
 /// Builds a heat method from the parts of `near`, other methods on the cached wave surface in a
@@ -46,6 +61,10 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
                                                                 const DistanceMethod* near,
                                                                 const Progress& progress) {
   if (model_.space) return build_method_near(*model_.space, options, near, progress);
+  if (const ReadyMethod* const earlier = find_in(earlier_, options);
+      earlier != nullptr && options.method == MethodKind::kHeat) {
+    return build_method_moved(model_.mesh, options, earlier->method.get(), progress);
+  }
   if (options.method == MethodKind::kHeat) {
     return build_method_near(model_.mesh, options, near, progress);
   }
@@ -83,6 +102,9 @@ Result<ReadyMethod> ModelSolver::prepare(const MethodOptions& options, const Pro
     setup.analyze = near->setup.analyze;
   }
   drop_unwanted();
+  std::erase_if(earlier_, [&options](const ReadyMethod& earlier) {
+    return same_method(earlier.options, options);
+  });
   ready_.push_back({*std::move(made), options, setup, watch.milliseconds()});
   return ready_.back();
 }

@@ -54,6 +54,10 @@ class ModelSolver {
   const Model& model() const { return model_; }
   /// Sets the mesh summary, so that solve() does not compute it.
   void set_summary(const MeshSummary& mesh) { summary_ = mesh; }
+  /// The same model with its vertices elsewhere, with faces as before. Heat methods of it take over
+  /// what they can from those that were wanted before it; what else was kept goes, but for the
+  /// summary, which set_summary() renews.
+  void move(Model model);
   /// Options of the methods that will be asked for again: they stay when another one is made. A new
   /// method reuses parts of one that is not among them, if there is one. Without this call the last
   /// one stays.
@@ -121,6 +125,7 @@ class ModelSolver {
   std::optional<MeshSummary> summary_;
   std::vector<MethodOptions> wanted_;
   std::vector<ReadyMethod> ready_;            ///< the last one made at the end
+  std::vector<ReadyMethod> earlier_;          ///< from before move(), until one has followed
   std::shared_ptr<const WaveSurface> waves_;  ///< of the mesh; null: not needed so far
   struct OnWaves {
     std::shared_ptr<const DistanceMethod> method;

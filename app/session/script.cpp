@@ -113,8 +113,38 @@ bool continues(const Command& before, const Command& now) {
     return std::holds_alternative<command::ExtendCurve>(before) ||
            std::holds_alternative<command::AddSources>(before);
   }
+  if (std::holds_alternative<command::ShowFrame>(now)) {
+    return std::holds_alternative<command::ShowFrame>(before);
+  }
+  if (std::holds_alternative<command::ExtendStroke>(now)) {
+    return std::holds_alternative<command::ExtendStroke>(before) ||
+           std::holds_alternative<command::Sculpt>(before);
+  }
   return false;
 }
+
+namespace {
+
+void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// Makes `last` what both do. False: they need two lines. Precondition: continues(last, now).
+bool merge(Command& last, const Command& now) {
+  if (const auto* more = std::get_if<command::ExtendCurve>(&now)) {
+    auto* const curve = std::get_if<command::ExtendCurve>(&last);
+    if (curve != nullptr) append(curve->vertices, more->vertices);
+    return curve != nullptr;
+  }
+  if (const auto* more = std::get_if<command::ExtendStroke>(&now)) {
+    auto* const begun = std::get_if<command::Sculpt>(&last);
+    append(begun != nullptr ? begun->stroke.points : std::get<command::ExtendStroke>(last).points,
+           more->points);
+    return true;
+  }
+  last = now;
+  return true;
+}
+
+}  // namespace
 
 bool CommandLog::add(const Command& command, const ViewerState& after) {
   std::optional<Command>* last = lines_.empty() ? nullptr : &lines_.back().command;
@@ -123,18 +153,7 @@ bool CommandLog::add(const Command& command, const ViewerState& after) {
     *last = place_of(after.picture.camera);
     return true;
   }
-  if (has_last && continues(**last, command)) {
-    const auto* more = std::get_if<command::ExtendCurve>(&command);
-    auto* const curve = std::get_if<command::ExtendCurve>(&**last);
-    if (more == nullptr) {
-      *last = command;
-      return true;
-    }
-    if (curve != nullptr) {
-      curve->vertices.insert(curve->vertices.end(), more->vertices.begin(), more->vertices.end());
-      return true;
-    }
-  }
+  if (has_last && continues(**last, command) && merge(**last, command)) return true;
   lines_.push_back({command, {}});
   return false;
 }
@@ -185,6 +204,7 @@ Result<void> check_name(const std::string& path, const Command& command) {
                "choose a path without names that begin with a dot");
   }
   if (std::holds_alternative<command::SaveDistances>(command)) return check_distance_path(path);
+  if (std::holds_alternative<command::SaveMesh>(command)) return check_mesh_path(path);
   std::string what = "sessions and logs are", extension = ".geotherm";
   if (std::holds_alternative<command::SavePicture>(command)) {
     what = "pictures are";
@@ -202,11 +222,11 @@ Result<void> check_name(const std::string& path, const Command& command) {
 const std::string* saved_path(const Command& command) {
   return std::visit(
       []<class Kind>(const Kind& c) -> const std::string* {
-        constexpr bool kSaves = std::is_same_v<Kind, command::SavePicture> ||
-                                std::is_same_v<Kind, command::SaveDistances> ||
-                                std::is_same_v<Kind, command::SaveFigures> ||
-                                std::is_same_v<Kind, command::SaveSession> ||
-                                std::is_same_v<Kind, command::SaveLog>;
+        constexpr bool kSaves =
+            std::is_same_v<Kind, command::SavePicture> ||
+            std::is_same_v<Kind, command::SaveDistances> ||
+            std::is_same_v<Kind, command::SaveMesh> || std::is_same_v<Kind, command::SaveFigures> ||
+            std::is_same_v<Kind, command::SaveSession> || std::is_same_v<Kind, command::SaveLog>;
         if constexpr (kSaves) return &c.path;
         return nullptr;
       },

@@ -23,7 +23,7 @@ std::vector<std::string> files_written_by(const std::string& script);
 
 /// The commands since the start, as a script that leads to the same state. Of drags only the ends
 /// are kept: moves of the camera become one `camera place`, a dragged source its last place, a
-/// slider its last value.
+/// slider its last value, frames that were played the last of them.
 class CommandLog {
  public:
   /// `after`: the state that the command led to. True when it took the place of the last one.

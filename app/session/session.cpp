@@ -25,13 +25,14 @@ bool is_any_of(const Command& command) {
 
 /// Those that need answers that belong to the state.
 bool needs_answers(const Command& command) {
-  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveFigures,
-                   command::Compare, command::Quit>(command);
+  return is_any_of<command::SavePicture, command::SaveDistances, command::SaveMesh,
+                   command::SaveFigures, command::Compare, command::Quit>(command);
 }
 
 bool same_but_camera(const ViewerState& a, ViewerState b) {
   b.picture.camera = a.picture.camera;
   b.rotating = a.rotating;
+  b.timeline = a.timeline;
   b.picked = a.picked;
   return a == b;
 }
@@ -58,6 +59,7 @@ void Session::State::step_back(std::vector<ViewerState>& from, std::vector<Viewe
   to.push_back(state);
   back.picture.camera = state.picture.camera;
   back.rotating = state.rotating;
+  back.timeline = state.timeline;
   back.picked = state.picked;
   state = std::move(back);
   last_undoable.reset();

@@ -12,6 +12,7 @@
 #include "app/session/session_state.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
+#include "solver/mesh/frames.h"
 
 namespace geotherm::app {
 namespace {
@@ -34,18 +35,20 @@ std::string full_path(const std::string& path) {
   return std::filesystem::weakly_canonical(path, unknown).string();
 }
 
-/// The file of a command, never the model.
-Result<Outputs> output_file(const std::string& model, const std::string& path,
+/// The file of a command, never the model or its frames.
+Result<Outputs> output_file(const ViewerState& state, const std::string& path,
                             const char* command) {
   Outputs outputs;
-  if (!is_bundled(model)) outputs.protect(model, "the model itself");
+  if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
+  const std::string& frames = state.timeline.sequence;
+  if (!is_numbered(frames)) outputs.protect(frames, "the sequence itself");
   if (auto expected = outputs.expect(path, command); !expected) return expected.error();
   return outputs;
 }
 
-Result<void> write_text(const std::string& model, const std::string& path, const char* command,
+Result<void> write_text(const ViewerState& state, const std::string& path, const char* command,
                         const std::string& text) {
-  auto outputs = output_file(model, path, command);
+  auto outputs = output_file(state, path, command);
   if (!outputs) return outputs.error();
   std::string unused;
   return outputs->write_text(path, text, unused);
@@ -58,7 +61,7 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
   const bool difference = session.state().shown == Shown::kDifference && explored.difference;
   const std::vector<double>& values =
       difference ? explored.difference->values : answer->result.distances;
-  auto outputs = output_file(session.state().model, save.path, "save distances");
+  auto outputs = output_file(session.state(), save.path, "save distances");
   if (!outputs) return outputs.error();
   const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
   std::vector<Index> nearest;
@@ -76,11 +79,23 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
                         [&] { return write_distances(save.path, *mesh, values, nearest); });
 }
 
+Result<void> save_mesh(const command::SaveMesh& save, const Session& session) {
+  const Explored& explored = session.explored();
+  if (!explored.model || session.stale()) return not_yet("vertices");
+  if (auto surface = refuse_space(explored.model->model, "saved meshes are"); !surface) {
+    return surface;
+  }
+  auto outputs = output_file(session.state(), save.path, "save mesh");
+  if (!outputs) return outputs.error();
+  return outputs->write(save.path,
+                        [&] { return write_mesh(save.path, *explored.model->model.mesh); });
+}
+
 Result<void> save_figures(const command::SaveFigures& save, const Session& session) {
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
   if (answer == nullptr || session.stale()) return not_yet("figures");
-  return write_text(session.state().model, save.path, "save figures", to_text(solve_json(*answer)));
+  return write_text(session.state(), save.path, "save figures", to_text(solve_json(*answer)));
 }
 
 std::string session_text(const ViewerState& state) {
@@ -111,12 +126,14 @@ Result<void> Session::State::save(const Command& command, const Session& session
     done = hooks.save_picture(*picture, session);
   } else if (const auto* distances = std::get_if<command::SaveDistances>(&command)) {
     done = save_distances(*distances, session);
+  } else if (const auto* mesh = std::get_if<command::SaveMesh>(&command)) {
+    done = save_mesh(*mesh, session);
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
     done = save_figures(*figures, session);
   } else if (std::holds_alternative<command::SaveSession>(command)) {
-    done = write_text(state.model, path, "save session", session_text(state));
+    done = write_text(state, path, "save session", session_text(state));
   } else if (std::holds_alternative<command::SaveLog>(command)) {
-    done = write_text(state.model, path, "save log", script_head() + commands.script());
+    done = write_text(state, path, "save log", script_head() + commands.script());
   }
   if (!done) return done;
   if (giver == Giver::kScript) {

@@ -23,15 +23,19 @@ std::string summary(const Explored& explored, const Explored& before) {
   const Answer& a = *explored.a;
   std::string text = "solved with " + solver_at_work(*a.method, a.result) + ": query " +
                      milliseconds(a.result.timing.query) + " ms";
-  const bool same_method =
-      before.a && before.model == explored.model && before.a->method == a.method;
-  if (!same_method) text += ", set-up " + milliseconds(a.setup_ms) + " ms";
+  if (!before.a || before.a->method != a.method)
+    text += ", set-up " + milliseconds(a.setup_ms) + " ms";
   text += ", largest distance " + significant(a.distance.max);
   if (explored.difference) {
     text += "; A - B: at most " + significant(explored.difference->most) + ", mean " +
             significant(explored.difference->mean);
   }
   return text;
+}
+
+/// Whether one is the other, perhaps sculpted: both have one copy of the faces.
+bool is_same_surface(const ExploredModel& a, const ExploredModel& b) {
+  return a.model.mesh->faces().data() == b.model.mesh->faces().data();
 }
 
 /// What is asked for but for the check of answers that are shown before it.
@@ -47,6 +51,7 @@ ExploreRequest Session::State::wanted() const {
   request.model = state.model;
   request.reading = state.reading;
   request.opening = opening;
+  request.pose = {state.timeline.sequence, state.timeline.frame, state.sculpture};
   request.sources = state.sources;
   request.options = state.options;
   request.kept = state.kept;
@@ -208,7 +213,7 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
 /// What an answer warns of and the one before it did not.
 void Session::State::note_warnings(const Explored& before) {
   for (const Warning& warning : explored.a->warnings) {
-    const bool known = before.a && before.model == explored.model &&
+    const bool known = before.a && is_same_surface(*before.model, *explored.model) &&
                        std::ranges::find(before.a->warnings, warning) != before.a->warnings.end();
     if (!known) note(LogLine::Kind::kWarning, warning);
   }

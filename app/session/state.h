@@ -9,6 +9,7 @@
 #include "app/picture/picture_settings.h"
 #include "app/session/check.h"
 #include "app/session/model.h"
+#include "app/session/sculpture.h"
 #include "app/session/sources.h"
 #include "geotherm/build_method.h"
 
@@ -21,11 +22,22 @@ enum class Shown {
   kDifference,  ///< d_A - d_B
 };
 
+/// The frames of a surface that moves.
+struct Timeline {
+  std::string sequence;  ///< Frames::open()'s path; empty: none
+  int frame = 0;         ///< that is shown, from 0
+  bool playing = false, loop = true;
+
+  bool operator==(const Timeline&) const = default;
+};
+
 /// All that decides what the program shows; a plain value. What commands change and session files
 /// hold. Answers, panels and windows are not part of it.
 struct ViewerState {
-  std::string model;                  ///< a path or a bundled name; empty: none is open
-  ModelReading reading;               ///< how the model is read
+  std::string model;     ///< a path or a bundled name; empty: none is open
+  ModelReading reading;  ///< how the model is read
+  Timeline timeline;
+  Sculpture sculpture;                ///< what was done to the surface since it was opened
   std::vector<SourceSpec> sources;    ///< one set
   MethodOptions options;              ///< A
   std::optional<MethodOptions> kept;  ///< B

@@ -32,6 +32,13 @@ std::vector<Command> commands_to(const ViewerState& state) {
     commands.emplace_back(command::Keep{});
   }
   add_settings(now, state, commands);
+  const Timeline& timeline = state.timeline;
+  if (!timeline.sequence.empty()) commands.emplace_back(command::ShowSequence{timeline.sequence});
+  if (timeline.frame > 0) commands.emplace_back(command::ShowFrame{timeline.frame});
+  if (!timeline.loop) commands.emplace_back(command::Loop{false});
+  for (const auto& stroke : state.sculpture.strokes) {
+    commands.emplace_back(command::Sculpt{*stroke});
+  }
   // After the method: not every method takes every source.
   if (now.sources != state.sources) {
     if (state.sources.empty()) {
@@ -43,6 +50,7 @@ std::vector<Command> commands_to(const ViewerState& state) {
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});
+  if (timeline.playing) commands.emplace_back(command::Play{true});
   if (state.rotating) commands.emplace_back(command::Rotate{true});
   return commands;
 }
@@ -59,15 +67,16 @@ UndoRule undo_rule(const Command& command) {
   const auto is = [&command]<class... Kinds>(std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(command) || ...);
   };
-  const bool merged =
-      is(static_cast<std::variant<command::MoveSource, command::ExtendCurve>*>(nullptr));
+  const bool merged = is(
+      static_cast<std::variant<command::MoveSource, command::ExtendCurve, command::ExtendStroke>*>(
+          nullptr));
   const bool undoable =
       merged ||
-      is(static_cast<std::variant<
-             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
-             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Keep,
-             command::Forget, command::Swap, command::Show, command::Flip, command::Target>*>(
-          nullptr));
+      is(static_cast<
+          std::variant<command::SetSources, command::AddSources, command::RemoveSource,
+                       command::ClearSources, command::MoreSources, command::FewerSources,
+                       command::ShuffleSources, command::Sculpt, command::Keep, command::Forget,
+                       command::Swap, command::Show, command::Flip, command::Target>*>(nullptr));
   return {undoable, merged};
 }
 

@@ -64,8 +64,13 @@ Result<void> SceneScreen::update_data(const Session& session) {
   const ViewerState& state = session.state();
   if (!explored.model) return {};
   if (base_ != explored.model->base) {
-    std::vector<glm::vec3> positions = scene_vectors(explored.model->base->positions);
-    if (auto done = upload_surface(renderer_, *explored.model->base, positions); !done) return done;
+    const PictureData& next = *explored.model->base;
+    std::vector<glm::vec3> positions = scene_vectors(next.positions);
+    // A surface that moves keeps its faces.
+    const bool moves = base_ && !cut_ && base_->faces == next.faces;
+    auto done =
+        moves ? renderer_.move_surface(positions) : upload_surface(renderer_, next, positions);
+    if (!done) return done;
     base_ = explored.model->base;
     data_ = *base_;
     cut_.reset();

@@ -26,6 +26,9 @@ constexpr std::chrono::seconds kLossPause{10};
 /// many.
 constexpr double kBusy = 0.2;
 constexpr double kBusyFrames = 6;
+/// While something that is dragged waits for its answer, software draws frames that show nothing
+/// new so seldom.
+constexpr std::chrono::milliseconds kGivesWay{150};
 /// Milliseconds; above, panels that are only pointed at would lag behind the pointer.
 constexpr double kSlowFrame = 120;
 
@@ -189,11 +192,20 @@ Result<void> WindowLoop::frame() {
   for (const Command& command : out.commands) {
     [[maybe_unused]] const auto done = session_->submit(command);  // failures are in the log
   }
-  return draw_frame(fast_);
+  return gives_way(out) ? Result<void>() : draw_frame(fast_);
+}
+
+/// Whether a frame would only take the cores from the work that the next picture waits for.
+bool WindowLoop::gives_way(const ui::FrameOutput& out) const {
+  return out.dragging && session_->stale() && session_->explored().version == drawn_version_ &&
+         Clock::now() - drawn_at_ < kGivesWay && screen_->device().software;
 }
 
 Result<void> WindowLoop::draw_frame(bool fast) {
   if (auto updated = screen_->update(*session_, area()); !updated) return updated;
+  clock_.begin_drawing();
+  drawn_version_ = session_->explored().version;
+  drawn_at_ = Clock::now();
   const Stopwatch watch;
   auto drawn = screen_->draw(panel_draw(), fast);
   if (!fast) full_frame_ms_ = watch.milliseconds();

@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -29,8 +30,12 @@ class FrameClock {
   bool frame_is_due() const { return frames_left_ > 0; }
 
   void begin_frame() {
-    const Clock::time_point now = Clock::now();
     if (frames_left_ > 0) --frames_left_;
+  }
+
+  /// Those that are laid out and give way to work do not count.
+  void begin_drawing() {
+    const Clock::time_point now = Clock::now();
     // A pause is no slow frame.
     if (!begins_.empty() && now - begins_.back() > std::chrono::seconds(1)) begins_.clear();
     begins_.push_back(now);
@@ -76,6 +81,7 @@ class WindowLoop {
   Result<void> open_screen();
   Result<void> frame();
   Result<void> draw_frame(bool fast);
+  bool gives_way(const ui::FrameOutput& out) const;
   Result<void> after_failure(const Error& error);
   void sleep();
   Result<void> follow_scale();
@@ -101,6 +107,8 @@ class WindowLoop {
   float base_scale_ = 1;  ///< of the monitor or the command line
   FrameClock clock_;
   std::optional<std::chrono::steady_clock::time_point> last_loss_;
+  std::uint64_t drawn_version_ = 0;  ///< of Explored, in the last frame
+  std::chrono::steady_clock::time_point drawn_at_;
   bool fast_ = false;         ///< the last frame was drawn with fewer samples
   double full_frame_ms_ = 0;  ///< of the last frame that was not
 };

@@ -14,19 +14,14 @@ using Triangle = std::array<std::uint32_t, 3>;
 /// taken for one fan.
 constexpr std::uint32_t kMaxCompared = 64;
 
-/// Area vectors of all faces: normals as long as twice the area.
-std::vector<glm::vec3> area_vectors(const SurfaceGeometry& geometry) {
-  std::vector<glm::vec3> vectors(geometry.faces.size());
-  for (std::size_t f = 0; f < vectors.size(); ++f) {
-    const Triangle& t = geometry.faces[f];
-    const glm::dvec3 a = geometry.positions[t[0]];
-    const glm::dvec3 b = geometry.positions[t[1]];
-    const glm::dvec3 c = geometry.positions[t[2]];
-    // Scaled up: the squares of small areas must not vanish in single precision.
-    constexpr double kScale = 1e12;
-    vectors[f] = glm::vec3(glm::cross(b - a, c - a) * kScale);
-  }
-  return vectors;
+/// A normal as long as twice the area.
+glm::vec3 area_vector(std::span<const glm::vec3> positions, const Triangle& t) {
+  const glm::dvec3 a = positions[t[0]];
+  const glm::dvec3 b = positions[t[1]];
+  const glm::dvec3 c = positions[t[2]];
+  // Scaled up: the squares of small areas must not vanish in single precision.
+  constexpr double kScale = 1e12;
+  return glm::vec3(glm::cross(b - a, c - a) * kScale);
 }
 
 glm::vec3 unit(const glm::vec3& v) {
@@ -49,125 +44,199 @@ struct Corners {
   }
 };
 
-/// One normal a vertex may have, and its copies: vertices of the DrawMesh by label.
-struct Group {
-  glm::vec3 normal;
-  std::array<std::uint32_t, 3> copies;
-  unsigned labels = 0;  ///< bit l: there is a copy with label l
-};
-
 std::array<std::int16_t, 4> packed(const glm::vec3& n, int label) {
   const auto part = [](float x) { return static_cast<std::int16_t>(std::lround(x * 32767.0F)); };
   return {part(n.x), part(n.y), part(n.z), static_cast<std::int16_t>((label - 1) * 32767)};
 }
 
-class Builder {
- public:
-  explicit Builder(const SurfaceGeometry& geometry)
-      : geometry_(geometry), corner_group_(3 * geometry.faces.size()) {}
+/// The normals that a vertex may have, and which of them each of its corners takes.
+struct Fan {
+  std::vector<glm::vec3> normals;
+  std::vector<std::uint32_t> of_corner;
 
-  DrawMesh build() {
-    group_corners();
-    mesh_.faces.resize(geometry_.faces.size());
-    mesh_.vertices.reserve(groups_.size() * 3 / 2);
-    mesh_.origin.reserve(groups_.size() * 3 / 2);
-    for (std::uint32_t f = 0; f < geometry_.faces.size(); ++f) place(f);
-    return std::move(mesh_);
-  }
-
- private:
-  void group_corners() {
-    const std::vector<glm::vec3> areas = area_vectors(geometry_);
-    std::vector<glm::vec3> normals(areas.size());
-    std::transform(areas.begin(), areas.end(), normals.begin(), unit);
-    const Corners corners(geometry_);
-    const float crease = std::cos(glm::radians(kCreaseAngle));
-    for (std::size_t v = 0; v < geometry_.positions.size(); ++v) {
-      const std::size_t first_group = groups_.size();
-      if (corners.first[v + 1] - corners.first[v] > kMaxCompared) {
-        group_as_one(corners, v, areas, normals);
-        continue;
-      }
-      for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
-        const std::uint32_t corner = corners.list[i];
-        const glm::vec3& own = normals[corner / 3];
-        glm::vec3 sum(0);
-        for (std::uint32_t j = corners.first[v]; j < corners.first[v + 1]; ++j) {
-          const std::uint32_t other = corners.list[j] / 3;
-          const float cosine = glm::dot(own, normals[other]);
-          if (std::abs(cosine) >= crease) sum += cosine < 0 ? -areas[other] : areas[other];
-        }
-        corner_group_[corner] = group_of(first_group, unit(sum));
-      }
+  /// A corner without a normal takes the first.
+  void add(const glm::vec3& normal) {
+    const bool none = normal == glm::vec3(0);
+    std::size_t g = 0;
+    for (; g < normals.size(); ++g) {
+      if (normals[g] == glm::vec3(0)) normals[g] = normal;
+      if (none || normals[g] == normal) break;
     }
+    if (g == normals.size()) normals.push_back(normal);
+    of_corner.push_back(static_cast<std::uint32_t>(g));
+  }
+};
+
+}  // namespace
+
+struct MovingDrawMesh::State {
+  /// One normal of a vertex, and its copies: vertices of the DrawMesh by label.
+  struct Group {
+    std::array<std::uint32_t, 3> copies{};
+    unsigned labels = 0;  ///< bit l: there is a copy with label l
+  };
+
+  explicit State(const SurfaceGeometry& geometry)
+      : positions(geometry.positions.begin(), geometry.positions.end()),
+        faces(geometry.faces.begin(), geometry.faces.end()),
+        areas(faces.size()),
+        normals(faces.size()),
+        corners(geometry),
+        first_group(positions.size() + 1),
+        corner_group(3 * faces.size()) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f) measure(f);
+    std::vector<glm::vec3> group_normals;
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const auto& [own_normals, of_corner] = look_at(v);
+      for (std::size_t i = 0; i < of_corner.size(); ++i) {
+        corner_group[corners.list[corners.first[v] + i]] = first_group[v] + of_corner[i];
+      }
+      group_normals.insert(group_normals.end(), own_normals.begin(), own_normals.end());
+      first_group[v + 1] = static_cast<std::uint32_t>(group_normals.size());
+    }
+    groups.resize(group_normals.size());
+    mesh.faces.resize(faces.size());
+    mesh.vertices.reserve(groups.size() * 3 / 2);
+    mesh.origin.reserve(groups.size() * 3 / 2);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) place(f, group_normals);
   }
 
-  /// One normal for all corners at a vertex, turned to each face's side.
-  void group_as_one(const Corners& corners, std::size_t v, const std::vector<glm::vec3>& areas,
-                    const std::vector<glm::vec3>& normals) {
-    const std::size_t first_group = groups_.size();
+  void measure(std::uint32_t f) {
+    areas[f] = area_vector(positions, faces[f]);
+    normals[f] = unit(areas[f]);
+  }
+
+  const Fan& look_at(std::size_t v) {
+    fan.normals.clear();
+    fan.of_corner.clear();
+    const std::uint32_t begin = corners.first[v], end = corners.first[v + 1];
+    if (end - begin > kMaxCompared) {
+      look_at_many(begin, end);
+      return fan;
+    }
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const glm::vec3& own = normals[corners.list[i] / 3];
+      glm::vec3 sum(0);
+      for (std::uint32_t j = begin; j < end; ++j) {
+        const std::uint32_t other = corners.list[j] / 3;
+        const float cosine = glm::dot(own, normals[other]);
+        if (std::abs(cosine) >= crease) sum += cosine < 0 ? -areas[other] : areas[other];
+      }
+      fan.add(unit(sum));
+    }
+    return fan;
+  }
+
+  /// One normal for all corners, turned to each face's side.
+  void look_at_many(std::uint32_t begin, std::uint32_t end) {
     glm::vec3 sum(0);
-    for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
+    for (std::uint32_t i = begin; i < end; ++i) {
       const glm::vec3& area = areas[corners.list[i] / 3];
       sum += glm::dot(sum, area) < 0 ? -area : area;
     }
     const glm::vec3 mean = unit(sum);
-    for (std::uint32_t i = corners.first[v]; i < corners.first[v + 1]; ++i) {
-      const bool away = glm::dot(mean, normals[corners.list[i] / 3]) < 0;
-      corner_group_[corners.list[i]] = group_of(first_group, away ? -mean : mean);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      fan.add(glm::dot(mean, normals[corners.list[i] / 3]) < 0 ? -mean : mean);
     }
-  }
-
-  /// The group of the present vertex with this normal (a corner without one takes the first).
-  std::uint32_t group_of(std::size_t first, const glm::vec3& normal) {
-    const bool none = normal == glm::vec3(0);
-    for (std::size_t g = first; g < groups_.size(); ++g) {
-      if (groups_[g].normal == glm::vec3(0)) groups_[g].normal = normal;
-      if (none || groups_[g].normal == normal) return static_cast<std::uint32_t>(g);
-    }
-    groups_.push_back({normal, {}, 0});
-    return static_cast<std::uint32_t>(groups_.size() - 1);
   }
 
   /// Labels the corners of a face in the way that needs the fewest new copies.
-  void place(std::uint32_t f) {
+  void place(std::uint32_t f, const std::vector<glm::vec3>& group_normals) {
     constexpr std::array<Triangle, 6> kOrders = {
         {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
-    std::array<Group*, 3> group{};
-    for (std::size_t k = 0; k < 3; ++k) group[k] = &groups_[corner_group_[3 * f + k]];
-    const auto reused = [&group](const Triangle& order) {
+    const auto reused = [&](const Triangle& order) {
       int count = 0;
-      for (std::size_t k = 0; k < 3; ++k) count += group[k]->labels >> order[k] & 1U;
+      for (std::size_t k = 0; k < 3; ++k) {
+        count += groups[corner_group[3 * f + k]].labels >> order[k] & 1U;
+      }
       return count;
     };
     const Triangle& order = *std::max_element(
         kOrders.begin(), kOrders.end(),
         [&](const Triangle& a, const Triangle& b) { return reused(a) < reused(b); });
     for (std::size_t k = 0; k < 3; ++k) {
-      mesh_.faces[f][k] = copy(*group[k], geometry_.faces[f][k], order[k]);
+      const std::uint32_t group = corner_group[3 * f + k];
+      mesh.faces[f][k] = copy(groups[group], group_normals[group], faces[f][k], order[k]);
     }
   }
 
-  std::uint32_t copy(Group& group, std::uint32_t vertex, std::uint32_t label) {
+  std::uint32_t copy(Group& group, const glm::vec3& normal, std::uint32_t vertex,
+                     std::uint32_t label) {
     if ((group.labels >> label & 1U) == 0) {
       group.labels |= 1U << label;
-      group.copies[label] = static_cast<std::uint32_t>(mesh_.vertices.size());
-      mesh_.vertices.push_back(
-          {geometry_.positions[vertex], packed(group.normal, static_cast<int>(label))});
-      mesh_.origin.push_back(vertex);
+      group.copies[label] = static_cast<std::uint32_t>(mesh.vertices.size());
+      mesh.vertices.push_back({positions[vertex], packed(normal, static_cast<int>(label))});
+      mesh.origin.push_back(vertex);
     }
     return group.copies[label];
   }
 
-  const SurfaceGeometry& geometry_;
-  std::vector<std::uint32_t> corner_group_;
-  std::vector<Group> groups_;
-  DrawMesh mesh_;
+  /// Normals and places of the copies of a vertex. False: its corners share other normals now.
+  bool renew(std::size_t v) {
+    const Fan& now = look_at(v);
+    if (now.normals.size() != first_group[v + 1] - first_group[v]) return false;
+    for (std::size_t i = 0; i < now.of_corner.size(); ++i) {
+      const std::uint32_t corner = corners.list[corners.first[v] + i];
+      if (corner_group[corner] != first_group[v] + now.of_corner[i]) return false;
+    }
+    for (std::size_t g = 0; g < now.normals.size(); ++g) {
+      const Group& group = groups[first_group[v] + g];
+      for (std::uint32_t label = 0; label < 3; ++label) {
+        if ((group.labels >> label & 1U) == 0) continue;
+        mesh.vertices[group.copies[label]] = {positions[v],
+                                              packed(now.normals[g], static_cast<int>(label))};
+      }
+    }
+    return true;
+  }
+
+  std::vector<glm::vec3> positions;
+  std::vector<Triangle> faces;
+  std::vector<glm::vec3> areas, normals;  ///< of faces
+  Corners corners;
+  std::vector<std::uint32_t> first_group;   ///< of each vertex
+  std::vector<std::uint32_t> corner_group;  ///< by 3 f + k
+  std::vector<Group> groups;
+  DrawMesh mesh;
+  Fan fan;  ///< of the vertex that is looked at
+  float crease = std::cos(glm::radians(kCreaseAngle));
 };
 
-}  // namespace
+MovingDrawMesh::MovingDrawMesh(const SurfaceGeometry& geometry)
+    : state_(std::make_unique<State>(geometry)) {}
+MovingDrawMesh::MovingDrawMesh(MovingDrawMesh&&) noexcept = default;
+MovingDrawMesh& MovingDrawMesh::operator=(MovingDrawMesh&&) noexcept = default;
+MovingDrawMesh::~MovingDrawMesh() = default;
 
-DrawMesh build_draw_mesh(const SurfaceGeometry& geometry) { return Builder(geometry).build(); }
+const DrawMesh& MovingDrawMesh::mesh() const { return state_->mesh; }
+
+bool MovingDrawMesh::move(std::span<const glm::vec3> positions) {
+  State& s = *state_;
+  std::vector<char> turned(s.faces.size()), near(s.positions.size());
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (s.positions[v] == positions[v]) continue;
+    s.positions[v] = positions[v];
+    for (std::uint32_t i = s.corners.first[v]; i < s.corners.first[v + 1]; ++i) {
+      turned[s.corners.list[i] / 3] = 1;
+    }
+  }
+  for (std::uint32_t f = 0; f < turned.size(); ++f) {
+    if (turned[f] == 0) continue;
+    s.measure(f);
+    for (const std::uint32_t v : s.faces[f]) near[v] = 1;
+  }
+  for (std::size_t v = 0; v < near.size(); ++v) {
+    if (near[v] != 0 && !s.renew(v)) {
+      *this = MovingDrawMesh({s.positions, s.faces});
+      return false;
+    }
+  }
+  return true;
+}
+
+DrawMesh build_draw_mesh(const SurfaceGeometry& geometry) {
+  return std::move(MovingDrawMesh::State(geometry).mesh);
+}
 
 std::vector<DrawMesh::Vertex> separate_faces(const DrawMesh& mesh) {
   std::vector<DrawMesh::Vertex> vertices;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -35,6 +37,27 @@ inline constexpr float kCreaseAngle = 60;
 /// is from each edge: a vertex is copied when faces need it under several labels (on ordinary
 /// meshes there are about 1.5 copies of each). Cost: O(F).
 DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);
+
+/// The same mesh while its vertices move: only what lies at those that have moved is done again.
+class MovingDrawMesh {
+ public:
+  explicit MovingDrawMesh(const SurfaceGeometry& geometry);
+  MovingDrawMesh(MovingDrawMesh&&) noexcept;
+  MovingDrawMesh& operator=(MovingDrawMesh&&) noexcept;
+  ~MovingDrawMesh();
+
+  /// Equal to build_draw_mesh() of the same positions.
+  const DrawMesh& mesh() const;
+
+  /// Puts the vertices there: as many as there were. True: faces and origins are as before. False:
+  /// there are creases where there were none, or fewer, and all was built again.
+  bool move(std::span<const glm::vec3> positions);
+
+ private:
+  friend DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// The three vertices of every face for itself, 3F: faces may then have values of their own.
 std::vector<DrawMesh::Vertex> separate_faces(const DrawMesh& mesh);

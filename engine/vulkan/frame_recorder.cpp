@@ -71,6 +71,12 @@ void FrameRecorder::set_surface(const DrawMesh& mesh, std::span<const float> val
   marker_count_ = 0;
 }
 
+void FrameRecorder::set_vertices(std::span<const DrawMesh::Vertex> vertices) {
+  device_->update(vertices_, std::as_bytes(vertices));
+  face_vertices_ = {};
+  face_values_ = {};
+}
+
 void FrameRecorder::set_values(std::span<const float> values) {
   device_->update(values_, std::as_bytes(values));
 }

@@ -88,6 +88,8 @@ class FrameRecorder {
 
   /// All that was set on the surface before is gone.
   void set_surface(const DrawMesh& mesh, std::span<const float> values);
+  /// As many as set_surface() had; vertices of separate faces are gone.
+  void set_vertices(std::span<const DrawMesh::Vertex> vertices);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
   void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
   /// Vertices of faces for themselves (separate_faces()) with their values.

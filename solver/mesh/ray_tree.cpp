@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <new>
 #include <span>
@@ -20,6 +21,9 @@ constexpr double kPad = 1e-13;
 
 /// Origins farther out than this (frame units) are moved towards the model along the ray.
 constexpr double kNear = 4;
+
+/// Coordinates of a model that has moved (frame units) up to which it lies nearer than that.
+constexpr double kMaxReach = 2;
 
 /// Components of a direction are taken to be at least this, which moves no ray by as much as kPad.
 constexpr double kMinComponent = 1e-30;
@@ -227,6 +231,42 @@ Result<RayTree> RayTree::build(std::shared_ptr<const TriangleMesh> mesh, const P
                  "the memory ended in the ray tree of " + std::to_string(face_count) + " faces",
                  {"take a mesh with fewer faces"}};
   }
+}
+
+std::optional<RayTree> RayTree::moved(std::shared_ptr<const TriangleMesh> mesh) const {
+  const auto faces = mesh->faces();
+  const auto before = state_->mesh->positions(), after = mesh->positions();
+  const auto whole = std::ranges::count_if(faces, std::not_fn(repeats_corner));
+  if (whole != static_cast<std::ptrdiff_t>(state_->tree.ids.size())) return std::nullopt;
+  std::vector<char> moves(after.size());
+  for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = before[v] != after[v] ? 1 : 0;
+  auto state = std::make_shared<State>(State{std::move(mesh), state_->frame, state_->tree});
+  BoxTree& tree = state->tree;
+  std::vector<char> grows(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {  // children come after their parents
+    BoxNode& node = tree.nodes[i];
+    if (node.count == 0) {
+      grows[i] = grows[node.first] | grows[node.first + 1];
+      if (grows[i] == 0) continue;
+      node.box = tree.nodes[node.first].box;
+      node.box.add(tree.nodes[node.first + 1].box);
+      continue;
+    }
+    const auto ids = std::span(tree.ids).subspan(node.first, node.count);
+    for (const Index f : ids) {
+      for (const Index v : faces[f]) grows[i] = grows[i] | moves[v];
+    }
+    if (grows[i] == 0) continue;
+    node.box = {};
+    for (const Index f : ids) {
+      const std::array<Vec3, 3> corners = state->corners(f);
+      for (const Vec3& corner : corners) {
+        if (!(corner.cwiseAbs().maxCoeff() <= kMaxReach)) return std::nullopt;
+      }
+      node.box.add(box_of(corners));
+    }
+  }
+  return RayTree(std::move(state));
 }
 
 std::optional<RayHit> RayTree::first_hit(const Vec3& origin, const Vec3& direction) const {

@@ -27,6 +27,13 @@ class RayTree {
   static Result<RayTree> build(std::shared_ptr<const TriangleMesh> mesh,
                                const Progress& progress = {});
 
+  /// The same tree over a mesh with the same faces whose vertices are elsewhere: what one that is
+  /// built afresh meets, but for round-off, and as fast while the surface has kept most of its
+  /// shape. Null where this tree has left faces out, and where the mesh reaches far beyond the box
+  /// of the first: then it has to be built. Precondition: check_moved(). Cost: a pass over the
+  /// faces, and the boxes of those that have moved.
+  std::optional<RayTree> moved(std::shared_ptr<const TriangleMesh> mesh) const;
+
   /// The nearest face in front of `origin` along `direction` (any length above 0, finite; model
   /// units), seen from either side; the lowest number among equals. Faces that repeat a corner or
   /// have no area are never met. The weights sum to 1 exactly. Nothing where the ray misses, or is

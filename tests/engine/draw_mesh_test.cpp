@@ -114,6 +114,29 @@ TEST_P(DrawMeshOf, DoesNotDependOnHowNeighboursAreOriented) {
   }
 }
 
+TEST_P(DrawMeshOf, MovesToWhatIsBuiltOfThePositions) {
+  MovingDrawMesh moving(model().geometry());
+  Model bent = model();
+  std::mt19937 random(7);
+  int kept = 0;
+  for (const float reach : {1e-3F, 1e-2F, 0.3F, 1e-3F, 0.0F}) {
+    std::uniform_real_distribution<float> step(-reach, reach);
+    for (std::size_t v = 0; v < bent.positions.size() / 2 + 1; ++v) {
+      bent.positions[v] += glm::vec3(step(random), step(random), step(random));
+    }
+    if (reach == 0) bent = model();
+    kept += moving.move(bent.positions) ? 1 : 0;
+    const DrawMesh built = build_draw_mesh(bent.geometry());
+    ASSERT_EQ(moving.mesh().faces, built.faces) << reach;
+    EXPECT_EQ(moving.mesh().origin, built.origin);
+    for (std::size_t i = 0; i < built.vertices.size(); ++i) {
+      ASSERT_EQ(moving.mesh().vertices[i].position, built.vertices[i].position);
+      ASSERT_EQ(moving.mesh().vertices[i].normal_and_label, built.vertices[i].normal_and_label);
+    }
+  }
+  EXPECT_GT(kept, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, DrawMeshOf, testing::ValuesIn(shapes()),
                          [](const auto& test) { return test.param.name; });
 

@@ -74,6 +74,35 @@ TEST_F(SessionThread, ThePictureFollowsADrag) {
   EXPECT_GT(threaded.explored().a->result.quality.eikonal_error_mean, 0) << "after the drag";
 }
 
+TEST_F(SessionThread, ThePictureFollowsAStroke) {
+  ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
+  ASSERT_TRUE(threaded.finish());
+  const MeshReport& mesh = threaded.explored().model->mesh;
+  const double radius = 0.1 * (mesh.box_max - mesh.box_min).norm();
+  threaded.set_dragging(true);
+  ASSERT_TRUE(threaded.submit(
+      command::Sculpt{{SculptTool::kPull, radius, 0.01, {FacePoint{7, {0.25, 0.25, 0.5}}}}}));
+  int pictures = 0;
+  auto shown = threaded.explored().model;
+  for (int i = 0; i < 4000 && pictures < 10; ++i) {
+    ASSERT_TRUE(
+        threaded.submit(command::ExtendStroke{{FacePoint{7 + i % 300, {0.25, 0.25, 0.5}}}}));
+    std::this_thread::sleep_for(200us);
+    threaded.update();
+    pictures += threaded.explored().model != shown ? 1 : 0;
+    shown = threaded.explored().model;
+  }
+  EXPECT_EQ(pictures, 10) << "work on a surface that has moved on is let finish";
+  threaded.set_dragging(false);
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_FALSE(threaded.stale());
+  run({"open " + small_model()});
+  const Command whole = command::Sculpt{*threaded.state().sculpture.strokes.front()};
+  ASSERT_TRUE(session.submit(whole));
+  EXPECT_TRUE(std::ranges::equal(session.explored().model->model.mesh->positions(),
+                                 threaded.explored().model->model.mesh->positions()));
+}
+
 TEST_F(SessionThread, AFailureLeavesTheLastGoodAnswer) {
   ASSERT_TRUE(threaded.submit(command::Open{small_model()}));
   ASSERT_TRUE(threaded.finish());

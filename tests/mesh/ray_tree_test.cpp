@@ -250,6 +250,47 @@ TEST(RayTree, FindsTheSameAtEveryScaleOfModelAndDirection) {
   }
 }
 
+TEST(RayTree, ThatIsMovedMeetsWhatOneThatIsBuiltMeets) {
+  const MeshPtr mesh = model("gargoyle", 3000);
+  std::vector<Vec3> bent(mesh->positions().begin(), mesh->positions().end());
+  for (Vec3& p : bent) {  // a part of it
+    if (p.y() > 1) p += 0.4 * Vec3(std::sin(4 * p.y()), 0, std::cos(3 * p.x()));
+  }
+  const auto moved = std::make_shared<const TriangleMesh>(*mesh->moved(bent));
+  const auto fitted = tree_of(mesh).moved(moved);
+  ASSERT_TRUE(fitted);
+  const RayTree built = tree_of(moved);
+  std::mt19937 random(kSeed);
+  std::normal_distribution<double> normal;
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 direction(normal(random), normal(random), normal(random));
+    const Vec3 origin = -8 * direction.normalized() + Vec3(normal(random), normal(random), 0);
+    const auto a = fitted->first_hit(origin, direction), b = built.first_hit(origin, direction);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (!a) continue;
+    ++hits;
+    EXPECT_EQ(a->point.face, b->point.face);
+    EXPECT_NEAR(a->distance, b->distance, kRoundOff * a->distance);
+  }
+  EXPECT_GT(hits, 200);
+}
+
+TEST(RayTree, IsNotMovedFarBeyondItsBox) {
+  const MeshPtr mesh = finish(sphere(2));
+  std::vector<Vec3> far(mesh->positions().begin(), mesh->positions().end());
+  far[7] *= 5;
+  EXPECT_FALSE(tree_of(mesh).moved(std::make_shared<const TriangleMesh>(*mesh->moved(far))));
+}
+
+TEST(RayTree, IsNotMovedWhereItHasLeftAFaceOut) {
+  Draft draft = sphere(1);
+  draft.positions.push_back(draft.positions[0]);
+  draft.faces.push_back({0, 1, static_cast<Index>(draft.positions.size()) - 1});  // no area yet
+  const MeshPtr mesh = finish(draft);
+  EXPECT_FALSE(tree_of(mesh).moved(mesh));
+}
+
 TEST(RayTree, SeesSmallPartsOfALargeModelAndFromFarAway) {
   Draft draft = transformed(sphere(2), 1e-6, {500, 0, 0}, false);
   append(draft, transformed(sphere(2), 1, {-500, 0, 0}, false));

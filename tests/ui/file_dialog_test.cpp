@@ -223,10 +223,11 @@ TEST(FileTasks, AreInTheOrderOfTheirPurposes) {
   for (const FilePurpose purpose :
        {FilePurpose::kOpenModel, FilePurpose::kOpenSession, FilePurpose::kSavePicture,
         FilePurpose::kSaveDistances, FilePurpose::kSaveSession, FilePurpose::kSaveLog,
-        FilePurpose::kSaveFigures}) {
+        FilePurpose::kSaveFigures, FilePurpose::kSaveMesh, FilePurpose::kOpenSequence}) {
     EXPECT_EQ(file_task(purpose).purpose, purpose);
   }
   EXPECT_EQ(suggested_name("/a/b.c/gear.stl", file_task(FilePurpose::kSavePicture)), "gear.png");
+  EXPECT_EQ(suggested_name("gear.stl", file_task(FilePurpose::kSaveMesh)), "gear-sculpted.obj");
   EXPECT_EQ(suggested_name("", file_task(FilePurpose::kSaveFigures)), "geotherm.json");
 }
 

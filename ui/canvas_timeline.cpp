@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The timeline of a surface that moves: the bar over the picture, and playing.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/text/text.h"
+#include "ui/action.h"
+#include "ui/canvas.h"
+#include "ui/frame.h"
+#include "ui/widgets.h"
+
+namespace geotherm::ui {
+namespace {
+
+constexpr double kFramesPerSecond = 24;
+
+}  // namespace
+
+bool play(Frame& frame) {
+  const app::Timeline& timeline = frame.state().timeline;
+  const int frames = frame.model() ? frame.model()->frames : 0;
+  if (!timeline.playing || frames == 0) return false;
+  for (const app::Command& command : frame.out.commands) {
+    if (std::holds_alternative<app::command::Play>(command)) return false;  // it ends now
+  }
+  if (!frame.session.failure().empty()) {
+    frame.send(app::command::Play{false});
+    return false;
+  }
+  if (frame.session.stale()) return false;  // whoever works on the frame wakes the window
+  const double now = ImGui::GetTime();
+  if (now - frame.ui.played_at < 1 / kFramesPerSecond) return true;
+  frame.ui.played_at = now;
+  if (timeline.frame + 1 < frames) {
+    frame.send(app::command::ShowFrame{timeline.frame + 1});
+  } else if (timeline.loop) {
+    frame.send(app::command::ShowFrame{0});
+  } else {
+    frame.send(app::command::Play{false});
+  }
+  return false;
+}
+
+void draw_timeline(Frame& frame) {
+  const Rect& canvas = frame.ui.places.canvas;
+  const app::Timeline& timeline = frame.state().timeline;
+  frame.ui.scrubs = false;
+  if (timeline.sequence.empty() || !frame.model() || canvas.width < frame.px(300)) return;
+  frame.section = "Timeline";
+  const float width = canvas.width - frame.px(32);
+  ImGui::SetNextWindowPos({canvas.x + frame.px(16), canvas.y + canvas.height - frame.px(34)},
+                          ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
+  ImGui::Begin("##timeline", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                   ImGuiWindowFlags_NoNavInputs);
+  ImGui::PopStyleVar();
+  const int frames = std::max(1, frame.model()->frames);
+  struct Entry {
+    const char *key, *label;
+    Action action;
+    const char* tip;
+  };
+  const Entry entries[] = {
+      {"previous", "\u25c0", Action::kPreviousFrame, "One frame back (,)."},
+      {"play", timeline.playing ? "pause" : "play", Action::kPlay,
+       "Shows frame after frame, each with its distances (space)."},
+      {"next", "\u25b6", Action::kNextFrame, "One frame on (.)."},
+      {"loop", "loop", Action::kLoop, "Whether the first frame follows the last (l)."}};
+  for (const Entry& entry : entries) {
+    const bool sign = entry.label[0] == '\xe2';
+    const bool on = is_on(frame, entry.action), possible = is_possible(frame, entry.action);
+    if (draw_toggle(frame, {entry.key, entry.label, on, possible}, frame.px(sign ? 30 : 58))) {
+      perform(frame, entry.action);
+    }
+    draw_tip(frame, entry.tip);
+    ImGui::SameLine();
+  }
+  const std::string last = " / " + std::to_string(frames - 1);
+  const float close = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
+  const float room = ImGui::GetContentRegionAvail().x - close - gap;
+  ImGui::SetNextItemWidth(room);
+  int shown = std::min(timeline.frame, frames - 1);
+  const std::string format = "%d" + last;
+  if (ImGui::SliderInt("##frame", &shown, 0, frames - 1, format.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput) &&
+      shown != timeline.frame) {
+    frame.send(app::command::ShowFrame{shown});
+  }
+  frame.mark("frame");
+  frame.ui.scrubs = ImGui::IsItemActive();
+  draw_tip(frame, timeline.sequence);
+  ImGui::SameLine();
+  if (draw_button(frame, "close", "\u00d7", true, close)) {
+    frame.send(app::command::ShowSequence{});
+  }
+  draw_tip(frame, "The model as its file has it.");
+  ImGui::End();
+}
+
+}  // namespace geotherm::ui
