@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/core/text.h"
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
@@ -130,7 +131,15 @@ RawGrid read_npy(std::string_view bytes) {
   const NpyHeader header = read_npy_header(bytes);
   RawGrid grid;
   std::copy(header.shape.rbegin(), header.shape.rend(), grid.size.begin());
+  grid.three_axes = header.shape.size() == 3;
   const std::size_t count = count_samples(grid.size);
+  const std::size_t wanted = count * size_of(header.type), there = bytes.size() - header.begins;
+  if (there > wanted) {
+    throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
+                      counted_text(size_of(header.type), "byte", "bytes") + ", but " +
+                      std::to_string(there) + " bytes follow, " + std::to_string(there - wanted) +
+                      " too many"};
+  }
   grid.values = decode_samples(bytes.substr(header.begins), count, header.type, header.order);
   if (header.fortran) grid.values = in_c_order(grid.values, grid.size);
   grid.type = header.boolean ? RawGrid::Values::kBooleans : values_of(header.type);
