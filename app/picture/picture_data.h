@@ -90,15 +90,16 @@ std::array<float, 3> line_colour(std::string_view name);
 /// Adds a line on the surface, over those that are there. points: model units.
 void add_line(PictureData& data, std::span<const Vec3> points, const std::string& name);
 
-/// Sets the distances; those that are not finite have no value. distances: V.
-void add_distances(PictureData& data, std::span<const double> distances);
+/// Sets the distances; those that are not finite have no value. distances: V. `times`: they are
+/// travel times.
+void add_distances(PictureData& data, std::span<const double> distances, bool times = false);
 
 /// Shows a signed error instead: 0 in the middle of a diverging map, both of its ends equally far.
 /// signed_error: V, model units, not finite where there is none. title: over the colour bar.
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title);
 
 /// Shows a difference of distances instead, in the same way.
-void add_difference(PictureData& data, std::span<const double> difference);
+void add_difference(PictureData& data, std::span<const double> difference, bool times = false);
 
 /// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
 /// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where

@@ -100,10 +100,14 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   model->mesh = inspect_mesh(*mesh);
-  if (const auto& space = model->model.space) {
-    model->mesh.unreferenced_vertices = space->unused_vertices();
-  }
+  describe_space(model->model, model->mesh);
   model->warnings = model->model.notes;
+  if (const auto& space = model->model.space) {
+    model->figures = space->figures();
+    if (std::string unseen = space->unseen(); !unseen.empty()) {
+      model->warnings.push_back({std::move(unseen)});
+    }
+  }
   for (Warning& warning :
        model->model.is_mesh() ? mesh_warnings(model->mesh) : std::vector<Warning>()) {
     model->warnings.push_back(std::move(warning));
