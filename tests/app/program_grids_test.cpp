@@ -108,6 +108,7 @@ TEST_F(ProgramOnGrids, CompareHoldsBackendsAgainstFastMarching) {
   const Json rows = Json::parse(bytes_of(folder.path("rows.json")))["rows"];
   ASSERT_EQ(rows.size(), 2U);
   for (const Json& row : rows) {
+    EXPECT_EQ(row["cells"], json({"info", "maze.npy", "--json", "-"})["model"]["cells"]);
     EXPECT_EQ(row["error_reference"], "fast-marching") << row;
     EXPECT_LE(row["mean_error"].get<double>(), 0.05) << row;
   }
