@@ -66,10 +66,11 @@ fs::path typed_path(const std::string& text, const fs::path& folder) {
 
 namespace {
 
-constexpr std::string_view kModels[] = {".obj",  ".ply",   ".off", ".stl", ".xyz", ".pts",  ".pcd",
-                                        ".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele"};
+constexpr std::string_view kModels[] = {".obj",  ".ply",   ".off", ".stl",  ".xyz", ".pts",  ".pcd",
+                                        ".mesh", ".meshb", ".msh", ".vtk",  ".vtu", ".node", ".ele",
+                                        ".npy",  ".png",   ".vti", ".nrrd", ".nhdr"};
 constexpr std::string_view kPictures[] = {".png"};
-constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp"};
+constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp", ".vtu", ".vti"};
 constexpr std::string_view kSessions[] = {kSessionExtension};
 constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
 constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};

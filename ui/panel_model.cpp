@@ -76,12 +76,24 @@ void draw_details(Frame& frame, const MeshReport& mesh) {
   draw_quality(frame, mesh);
 }
 
+/// A space has figures of its own; those of the mesh are of what is drawn of it.
+void draw_space(Frame& frame, const app::ExploredModel& model) {
+  for (const app::SpaceFigure& figure : model.figures) {
+    if (!figure.row.empty()) draw_value(frame, figure.row.c_str(), figure.text, "", "");
+  }
+  draw_count(frame, "components", model.mesh.components, "Parts that no cell joins.");
+  for (const Warning& warning : model.warnings) {
+    draw_note(sentence(warning), frame.colours().warning);
+  }
+}
+
 void draw_report(Frame& frame, const app::ExploredModel& model) {
   const MeshReport& mesh = model.mesh;
   const std::string& path = model.model.path;
   draw_value(frame, "file", path.empty() ? model.model.name + " (bundled)" : path, "",
              path.empty() ? "Comes with the program." : "");
   draw_count(frame, "vertices", mesh.vertices);
+  if (model.model.space) return draw_space(frame, model);
   draw_count(frame, "faces", mesh.faces);
   draw_count(frame, "components", mesh.components, "Parts without a common vertex.");
   draw_value(frame, "boundary", boundary_text(mesh), "", "Edges with one face.");
@@ -150,15 +162,19 @@ void draw_figures(Frame& frame, const Quality& quality, bool heat) {
       frame, "eikonal error", app::significant(quality.eikonal_error_mean, 3), "",
       "Area-weighted mean of | |\u2207d| \u2212 1 |: 0 for true distances away from where fronts "
       "meet. Falls with finer meshes; grows with t.");
-  draw_value(
-      frame, "below straight line", app::grouped(quality.below_straight_line), "",
-      "Vertices whose distance is below the straight line to the nearest source by more than "
-      "the method's tolerance. Such a distance is wrong, whatever the surface.",
-      warn(quality.below_straight_line > 0));
-  draw_value(frame, "too steep edges", app::grouped(quality.steep_edges), "",
-             "Edges along which the distance differs by more than their length and the method's "
-             "tolerance. It is wrong around them.",
-             warn(quality.steep_edges > 0));
+  if (quality.lines_checked) {
+    draw_value(
+        frame, "below straight line", app::grouped(quality.below_straight_line), "",
+        "Vertices whose distance is below the straight line to the nearest source by more than "
+        "the method's tolerance. Such a distance is wrong, whatever the surface.",
+        warn(quality.below_straight_line > 0));
+  }
+  if (quality.edges_checked) {
+    draw_value(frame, "too steep edges", app::grouped(quality.steep_edges), "",
+               "Edges along which the distance differs by more than their length and the method's "
+               "tolerance. It is wrong around them.",
+               warn(quality.steep_edges > 0));
+  }
   if (!heat) return;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
              "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",

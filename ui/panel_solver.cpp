@@ -35,10 +35,10 @@ void draw_named_choice(Frame& frame, const app::Setting& setting, Value value) {
 std::optional<double> time_now(const Frame& frame) {
   const MethodOptions& options = frame.state().options;
   if (!frame.model() || options.refine != 0) return {};
-  if (!frame.model()->base->volume && frame.model()->mesh.components != 1) return {};
   const app::Answer* answer = frame.answer();
   const HeatMethod* const heat = answer ? answer->method->heat() : nullptr;
-  if (frame.model()->base->volume) return app::time_in_volume(options.time_step, heat);
+  if (frame.model()->model.space) return app::time_in_volume(options.time_step, heat);
+  if (frame.model()->mesh.components != 1) return {};
   if (heat && heat->grading() != 1) return {};  // only a set-up tells
   return app::diffusion_time(options.time_step, frame.model()->mesh);
 }

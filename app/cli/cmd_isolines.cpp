@@ -73,6 +73,17 @@ Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
   return levels;
 }
 
+/// Why there is none.
+Warning no_line(const std::vector<double>& levels, double spacing, const Answer& figures) {
+  const std::string largest = significant(figures.distance.max);
+  if (!levels.empty()) {
+    return {"there is no line: no triangle is crossed by a level, of distances up to " + largest};
+  }
+  return {"there is no line: the largest distance is " + largest + ", the first level " +
+              significant(spacing),
+          {"give a smaller spacing"}};
+}
+
 Json isolines_json(const Answer& figures, const std::vector<double>& levels,
                    const std::vector<Isoline>& lines) {
   Json json = {{"model", model_json(figures.model.name, figures.mesh)},
@@ -158,6 +169,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;
+  PictureSettings picture = asked->picture;
   const auto wanted = levels_in(arguments);
   if (!wanted) return wanted.error();
   const auto check = check_settings(arguments.check);
@@ -180,13 +192,14 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!levels) return levels.error();
   const auto lines = trace_isolines(*figures->model.mesh, figures->result.distances, *levels);
 
-  if (lines.empty()) {
-    figures->warnings.push_back(
-        {"there is no line: the largest distance is " + significant(figures->distance.max)});
-  }
+  const Model& shown = figures->model;
+  face_head_on(shown, arguments.settings, picture);
+  if (lines.empty()) figures->warnings.push_back(no_line(*levels, wanted->spacing, *figures));
+  const std::string unseen = shown.space ? shown.space->unseen() : "";
+  if (!unseen.empty()) figures->warnings.push_back({unseen});
   CommandOutput out{"", figures->warnings, {}};
-  const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines),
-                                        asked->picture, progress, outputs, out);
+  const auto written = write_line_files(arguments.files, picture_of_lines(*figures, lines), picture,
+                                        progress, outputs, out);
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json = outputs.write_text(

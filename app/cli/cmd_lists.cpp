@@ -44,7 +44,7 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   const auto model = load_model(arguments.model, asked->reading, progress);
   if (!model) return model.error();
   MeshReport mesh = inspect_mesh(*model->mesh);
-  if (model->space) mesh.unreferenced_vertices = model->space->unused_vertices();
+  describe_space(*model, mesh);
   CommandOutput out{"", model->notes, {}};
   if (model->is_mesh()) {
     for (Warning& warning : mesh_warnings(mesh)) out.warnings.push_back(std::move(warning));
@@ -54,9 +54,7 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;
 
-  Json described = full_model_json(model->name, mesh);
-  add_domain(*model, described);
-  std::string text = to_text(Json{{"model", std::move(described)},
+  std::string text = to_text(Json{{"model", full_model_json(*model, mesh)},
                                   {"cracks", cracks_json(cracks)},
                                   {"timing_ms", {{"load", model->load_ms}}},
                                   {"warnings", told(out.warnings)}});

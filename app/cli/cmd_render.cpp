@@ -4,6 +4,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
 #include "app/cli/sequence_work.h"
+#include "app/picture/cut_picture.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
@@ -108,11 +109,15 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   figures.model = model->name;
   figures.vertices = mesh->vertex_count();
   figures.faces = mesh->face_count();
+  figures.size = size_in_words(*model);
+  face_head_on(*model, arguments.settings, figures.settings);
   warnings = model->notes;
+  const std::string unseen = model->space ? model->space->unseen() : "";
   PictureData data = picture_of(*mesh, tets_of(*model));
   const View view = figures.settings.view;
   if (sources.empty()) {
-    set_face_values(data, *mesh, view, nullptr);
+    set_view_values(data, *model, view, nullptr);
+    if (!unseen.empty()) warnings.push_back({unseen});
     return data;
   }
   QueryOptions query;
@@ -135,7 +140,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
     return data;
   }
   add_sources(data, *mesh, solved->sources, places_in_cells(solver.model(), solved->sources));
-  add_distances(data, solved->result.distances);
+  add_distances(data, solved->result.distances, {}, measures_time(solved->model));
   data.nearest = solved->result.nearest_source;
   if (view == View::kExactError) {
     const AccuracyReport& report = *solved->error;
@@ -149,8 +154,9 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   if (auto drawn = draw_paths(targets, solver, *solved, data, progress, figures); !drawn) {
     return drawn.error();
   }
+  if (!unseen.empty()) solved->warnings.push_back({unseen});
   warnings = solved->warnings;
-  set_face_values(data, *mesh, view, &solved->result);
+  set_view_values(data, solved->model, view, &solved->result);
   if (shows_arrows(view)) {
     add_fields(data, *mesh, solved->result);
     data.solid = is_solid(*mesh, inspect_mesh(*mesh));
@@ -191,6 +197,27 @@ void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   warnings.push_back({"isolines every " + significant(*asked) +
                           " would be closer together than pixels and are left out",
                       {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
+}
+
+bool shows_faces(const PictureData& data) {
+  return std::ranges::any_of(data.faces, [](const auto& face) {
+    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+  });
+}
+
+/// Says that, and why, a picture is empty.
+void note_empty(const PictureData& data, const PictureSettings& settings,
+                std::vector<Warning>& warnings) {
+  if (!shows_faces(data)) {
+    warnings.push_back({"the picture is empty: there is no face with three corners"});
+  } else if (is_cut(data, settings) && !shows_faces(cut_picture(data, settings).data)) {
+    const bool sliced = settings.slice.has_value();
+    warnings.push_back(
+        {std::string("the picture is empty: ") +
+             (sliced ? "nothing of the model lies on this side of the slice"
+                     : "no cell lies on this side of the share of the distance"),
+         {"try ", sliced ? SettingHint{"slice-at", {"0.5"}} : SettingHint{"peel", {"below:0.5"}}}});
+  }
 }
 
 }  // namespace
@@ -289,6 +316,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   figures.scale = picture_scale(*data, *settings);
   data->caption = caption_of(figures);
   note_scale(figures, out.warnings);
+  note_empty(*data, figures.settings, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
     out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
 #include "geotherm/quality_fields.h"
+#include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
 
 namespace geotherm::app {
@@ -38,7 +40,8 @@ struct WantedFields {
 Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
                                    const std::vector<std::string>& paths);
 
-/// The fields of an answer. Errors: kBadInput where there is no error of it.
+/// The fields of an answer, those of faces on the faces that are drawn of a space. Errors:
+/// kBadInput where there is no error of it.
 Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures);
 
 namespace {
@@ -62,6 +65,10 @@ Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKi
     from = comma + 1;
   }
   return fields;
+}
+
+bool is_of_triangles(QualityField field) {
+  return field == QualityField::kTriangleQuality || field == QualityField::kNonDelaunay;
 }
 
 }  // namespace
@@ -91,7 +98,13 @@ Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
     wanted.fields = *std::move(named);
   }
   for (const std::string& path : paths) {
+    const bool of_tets = io::file_extension(path) == ".vtu";
     for (const QualityField field : wanted.fields) {
+      if (of_tets && !wanted.all && is_of_triangles(field)) {
+        return Error{ErrorCode::kBadInput, "--fields: " + to_text(field) +
+                                               " is of triangles, and " + one_line(path) +
+                                               " holds tets; leave it out, or write .ply or .vtp"};
+      }
       const auto held = check_field(path, described(field));
       if (!held) return about_option(held.error());
     }
@@ -118,7 +131,30 @@ Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& f
       }
       error = figures.error->values;
     }
-    made.push_back(quality_field(field, *figures.model.mesh, figures.result, error));
+    const auto& space = figures.model.space;
+    if (space && is_of_cells(field)) {
+      DataField& of_cells = made.emplace_back(described(field));
+      of_cells.values = cell_field(*space, field, figures.result, space->cells_of_faces());
+    } else {
+      made.push_back(quality_field(field, *figures.model.mesh, figures.result, error));
+    }
+  }
+  return made;
+}
+
+/// The same for a file that holds the tets themselves: what is of triangles is left out.
+std::vector<DataField> fields_of_tets(const WantedFields& wanted, const Answer& figures,
+                                      const std::vector<DataField>& of_faces) {
+  std::vector<Index> cells(static_cast<std::size_t>(figures.model.space->cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  std::vector<DataField> made;
+  for (const DataField& field : of_faces) {
+    if (field.place == DataField::Place::kVertices) made.push_back(field);
+  }
+  for (const QualityField field : wanted.fields) {
+    if (!is_of_cells(field)) continue;
+    made.push_back(described(field));
+    made.back().values = cell_field(*figures.model.space, field, figures.result, cells);
   }
   return made;
 }
@@ -137,30 +173,11 @@ Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   return outputs.expect(arguments.json, "--json");
 }
 
-/// .vtu holds tets alone, .vti grids. Errors: kBadInput, kNotAvailable.
 Result<void> check_outputs_of(const Model& model, const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    if (check_distance_path(path)) continue;
-    if (model.space) {
-      if (auto known = model.space->check_path(path); !known) return known;
-      continue;
-    }
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + " holds " +
-                                           (check_tet_distances_path(path) ? "tets" : "a grid") +
-                                           ", and " + one_line(model.name) +
-                                           " is a surface; write .vtp"};
+    if (auto fits = check_answer_path(model, path); !fits) return about("--output", fits.error());
   }
   return {};
-}
-
-/// A space has files of its own; what else there is holds what is drawn of it.
-Result<void> write_answer(const std::string& path, const Model& model,
-                          std::span<const double> distances, std::span<const Index> nearest,
-                          std::span<const DataField> fields) {
-  if (model.space && model.space->check_path(path)) {
-    return model.space->write(path, distances, nearest, fields);
-  }
-  return write_distances(path, *model.mesh, distances, nearest, fields);
 }
 
 bool needs_nearest(const std::vector<std::string>& paths) {
@@ -195,10 +212,12 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       ->group("Accuracy");
   add_check_options(command, arguments.check);
   command
-      .add_option("--fields", arguments.fields,
-                  "writes numbers beside the distances that say where they are right: all, or some "
-                  "of error (implies --check), eikonal-error, gradient-angle, lost-gradients, "
-                  "triangle-quality, non-delaunay; .ply and .vtp hold all, .csv error alone")
+      .add_option(
+          "--fields", arguments.fields,
+          "writes numbers beside the distances that say where they are right: all, or some "
+          "of error (implies --check), eikonal-error, gradient-angle, lost-gradients, "
+          "triangle-quality, non-delaunay; .ply and .vtp hold all, .vtu those of tets, .csv "
+          "and .vti error alone")
       ->type_name("NAMES");
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
@@ -325,6 +344,10 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
     const std::vector<Index> nearest =
         labels ? figures->result.nearest_source : std::vector<Index>();
     const auto written = outputs.write(path, [&]() -> Result<void> {
+      if (tets_of(figures->model) && io::file_extension(path) == ".vtu") {
+        const auto of_tets = fields_of_tets(*wanted, *figures, *fields);
+        return write_answer(path, figures->model, distances, nearest, of_tets);
+      }
       if (path != "-") return write_answer(path, figures->model, distances, nearest, *fields);
       out.text = io::csv_bytes(distances, nearest, *fields);
       return {};

@@ -141,7 +141,8 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
     return fail(2, problem);
   }
-  CLI::App root("Geodesic distance on triangle meshes by the heat method.", "geotherm");
+  CLI::App root("Geodesic distance by the heat method: on meshes, points, volumes and grids.",
+                "geotherm");
   root.set_version_flag("--version", "geotherm " GEOTHERM_VERSION);
   root.require_subcommand(0, 1);
   root.footer(
@@ -165,7 +166,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   CLI::App* const solve_app =
       root.add_subcommand("solve", "Distance from a source set to every vertex.");
   CLI::App* const info_app =
-      root.add_subcommand("info", "What a mesh is, and what is wrong with it.");
+      root.add_subcommand("info", "What a model is, and what is wrong with it.");
   CLI::App* const compare_app =
       root.add_subcommand("compare", "The same work through several backends, side by side.");
   CLI::App* const render_app =

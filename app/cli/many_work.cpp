@@ -84,7 +84,8 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
   const std::size_t chunk =
       std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
                sources->sets.size());
-  const MeshReport mesh = inspect_mesh(*model->mesh);
+  MeshReport mesh = inspect_mesh(*model->mesh);
+  describe_space(*model, mesh);
   return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
 }
 
@@ -174,7 +175,8 @@ std::string unreached_note(const ManySources& work, std::int64_t unreached) {
   return counted(unreached, "distance is", "distances are") +
          " infinite: no way leads there from the source (" +
          counted(work.mesh.components, "component", "components") + ", " +
-         counted(work.mesh.unreferenced_vertices, "vertex", "vertices") + " in no face)";
+         counted(work.mesh.unreferenced_vertices, "vertex", "vertices") + " in no " +
+         (work.model.space ? work.model.space->words().cell : "face") + ")";
 }
 
 Json many_json(const ManySources& work, const ManyFigures& figures) {

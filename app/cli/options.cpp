@@ -17,8 +17,9 @@ CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArgu
   add_setting_options(command, settings, names_of(SettingGroup::kModel));
   return command
       .add_option("MODEL", model,
-                  "a file (.obj .ply .off .stl; points: .xyz .pts .pcd .ply; tets: .mesh .msh .vtk "
-                  ".vtu .node; grids: .png .npy .vti .nrrd), a bundled model (geotherm models), or "
+                  "a file (.obj .ply .off .stl; points: .xyz .pts .pcd .ply; tets: .mesh .meshb "
+                  ".msh .vtk .vtu .node .ele; grids: .png .npy .vti .nrrd .nhdr), a bundled model "
+                  "(geotherm models), or "
                   "- for standard input with "
                   "--format")
       ->type_name("");
@@ -302,6 +303,13 @@ void complete_bare_fit(std::vector<std::string>& words) {
     if (words[i] != "--fit") continue;
     if (i + 1 == words.size() || !parse<PictureFit>(words[i + 1])) words[i] = "--fit=tight";
   }
+}
+
+void face_head_on(const Model& model, const SettingArguments& typed, PictureSettings& picture) {
+  const auto angles = head_on(model);
+  if (!angles || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation")) return;
+  picture.camera.azimuth = (*angles)[0];
+  picture.camera.elevation = (*angles)[1];
 }
 
 Result<PictureSettings> picture_settings(const ViewerState& asked, const SettingArguments& typed,

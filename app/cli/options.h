@@ -53,6 +53,9 @@ struct SourceArguments {
   bool curve = false;
 };
 
+/// Looks at a grid of one layer head-on, unless it was said from where to look or the model turns.
+void face_head_on(const Model& model, const SettingArguments& typed, PictureSettings& picture);
+
 /// The model as a word of its own, and how it is read.
 CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
 void add_source_options(CLI::App& command, SourceArguments& arguments);

@@ -110,7 +110,7 @@ std::string device_in_words(const DrawingDevice& device) {
 }
 
 std::string caption_of(const PictureFigures& f) {
-  return picture_caption(f.model, f.faces, f.solve ? f.solve->method.get() : nullptr);
+  return picture_caption(f.model, f.size, f.solve ? f.solve->method.get() : nullptr);
 }
 
 std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {

@@ -19,6 +19,7 @@ struct PictureFigures {
   std::vector<std::string> sources;  ///< as typed
   std::string command;               ///< the command line; empty: unknown
   Index vertices = 0, faces = 0;
+  std::string size;             ///< size_in_words()
   std::optional<Answer> solve;  ///< none: drawn without distances
   PictureSettings settings;
   PictureScale scale;

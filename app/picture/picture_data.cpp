@@ -162,8 +162,8 @@ void add_line(PictureData& data, std::span<const Vec3> points, const std::string
   data.lines.push_back(std::move(line));
 }
 
-void add_distances(PictureData& data, std::span<const double> distances,
-                   std::optional<double> unit) {
+void add_distances(PictureData& data, std::span<const double> distances, std::optional<double> unit,
+                   bool times) {
   double most = unit.value_or(0);
   for (const double d : distances) {
     if (!unit && std::isfinite(d)) most = std::max(most, d);
@@ -171,7 +171,8 @@ void add_distances(PictureData& data, std::span<const double> distances,
   data.value_unit = most > 0 ? most : 1;
   data.largest_value = most > 0 ? 1 : 0;
   data.is_signed = false;
-  data.value_title = "distance (model\u00a0units)";  // the unit stays on one line
+  // The unit stays on one line.
+  data.value_title = times ? "travel time (time\u00a0units)" : "distance (model\u00a0units)";
   data.values.clear();
   data.values.reserve(distances.size());
   for (const double d : distances) {
@@ -191,8 +192,9 @@ void add_error(PictureData& data, std::span<const double> signed_error, const st
   }
 }
 
-void add_difference(PictureData& data, std::span<const double> difference) {
-  add_error(data, difference, "d_A \u2212 d_B (model\u00a0units)");
+void add_difference(PictureData& data, std::span<const double> difference, bool times) {
+  add_error(data, difference,
+            times ? "d_A \u2212 d_B (time\u00a0units)" : "d_A \u2212 d_B (model\u00a0units)");
 }
 
 namespace {

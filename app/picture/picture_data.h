@@ -101,16 +101,16 @@ std::array<float, 3> line_colour(std::string_view name);
 void add_line(PictureData& data, std::span<const Vec3> points, const std::string& name);
 
 /// Sets the distances; those that are not finite have no value. distances: V. `unit`: at the end of
-/// the scale, > 0; absent: the largest of them.
+/// the scale, > 0; absent: the largest of them. `times`: they are travel times.
 void add_distances(PictureData& data, std::span<const double> distances,
-                   std::optional<double> unit = {});
+                   std::optional<double> unit = {}, bool times = false);
 
 /// Shows a signed error instead: 0 in the middle of a diverging map, both of its ends equally far.
 /// signed_error: V, model units, not finite where there is none. title: over the colour bar.
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title);
 
 /// Shows a difference of distances instead, in the same way.
-void add_difference(PictureData& data, std::span<const double> difference);
+void add_difference(PictureData& data, std::span<const double> difference, bool times = false);
 
 /// Sets both vector fields of a result with fields (QueryOptions): X from ln u, so that it is there
 /// however small u has become, and the direction of grad phi with the length min(a, 90) / 90, where

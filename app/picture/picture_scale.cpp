@@ -17,7 +17,7 @@ constexpr double kShown = 0.95;
 constexpr double kMaxError = 1;
 
 /// A round number that most values are below.
-double error_scale(const std::vector<double>& values) {
+double error_scale(std::span<const double> values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
                        [](double x) { return std::isfinite(x); });
@@ -28,13 +28,13 @@ double error_scale(const std::vector<double>& values) {
   return most > 0 ? std::min(round_number_above(most), kMaxError) : kMaxError;
 }
 
-double scale_end(QualityField field, const std::vector<double>& values) {
+double scale_end(QualityField field, std::span<const double> values) {
   if (field == QualityField::kNonDelaunay) return 3;
   return field == QualityField::kEikonalError ? error_scale(values) : 1;
 }
 
 /// "(12 faces)", which stays on one line.
-std::string counted_cells(const std::vector<double>& values, const std::string& cell) {
+std::string counted_cells(std::span<const double> values, const std::string& cell) {
   const auto some = std::ranges::count_if(values, [](double x) { return x > 0; });
   return '(' + grouped(some) + "\u00a0" + cell + (some == 1 ? ")" : "s)");
 }
@@ -57,8 +57,7 @@ std::vector<double> values_of_tets(QualityField field, const TetMesh& volume,
   return out;
 }
 
-std::string title_of(QualityField field, const std::vector<double>& values,
-                     const std::string& cell) {
+std::string title_of(QualityField field, std::span<const double> values, const std::string& cell) {
   switch (field) {
     case QualityField::kLostGradients:
       return "no heat direction " + counted_cells(values, cell);
@@ -69,6 +68,15 @@ std::string title_of(QualityField field, const std::vector<double>& values,
     default:
       return "| |\u2207\u03c6| \u2212 1 |";
   }
+}
+
+std::vector<float> to_picture_values(std::span<const double> values) {
+  std::vector<float> out;
+  out.reserve(values.size());
+  for (const double x : values) {
+    out.push_back(std::isfinite(x) ? static_cast<float>(x) : kNoPictureValue);
+  }
+  return out;
 }
 
 }  // namespace
@@ -106,15 +114,25 @@ void set_face_values(PictureData& data, const TriangleMesh& mesh, View view,
   const std::vector<double> made =
       of_tets ? values_of_tets(*field, *data.volume, *answer)
               : quality_field(*field, mesh, answer != nullptr ? *answer : DistanceResult()).values;
-  auto& shown = of_tets ? data.tet_values : data.face_values;
-  shown.reserve(made.size());
-  for (const double x : made) {
-    shown.push_back(std::isfinite(x) ? static_cast<float>(x) : kNoPictureValue);
-  }
+  (of_tets ? data.tet_values : data.face_values) = to_picture_values(made);
   if (of_tets) show_tets(data);
   data.largest_face_value = static_cast<float>(scale_end(*field, made));
   data.face_view = view;
   data.face_title = title_of(*field, made, of_tets ? "tet" : "face");
+}
+
+void set_face_values(PictureData& data, View view, std::span<const double> values,
+                     std::span<const Index> cells, const std::string& name) {
+  const QualityField field = *face_field(view);
+  std::vector<double> once;
+  for (std::size_t f = 0; f < values.size(); ++f) {
+    if (cells[f] != kNoIndex && (f == 0 || cells[f] != cells[f - 1])) once.push_back(values[f]);
+  }
+  data.tet_values.clear();
+  data.face_values = to_picture_values(values);
+  data.largest_face_value = static_cast<float>(scale_end(field, once));
+  data.face_view = view;
+  data.face_title = title_of(field, once, name);
 }
 
 std::optional<double> face_tick_step(View view) {

@@ -35,6 +35,11 @@ bool needs_distances(View view);
 void set_face_values(PictureData& data, const TriangleMesh& mesh, View view,
                      const DistanceResult* answer);
 
+/// The same with values of cells that each have some faces, one after the other. `cells`: F, the
+/// cell of each face; `name`: of a cell.
+void set_face_values(PictureData& data, View view, std::span<const double> values,
+                     std::span<const Index> cells, const std::string& name);
+
 /// Between the marks of a scale of whole numbers; absent: any will do.
 std::optional<double> face_tick_step(View view);
 

@@ -27,8 +27,47 @@ DistanceSummary summarize(std::span<const double> distances) {
   return summary;
 }
 
+Result<void> check_answer_path(const Model& model, const std::string& path) {
+  if (check_distance_path(path)) return {};
+  if (model.space) return model.space->check_path(path);
+  const bool of_tets = static_cast<bool>(check_tet_distances_path(path));
+  if (!of_tets && !check_grid_distances_path(path)) return check_distance_path(path);
+  return Error{ErrorCode::kBadInput,
+               one_line(path) + " holds " + (of_tets ? "tets" : "a grid") + ", and " +
+                   one_line(model.name) + " is a surface",
+               {"write .vtp"}};
+}
+
+Result<void> write_answer(const std::string& path, const Model& model,
+                          std::span<const double> distances, std::span<const Index> nearest,
+                          std::span<const DataField> fields) {
+  if (model.space && model.space->check_path(path)) {
+    return model.space->write(path, distances, nearest, fields);
+  }
+  return write_distances(path, *model.mesh, distances, nearest, fields);
+}
+
 CheckedAnswers checked_answers(const Answer& answer) {
   return {*answer.method, answer.options, {&answer.sources, 1}, {&answer.result.distances, 1}};
+}
+
+void describe_space(const Model& model, MeshSummary& mesh) {
+  if (!model.space) return;
+  mesh.unreferenced_vertices = model.space->unused_vertices();
+  mesh.components = model.space->components();
+}
+
+void describe_space(const Model& model, MeshReport& mesh) {
+  if (!model.space) return;
+  describe_space(model, static_cast<MeshSummary&>(mesh));
+  mesh.box_min = Vec3::Constant(kUnreached);
+  mesh.box_max = -mesh.box_min;
+  const auto positions = model.mesh->positions();
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    if (model.space->used()[v] == 0) continue;
+    mesh.box_min = mesh.box_min.cwiseMin(positions[v]);
+    mesh.box_max = mesh.box_max.cwiseMax(positions[v]);
+  }
 }
 
 std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached) {
@@ -61,6 +100,10 @@ std::vector<Region> regions_of(const SourceSet& sources, std::span<const Index> 
   for (std::size_t i = 0; i < sources.points.size(); ++i) {
     Region& region = regions[groups.of_point[i]];
     if (!region.point) region.point = sources.points[i];
+  }
+  // Points of cells have the last groups.
+  for (std::size_t i = 0, count = sources.cell_points.size(); i < count; ++i) {
+    regions[regions.size() - count + i].in_cell = sources.cell_points[i];
   }
   for (const Index group : groups.of_edge) ++regions[group].edges;
   for (const Index group : nearest) {

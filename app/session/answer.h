@@ -39,8 +39,23 @@ struct Answer {
   std::shared_ptr<const AccuracyReport> replaced = {};  ///< of the poor answer before this one
 };
 
+/// .vtu holds tets alone, .vti grids; what else check_distance_path() knows holds any model.
+/// Errors: kBadInput, kNotAvailable.
+Result<void> check_answer_path(const Model& model, const std::string& path);
+
+/// As write_distances(). A space has files of its own; what else there is holds what is drawn of
+/// it. Precondition: check_answer_path() accepts the path.
+Result<void> write_answer(const std::string& path, const Model& model,
+                          std::span<const double> distances, std::span<const Index> nearest,
+                          std::span<const DataField> fields);
+
 /// The answer as the library checks it; valid as long as the answer.
 CheckedAnswers checked_answers(const Answer& answer);
+
+/// Puts the space's own vertices and components in place of those of what is drawn of it.
+void describe_space(const Model& model, MeshSummary& mesh);
+/// And its box.
+void describe_space(const Model& model, MeshReport& mesh);
 
 /// One sentence for each reason why `unreached` vertices of a surface have no distance.
 std::vector<Warning> unreached_notes(const MeshSummary& mesh, Index unreached);
@@ -53,6 +68,7 @@ Error about_model(const std::string& name, const Error& error);
 struct Region {
   Index label = 0;                    ///< the group (source_groups())
   std::optional<SurfacePoint> point;  ///< the first of the group, where it has one
+  std::optional<CellPoint> in_cell;   ///< where that is a point in a cell
   Index edges = 0;                    ///< of the group
   Index vertices = 0;                 ///< that it is nearest to
 };

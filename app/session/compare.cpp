@@ -217,6 +217,7 @@ CompareRow empty_row(const Model& model, const MethodOptions& solver) {
   row.model = model.name;
   row.vertices = model.mesh->vertex_count();
   row.faces = model.mesh->face_count();
+  if (model.space) row.cells = model.space->cell_count();
   row.method = solver.method;
   if (solver.method == MethodKind::kHeat) row.backend = solver.backend;
   row.status = "ok";

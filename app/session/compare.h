@@ -17,6 +17,7 @@ namespace geotherm::app {
 struct CompareRow {
   std::string model;
   Index vertices = 0, faces = 0;
+  std::optional<Index> cells;  ///< of a space, whose drawn faces are `faces`
   MethodKind method = MethodKind::kHeat;
   std::string backend;  ///< of the heat method; empty for another one
   std::optional<double> setup_ms;

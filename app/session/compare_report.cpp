@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "app/picture/chart.h"
 #include "app/session/compare.h"
 #include "app/session/report.h"
@@ -29,6 +31,7 @@ Json row_json(const CompareRow& row) {
           {"mean_error", figure(row.mean_error)},
           {"max_error", figure(row.max_error)},
           {"error_reference", to_text(row.error_reference)},
+          {"cells", row.cells ? Json(*row.cells) : Json(nullptr)},
           {"status", row.status},
           {"message", told(row.note)}};
 }
@@ -45,6 +48,14 @@ std::string csv_field(const Json& value) {
   return quoted + '"';
 }
 
+Index count_of(const CompareRow& row) { return row.cells.value_or(row.faces); }
+
+/// What is counted beside the models.
+const char* counted_in(std::span<const CompareRow> rows) {
+  const auto of_space = [](const CompareRow& row) { return row.cells.has_value(); };
+  return std::ranges::any_of(rows, of_space) ? "cells" : "faces";
+}
+
 std::string cell(const std::optional<double>& value) { return value ? milliseconds(*value) : "-"; }
 
 }  // namespace
@@ -52,7 +63,7 @@ std::string cell(const std::optional<double>& value) { return value ? millisecon
 std::string compare_table(const Machine& machine, std::span<const CompareRow> rows) {
   using Align = TextTable::Align;
   TextTable table({{"model", Align::kLeft},
-                   {"faces", Align::kRight},
+                   {counted_in(rows), Align::kRight},
                    {"solver", Align::kLeft},
                    {"pre-factorisation ms", Align::kRight},
                    {"solve ms", Align::kRight},
@@ -69,7 +80,7 @@ std::string compare_table(const Machine& machine, std::span<const CompareRow> ro
     const std::string range = row.query_ms_min
                                   ? cell(row.query_ms_min) + " - " + cell(row.query_ms_max)
                                   : std::string("-");
-    table.add_row({same_model ? "" : one_line(row.model), same_model ? "" : grouped(row.faces),
+    table.add_row({same_model ? "" : one_line(row.model), same_model ? "" : grouped(count_of(row)),
                    row.name(), cell(row.setup_ms), cell(row.query_ms_median), range,
                    cell(row.batch_query_ms), cell(row.factor_mb),
                    row.status != "ok"   ? row.status
@@ -136,7 +147,7 @@ std::string figure_cell(const std::optional<double>& value) {
 std::string table_row(const CompareRow& row) {
   const bool ok = row.status == "ok";
   std::string out = "<tr><td class=name>" + escaped(one_line(row.model)) + "</td><td>" +
-                    grouped(row.faces) + "</td><td class=name>" + escaped(row.name()) + "</td>";
+                    grouped(count_of(row)) + "</td><td class=name>" + escaped(row.name()) + "</td>";
   for (const auto* value : {&row.setup_ms, &row.query_ms_median, &row.batch_query_ms,
                             &row.factor_mb, &row.peak_rss_mb}) {
     out += figure_cell(*value);
@@ -184,7 +195,9 @@ std::string compare_html(const Machine& machine, std::span<const CompareRow> row
   out +=
       "<h2>Figures</h2>\n<p>Differences are relative to the reference's largest distance; "
       "errors are held against a more accurate method.</p>\n"
-      "<div class=scroll><table><thead><tr><th class=name>model</th><th>faces</th>"
+      "<div class=scroll><table><thead><tr><th class=name>model</th><th>" +
+      std::string(counted_in(rows)) +
+      "</th>"
       "<th class=name>solver</th><th>pre-factorisation ms</th><th>solve ms</th>"
       "<th>batch ms/source</th><th>factor MB</th><th>peak MB</th><th>max difference</th>"
       "<th>mean error</th><th>max error</th></tr>"

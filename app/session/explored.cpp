@@ -79,15 +79,15 @@ namespace {
 
 std::string caption_of(const Explored& explored, Shown shown) {
   const Model& model = explored.model->model;
-  const Index faces = model.mesh->face_count();
+  const std::string size = size_in_words(model);
   if (!explored.b) {
-    return picture_caption(model.name, faces, explored.a ? explored.a->method.get() : nullptr);
+    return picture_caption(model.name, size, explored.a ? explored.a->method.get() : nullptr);
   }
   if (shown != Shown::kDifference) {
-    return picture_caption(model.name, faces, shown_answer(explored, shown)->method.get()) +
+    return picture_caption(model.name, size, shown_answer(explored, shown)->method.get()) +
            (shown == Shown::kB ? " (B)" : " (A)");
   }
-  return picture_caption(model.name, faces, nullptr) +
+  return picture_caption(model.name, size, nullptr) +
          ", A: " + method_caption(*explored.a->method) +
          ", B: " + method_caption(*explored.b->method);
 }
@@ -103,9 +103,9 @@ void set_answer(PictureData& data, const Explored& explored, Shown shown, View v
       add_error(data, answer.error->values, error_title(*answer.error));
     }
   } else if (shown == Shown::kDifference && explored.difference && !face_field(view)) {
-    add_difference(data, explored.difference->values);
+    add_difference(data, explored.difference->values, measures_time(model));
   } else {
-    add_distances(data, answer.result.distances);
+    add_distances(data, answer.result.distances, {}, measures_time(model));
   }
   if (shows_arrows(view) && !answer.result.log_heat.empty()) {
     add_fields(data, mesh, answer.result);
@@ -117,6 +117,19 @@ void set_answer(PictureData& data, const Explored& explored, Shown shown, View v
 bool shows_arrows(View view) { return view == View::kHeatGradient || view == View::kGradientError; }
 
 bool needs_fields(View view) { return shows_arrows(view) || view == View::kLostGradients; }
+
+void set_view_values(PictureData& data, const Model& model, View view,
+                     const DistanceResult* answer) {
+  const auto field = face_field(view);
+  const bool lacks = answer == nullptr || (field && needs_heat(*field) && answer->log_heat.empty());
+  // Those of tets are shown inside as well.
+  if (!model.space || data.volume || !field || !needs_distances(view) || lacks) {
+    return set_face_values(data, *model.mesh, view, answer);
+  }
+  const std::vector<Index> cells = model.space->cells_of_faces();
+  set_face_values(data, view, cell_field(*model.space, *field, *answer, cells), cells,
+                  model.space->words().cell);
+}
 
 void set_explored(PictureData& data, const Explored& explored, Shown shown, View view) {
   data.sources.clear();
@@ -131,12 +144,11 @@ void set_explored(PictureData& data, const Explored& explored, Shown shown, View
   data.nearest.clear();
   if (explored.a) data.nearest = explored.a->result.nearest_source;
   data.lines.clear();
-  const TriangleMesh& mesh = *explored.model->model.mesh;
   if (shown != Shown::kA && !explored.b) shown = Shown::kA;
   data.caption = caption_of(explored, shown);
   const Answer* answer = shown_answer(explored, shown);
   if (answer != nullptr) set_answer(data, explored, shown, view, *answer);
-  set_face_values(data, mesh, view, answer != nullptr ? &answer->result : nullptr);
+  set_view_values(data, explored.model->model, view, answer != nullptr ? &answer->result : nullptr);
 }
 
 PictureData picture_of(const Explored& explored, Shown shown, View view) {

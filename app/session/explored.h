@@ -23,6 +23,7 @@ struct ExploredModel {
   Model model;
   MeshReport mesh;
   std::vector<Warning> warnings;            ///< about file and mesh, one sentence each
+  std::vector<SpaceFigure> figures;         ///< of a space
   std::shared_ptr<const PictureData> base;  ///< without a solve
   std::shared_ptr<const RayTree> rays;      ///< null: not made yet
   int frames = 0;                           ///< of the sequence; 0: there is none
@@ -85,6 +86,10 @@ bool shows_arrows(View view);
 
 /// Whether a view needs u (QueryOptions::fields).
 bool needs_fields(View view);
+
+/// set_face_values() of a model: those of its cells where it is a space.
+void set_view_values(PictureData& data, const Model& model, View view,
+                     const DistanceResult* answer);
 
 /// Sets everything of a picture but the mesh: values, sources, fields, caption. `data` holds the
 /// model's base or has been set before.

@@ -53,10 +53,14 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
 /// What is to be said about a model's mesh.
 void describe(ExploredModel& model) {
   model.mesh = inspect_mesh(*model.model.mesh);
-  if (const auto& space = model.model.space) {
-    model.mesh.unreferenced_vertices = space->unused_vertices();
-  }
+  describe_space(model.model, model.mesh);
   model.warnings = model.model.notes;
+  if (const auto& space = model.model.space) {
+    model.figures = space->figures();
+    if (std::string unseen = space->unseen(); !unseen.empty()) {
+      model.warnings.push_back({std::move(unseen)});
+    }
+  }
   for (Warning& warning :
        model.model.is_mesh() ? mesh_warnings(model.mesh) : std::vector<Warning>()) {
     model.warnings.push_back(std::move(warning));

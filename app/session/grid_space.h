@@ -30,7 +30,13 @@ class GridSpace final : public Space {
   std::vector<Index> corners_of(Index cell) const override;
   std::array<Index, 3> size() const override { return grid_->size; }
   bool has_walls() const override { return true; }
+  bool measures_time() const override { return !lattice_->is_uniform(); }
   std::string described() const override;
+  std::vector<SpaceFigure> figures() const override;
+  Index components() const override;
+  std::vector<Index> cells_of_faces() const override;
+  Vec3 gradient_on(Index cell, std::span<const double> values) const override;
+  std::string unseen() const override;
   std::vector<Index> boundary_vertices() const override;
   Result<PlacedPoint> closest_point(const Vec3& place) const override;
   Result<std::shared_ptr<const DistanceMethod>> build_method(
@@ -42,6 +48,10 @@ class GridSpace final : public Space {
 
  private:
   GridSpace(std::shared_ptr<const GridLattice> lattice, std::string meaning);
+  /// add(corners, cell) for each face that is drawn.
+  template <class Add>
+  void for_each_face(const Add& add) const;
+  Index lone_edges() const;
 
   std::shared_ptr<const Grid> grid_;
   std::shared_ptr<const GridLattice> lattice_;

@@ -259,9 +259,9 @@ std::vector<Setting> method_settings() {
       {.name = "refine",
        .kind = kNumber,
        .value_name = "N",
-       .help =
-           "cuts each face into four N times, up to 6, before anything is solved: 4^N times the "
-           "faces, memory and time; the output keeps the model's vertices",
+       .help = "cuts each face of a mesh into four N times, up to 6, before anything is solved: "
+               "4^N times the "
+               "faces, memory and time; the output keeps the model's vertices",
        .detail = "Each time there are four times as many faces to solve on, and less error; the "
                  "distances shown are those at the model's own vertices.",
        .get = [](const State& s) { return std::to_string(s.options.refine); },

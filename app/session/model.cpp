@@ -77,7 +77,7 @@ Result<Model> model_of_polygons(const std::string& path, const std::string& form
   auto polygons = read_polygons(path, format, &notes);
   if (!polygons) return polygons.error();
   auto space = PolygonSpace::build(*std::move(polygons));
-  if (!space) return space.error();
+  if (!space) return about(one_line(path), space.error());
   Model model{std::move(name), path, (*space)->triangles(), 0, {}};
   for (std::string& note : notes) model.notes.push_back({std::move(note)});
   model.space = *std::move(space);
@@ -146,7 +146,9 @@ Result<Model> read_model(const std::string& path, const std::string& name,
   if (auto fits = check_reading(reading, domain, holds); !fits) return fits.error();
   const auto with = [&](auto file, auto make) -> Result<Model> {
     if (!file) return file.error();
-    return make(*std::move(file), name, path);
+    Result<Model> model = make(*std::move(file), name, path);
+    if (!model) return about(one_line(path), model.error());
+    return model;
   };
   switch (domain) {
     case ModelDomain::kTets:
@@ -173,6 +175,11 @@ Result<Model> read_model(const std::string& path, const std::string& name,
   auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
   if (file) return model_of(*std::move(file), name, path, 0);
   if (file.error().code != ErrorCode::kNotAvailable || !reading.format.empty()) return file.error();
+  // One of tets after all, or the reader of these says what else it holds.
+  auto tets = read_tets(path);
+  if (tets || tets.error().code != ErrorCode::kNotAvailable) {
+    return with(std::move(tets), model_of_volume);
+  }
   return Error{
       ErrorCode::kNotAvailable,
       file.error().message,
@@ -308,6 +315,23 @@ std::vector<std::filesystem::path> folders() {
 
 std::string_view domain_name(const Model& model) {
   return model.space ? model.space->words().domain : model.from_points ? "points" : "triangles";
+}
+
+std::string size_in_words(const Model& model) {
+  if (model.space) {
+    const SpaceWords& words = model.space->words();
+    return counted(model.space->cell_count(), words.cell, words.cells);
+  }
+  if (model.from_points) return counted(model.mesh->vertex_count(), "point", "points");
+  return counted(model.mesh->face_count(), "face", "faces");
+}
+
+std::optional<std::array<double, 2>> head_on(const Model& model) {
+  if (!model.space) return std::nullopt;
+  const std::array<Index, 3> size = model.space->size();  // zeros where it is no grid
+  if (std::ranges::count(size, 1) != 1) return std::nullopt;
+  constexpr std::array<std::array<double, 2>, 3> kAlong = {{{90, 0}, {0, 90}, {0, 0}}};
+  return kAlong[static_cast<std::size_t>(std::ranges::find(size, 1) - size.begin())];
 }
 
 std::vector<Vec3> places_in_cells(const Model& model, const SourceSet& sources) {

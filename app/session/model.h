@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -93,6 +94,18 @@ struct BundledModel {
 
 /// "triangles", "points" or what its space is called: what a model's file holds.
 std::string_view domain_name(const Model& model);
+
+/// What it consists of: "4,000 faces", "2,500 tets", "800 points".
+std::string size_in_words(const Model& model);
+
+/// Whether its answers are travel times.
+inline bool measures_time(const Model& model) {
+  return model.space && model.space->measures_time();
+}
+
+/// From where a grid of one layer is seen head-on, azimuth and elevation in degrees; nothing for
+/// other models.
+std::optional<std::array<double, 2>> head_on(const Model& model);
 
 /// Where the sources in cells of its space are, model units.
 std::vector<Vec3> places_in_cells(const Model& model, const SourceSet& sources);

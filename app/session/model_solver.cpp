@@ -26,6 +26,18 @@ const ReadyMethod* find_in(const std::vector<ReadyMethod>& all, const MethodOpti
   return known == all.end() ? nullptr : &*known;
 }
 
+/// The library names methods of surfaces as a way out; in a space its own is one.
+void name_rival(const Space& space, std::vector<Warning>& warnings) {
+  for (Warning& warning : warnings) {
+    for (auto& part : warning.hint) {
+      auto* const setting = std::get_if<SettingHint>(&part);
+      if (setting != nullptr && setting->name == "method") {
+        setting->values = {to_text(space.rival())};
+      }
+    }
+  }
+}
+
 }  // namespace
 
 ModelSolver::ModelSolver(Model model, Use use) : model_(std::move(model)), use_(use) {}
@@ -159,6 +171,7 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
   add(answer.warnings, answer.method->warnings());
   add(answer.warnings, sources.warnings);
   add(answer.warnings, answer.result.warnings);
+  if (model_.space) name_rival(*model_.space, answer.warnings);
   return answer;
 }
 
@@ -193,6 +206,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
         if (summary_) return;
         const Stopwatch watch;
         summary_ = summarize_mesh(*model_.mesh, checks ? std::max(1, threads - 1) : threads);
+        describe_space(model_, *summary_);
         answer->report_ms = watch.milliseconds();
       });
   if (!report) return report.error();

@@ -21,14 +21,15 @@ std::string key_of(const Setting& setting);
 Json model_json(const std::string& name, const MeshSummary& mesh);
 
 /// Says what the model holds where that is no surface: "domain", and of a volume "tets". Faces and
-/// edges are those of its border, or of the triangles between points.
+/// edges of a solve are those of its border, or of the triangles between points.
 void add_domain(const Model& model, Json& json);
 
-/// Those and all others of the mesh report.
-Json full_model_json(const std::string& name, const MeshReport& mesh);
+/// Those and all others of the mesh report; of a space its own.
+Json full_model_json(const Model& model, const MeshReport& mesh);
 
-/// A vertex id, or {"face", "weights"}.
+/// A vertex id, {"face", "weights"}, or {"cell", "weights"}.
 Json point_json(const SurfacePoint& point);
+Json point_json(const CellPoint& point);
 
 /// Vertices as ids (ascending, ends of edges included), points in faces as {"face", "weights"}.
 Json sources_json(const SourceSet& sources);

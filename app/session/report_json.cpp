@@ -77,7 +77,8 @@ Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
 }
 
 Json quality_json(const Quality& q, bool heat) {
-  const auto of_heat = [heat](auto value) { return heat ? Json(value) : Json(nullptr); };
+  const auto where = [](bool known, auto value) { return known ? Json(value) : Json(nullptr); };
+  const auto of_heat = [&](auto value) { return where(heat, value); };
   return {{"heat_residual", of_heat(q.heat_residual)},
           {"poisson_residual", of_heat(q.poisson_residual)},
           {"max_source_distance", q.max_source_distance},
@@ -87,10 +88,10 @@ Json quality_json(const Quality& q, bool heat) {
           {"iterations_poisson", of_heat(q.iterations_poisson)},
           {"clamped_vertices", of_heat(q.clamped_vertices)},
           {"clamped_reach", of_heat(q.clamped_reach)},
-          {"below_straight_line", q.below_straight_line},
-          {"most_below_straight_line", q.most_below_straight_line},
-          {"steep_edges", q.steep_edges},
-          {"steepest_edge", q.steepest_edge}};
+          {"below_straight_line", where(q.lines_checked, q.below_straight_line)},
+          {"most_below_straight_line", where(q.lines_checked, q.most_below_straight_line)},
+          {"steep_edges", where(q.edges_checked, q.steep_edges)},
+          {"steepest_edge", where(q.edges_checked, q.steepest_edge)}};
 }
 
 /// Offsets in the order of `sources`: vertices ascending, then points in faces.
@@ -165,8 +166,35 @@ void add_domain(const Model& model, Json& json) {
   if (const auto size = model.space->size(); size[0] > 0) json["size"] = size;
 }
 
-Json full_model_json(const std::string& name, const MeshReport& mesh) {
-  Json json = model_json(name, mesh);
+namespace {
+
+/// The figures of a space; those of the faces that are drawn of it stand under "drawn".
+Json space_json(const Model& model, const MeshReport& mesh) {
+  Json json = {{"name", model.name}, {"vertices", mesh.vertices}};
+  add_domain(model, json);
+  for (const SpaceFigure& figure : model.space->figures()) {
+    json[figure.key] = std::visit([](const auto& value) { return Json(value); }, figure.value);
+  }
+  json.update({{"components", mesh.components},
+               {"unreferenced_vertices", mesh.unreferenced_vertices},
+               {"duplicate_positions", mesh.duplicate_positions},
+               {"box_min", vector_json(mesh.box_min)},
+               {"box_max", vector_json(mesh.box_max)},
+               {"drawn",
+                {{"faces", mesh.faces},
+                 {"edges", mesh.edges},
+                 {"boundary_edges", mesh.boundary_edges},
+                 {"boundary_loops", mesh.boundary_loops},
+                 {"area", mesh.area}}}});
+  return json;
+}
+
+}  // namespace
+
+Json full_model_json(const Model& model, const MeshReport& mesh) {
+  if (model.space) return space_json(model, mesh);
+  Json json = model_json(model.name, mesh);
+  add_domain(model, json);
   json.update({{"edges", mesh.edges},
                {"edge_components", mesh.edge_components},
                {"boundary_loops", mesh.boundary_loops},
@@ -204,13 +232,17 @@ Json point_json(const SurfacePoint& point) {
   return {{"face", point.face}, {"weights", point.weights}};
 }
 
+Json point_json(const CellPoint& point) {
+  return {{"cell", point.cell}, {"weights", point.weights}};
+}
+
 Json sources_json(const SourceSet& sources) {
   Json json = vertices_of(sources);
   for (const SurfacePoint& point : sources.points) {
     if (!point.is_vertex()) json.push_back(point_json(point));
   }
   for (const CellPoint& point : sources.cell_points) {
-    json.push_back({{"cell", point.cell}, {"weights", point.weights}});
+    json.push_back(point_json(point));
   }
   return json;
 }
@@ -220,6 +252,7 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
   for (const Region& region : regions_of(sources, nearest)) {
     Json one = {{"label", region.label}, {"vertices", region.vertices}};
     if (region.point) one["source"] = point_json(*region.point);
+    if (region.in_cell) one["source"] = point_json(*region.in_cell);
     if (region.edges > 0) one["source_edges"] = region.edges;
     json.push_back(std::move(one));
   }

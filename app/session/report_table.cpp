@@ -19,8 +19,9 @@ TextTable two_columns() {
 std::string ms(double value) { return milliseconds(value) + " ms"; }
 std::string mb(double value) { return milliseconds(value) + " MB"; }
 
-/// `other`: the method works on other cells than the faces of the mesh.
-std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, bool other) {
+/// `width`: what t is in squares of; `other`: that is not the mean edge of the faces of the mesh.
+std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, bool other,
+                          const std::string& width) {
   const TimeStep& step = method.options().time_step;
   const std::string factor = significant(step.factor);
   const auto [least, most] = method.t_range();
@@ -37,7 +38,7 @@ std::string time_in_words(const HeatMethod& method, const MeshSummary& mesh, boo
   switch (step.rule) {
     case TimeRule::kMeanEdge:
       return significant(method.t()) + " = " + significant(step.factor * method.grading()) +
-             " h^2, mean edge h = " +
+             " h^2, " + width + " h = " +
              significant(other_edge ? std::sqrt(method.t() / method.relative_t())
                                     : mesh.mean_edge_length) +
              for_sizes + of;
@@ -108,8 +109,9 @@ void add_heat_rows(TextTable& table, const Answer& figures, const HeatMethod& me
   const HeatOptions& options = method.options();
   table.add_row({"backend", figures.result.backend + ", " +
                                 counted(thread_count(options.threads), "thread", "threads")});
-  table.add_row({"t", time_in_words(method, mesh,
-                                    figures.options.refine > 0 || figures.model.space != nullptr)});
+  const auto& space = figures.model.space;
+  table.add_row({"t", time_in_words(method, mesh, figures.options.refine > 0 || space,
+                                    space ? space->words().width : "mean edge")});
   table.add_row({"method", to_text(options.constraint) + ", heat " + to_text(options.heat) +
                                ", boundary " + to_text(method.boundary()) + ", " +
                                to_text(options.variant) + ", " + to_text(options.precision) +
@@ -137,10 +139,19 @@ void add_times(TextTable& table, const Answer& f) {
   table.add_row({"memory", mb(f.method->memory_mb()) + " factors, " + mb(f.peak_rss_mb) + " peak"});
 }
 
+/// What was looked at; empty where that is nothing.
 std::string bounds_in_words(const Quality& q) {
-  if (q.below_straight_line == 0 && q.steep_edges == 0) return "kept";
-  return counted(q.below_straight_line, "vertex", "vertices") + " below the straight line, " +
-         counted(q.steep_edges, "edge", "edges") + " too steep";
+  if (q.below_straight_line == 0 && q.steep_edges == 0) {
+    if (q.lines_checked && q.edges_checked) return "kept";
+    return q.lines_checked ? "no vertex below the straight line" : "";
+  }
+  std::vector<std::string> broken;
+  if (q.lines_checked) {
+    broken.push_back(counted(q.below_straight_line, "vertex", "vertices") +
+                     " below the straight line");
+  }
+  if (q.edges_checked) broken.push_back(counted(q.steep_edges, "edge", "edges") + " too steep");
+  return joined(broken);
 }
 
 }  // namespace
@@ -152,9 +163,13 @@ std::string solve_table(const Answer& f) {
   std::string model = one_line(f.model.name) + ": ";
   if (const auto& space = f.model.space) {
     const SpaceWords& words = space->words();
-    model += counted(space->cell_count(), words.cell, words.cells) + "; " + words.drawn + ": ";
+    model += counted(f.mesh.vertices, "vertex", "vertices") + ", " +
+             counted(space->cell_count(), words.cell, words.cells) + ", " +
+             counted(f.mesh.components, "component", "components");
+  } else {
+    model += mesh_in_words(f.mesh);
   }
-  table.add_row({"model", model + mesh_in_words(f.mesh)});
+  table.add_row({"model", model});
   if (heat != nullptr) {
     add_heat_rows(table, f, *heat);
   } else {
@@ -167,14 +182,21 @@ std::string solve_table(const Answer& f) {
   }
   table.add_row({"sources", sources_in_words(f.sources)});
   add_times(table, f);
-  table.add_row({"distance", distance_in_words(f.distance, f.mesh.vertices)});
+  const bool time = f.model.space && f.model.space->measures_time();
+  table.add_row(
+      {time ? "travel time" : "distance", distance_in_words(f.distance, f.mesh.vertices)});
   std::string gradient =
       "| |grad d| - 1 | = " + significant(q.eikonal_error_mean, 2) + " on average";
   if (heat != nullptr) {
-    gradient += ", " + counted(q.zero_gradient_faces, "face", "faces") + " without direction";
+    const auto& space = f.model.space;
+    gradient += ", " +
+                counted(q.zero_gradient_faces, space ? space->words().cell : "face",
+                        space ? space->words().cells : "faces") +
+                " without direction";
   }
   table.add_row({"gradient", gradient});
-  table.add_row({"bounds", bounds_in_words(q)});
+  const std::string bounds = bounds_in_words(q);
+  if (!bounds.empty()) table.add_row({"bounds", bounds});
   if (heat != nullptr) table.add_row({"residuals", residuals_in_words(q)});
   constexpr double kRoundOff = 1e-9;
   if (q.max_source_distance > kRoundOff * f.distance.max) {
@@ -185,24 +207,45 @@ std::string solve_table(const Answer& f) {
   return table.text();
 }
 
+namespace {
+
+std::string vector_in_words(const Vec3& v) {
+  return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
+}
+
+/// `cell`: "face", or what the vertices of a space belong to.
+std::string vertices_in_words(const MeshReport& mesh, const std::string& cell) {
+  return grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) + " in no " + cell +
+         ", " + grouped(mesh.duplicate_positions) + " where another one lies)";
+}
+
+/// The figures of a space: what is drawn of it has figures of no interest.
+std::string space_table(const Model& model, const MeshReport& mesh) {
+  const Space& space = *model.space;
+  TextTable table = two_columns();
+  table.add_row({"model", one_line(model.name)});
+  table.add_row({"domain", space.described()});
+  table.add_row({"vertices", vertices_in_words(mesh, space.words().cell)});
+  for (const SpaceFigure& figure : space.figures()) {
+    if (!figure.row.empty()) table.add_row({figure.row, figure.text});
+  }
+  table.add_row({"components", grouped(mesh.components)});
+  table.add_row({"box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max)});
+  table.add_row({"load", ms(model.load_ms)});
+  return table.text();
+}
+
+}  // namespace
+
 std::string info_table(const Model& model, const MeshReport& mesh) {
+  if (model.space) return space_table(model, mesh);
   TextTable table = two_columns();
   const auto row = [&table](const char* name, std::string value) {
     table.add_row({name, std::move(value)});
   };
-  const auto vector = [](const Vec3& v) {
-    return "(" + significant(v[0]) + ", " + significant(v[1]) + ", " + significant(v[2]) + ")";
-  };
   row("model", one_line(model.name));
-  if (model.space) {
-    row("domain", model.space->described());
-  } else if (model.from_points) {
-    row("domain", "points; faces and edges are those between them");
-  }
-  row("vertices",
-      grouped(mesh.vertices) + " (" + grouped(mesh.unreferenced_vertices) +
-          (model.space ? std::string(" in no ") + model.space->words().cell : " in no face") +
-          ", " + grouped(mesh.duplicate_positions) + " where another one lies)");
+  if (model.from_points) row("domain", "points; faces and edges are those between them");
+  row("vertices", vertices_in_words(mesh, "face"));
   row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
                    grouped(mesh.duplicate_faces) + " duplicate, " +
                    grouped(mesh.inconsistent_faces) + " turned against their neighbours)");
@@ -220,7 +263,7 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
   row("edge length", "mean " + significant(mesh.mean_edge_length) + ", from " +
                          significant(mesh.shortest_edge) + " to " + significant(mesh.longest_edge));
   row("area", significant(mesh.area));
-  row("box", vector(mesh.box_min) + " to " + vector(mesh.box_max));
+  row("box", vector_in_words(mesh.box_min) + " to " + vector_in_words(mesh.box_max));
   row("smallest angle", significant(mesh.smallest_angle) + " degrees");
   row("mean quality", significant(mesh.mean_quality) + " (1: all equilateral)");
   const LaplacianChoice choice = auto_laplacian(mesh);

@@ -13,6 +13,7 @@
 #include "app/session/command.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "geotherm/domains.h"
 #include "geotherm/io.h"
 #include "solver/core/text.h"
 
@@ -203,7 +204,10 @@ Result<void> check_name(const std::string& path, const Command& command) {
     return bad(path, "commands write no hidden files and nothing into hidden folders",
                "choose a path without names that begin with a dot");
   }
-  if (std::holds_alternative<command::SaveDistances>(command)) return check_distance_path(path);
+  if (std::holds_alternative<command::SaveDistances>(command)) {
+    const bool of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
+    return of_space ? Result<void>() : check_distance_path(path);
+  }
   if (std::holds_alternative<command::SaveMesh>(command)) return check_mesh_path(path);
   std::string what = "sessions and logs are", extension = ".geotherm";
   if (std::holds_alternative<command::SavePicture>(command)) {

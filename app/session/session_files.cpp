@@ -63,7 +63,8 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
       difference ? explored.difference->values : answer->result.distances;
   auto outputs = output_file(session.state(), save.path, "save distances");
   if (!outputs) return outputs.error();
-  const std::shared_ptr<const TriangleMesh>& mesh = explored.model->model.mesh;
+  const Model& model = explored.model->model;
+  if (auto fits = check_answer_path(model, save.path); !fits) return fits;
   std::vector<Index> nearest;
   if (holds_mesh(save.path) && source_groups(explored.set).count > 1) {
     nearest = answer->result.nearest_source;
@@ -76,7 +77,7 @@ Result<void> save_distances(const command::SaveDistances& save, const Session& s
     }
   }
   return outputs->write(save.path,
-                        [&] { return write_distances(save.path, *mesh, values, nearest); });
+                        [&] { return write_answer(save.path, model, values, nearest, {}); });
 }
 
 Result<void> save_mesh(const command::SaveMesh& save, const Session& session) {

@@ -84,6 +84,7 @@ struct Session::State {
   bool take();
   void say_failure(const Error& error);
   bool close_opening();
+  void look_head_on();
   void note_warnings(const Explored& before);
   void note_error(const Explored& before);
   void take_answer(const ExploreRequest& request, Result<Explored> answer);

@@ -132,7 +132,8 @@ bool Session::State::take() {
       before_opening.reset();
       note(LogLine::Kind::kNote, "opened " + one_line(explored.model->model.name) + ": " +
                                      grouped(explored.model->mesh.vertices) + " vertices, " +
-                                     grouped(explored.model->mesh.faces) + " faces");
+                                     size_in_words(explored.model->model));
+      look_head_on();
       for (const Warning& warning : explored.model->warnings) {
         note(LogLine::Kind::kWarning, warning);
       }
@@ -150,6 +151,19 @@ bool Session::State::take() {
     }
   }
   return !messages.empty();
+}
+
+/// A grid of one layer is looked at head-on, where nobody has turned it yet.
+void Session::State::look_head_on() {
+  const auto angles = head_on(explored.model->model);
+  const CameraSettings& camera = state.picture.camera;
+  const CameraSettings usual;
+  if (!angles || camera.azimuth != usual.azimuth || camera.elevation != usual.elevation) return;
+  const command::Place place{(*angles)[0], (*angles)[1], camera.zoom, camera.pan_right,
+                             camera.pan_up};
+  state = *app::apply(state, place);
+  commands.add(place, state);
+  note(LogLine::Kind::kCommand, commands.last_line());
 }
 
 void Session::State::say_failure(const Error& error) {
@@ -237,9 +251,8 @@ Result<void> Session::State::start_compare(const command::Compare& command) {
   task.solvers = *std::move(solvers);
   task.reference = solver_name(task.solvers.front());
   task.queries.push_back(explored.set);
-  const TriangleMesh& mesh = *explored.model->model.mesh;
   for (int i = 1; i < kCompareBatch; ++i) {
-    const auto random = random_vertices(mesh, 1, static_cast<std::uint64_t>(i));
+    const auto random = random_vertices(explored.model->model, 1, static_cast<std::uint64_t>(i));
     if (!random) break;
     const SourceSet set = SourceSet::of_vertices(*random);
     if (i < kCompareQueries) task.queries.push_back(set);

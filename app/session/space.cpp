@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/session/space.h"
 
+#include <cassert>
 #include <utility>
 
 #include "app/text/text.h"
@@ -24,7 +25,7 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& spa
 
 TetSpace::TetSpace(std::shared_ptr<const TetMesh> volume, TetBoundary border,
                    std::vector<char> used)
-    : Space({"tets", "tet", "tets", "volume", "border"}, std::move(used),
+    : Space({"tets", "tet", "tets", "volume", "border", "mean longest edge"}, std::move(used),
             MethodKind::kFastMarching),
       volume_(std::move(volume)),
       border_(std::move(border)) {}
@@ -46,7 +47,8 @@ std::vector<Index> TetSpace::corners_of(Index cell) const {
 }
 
 std::string TetSpace::described() const {
-  return grouped(cell_count()) + " tets; faces and edges are its border's";
+  return counted(cell_count(), "tet", "tets") + " in a border of " +
+         counted(std::ssize(border_.faces), "face", "faces");
 }
 
 Result<PlacedPoint> TetSpace::closest_point(const Vec3& place) const {
@@ -79,11 +81,30 @@ Result<void> TetSpace::write(const std::string& path, std::span<const double> di
 }
 
 PolygonSpace::PolygonSpace(std::shared_ptr<const CellComplex> cells,
-                           std::shared_ptr<const TriangleMesh> triangles, std::vector<char> used)
-    : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation"}, std::move(used),
-            MethodKind::kWavefront),
+                           std::shared_ptr<const TriangleMesh> triangles,
+                           std::vector<Index> cells_of_faces, std::vector<char> used)
+    : Space({"polygons", "polygon", "polygons", "polygon mesh", "triangulation",
+             "mean distance of two corners"},
+            std::move(used), MethodKind::kWavefront),
       cells_(std::move(cells)),
-      triangles_(std::move(triangles)) {}
+      triangles_(std::move(triangles)),
+      cells_of_faces_(std::move(cells_of_faces)) {}
+
+namespace {
+
+/// The polygon that each triangle is a part of; those that were left out have no gradient.
+std::vector<Index> polygons_of_triangles(const PolygonMesh& mesh, const CellComplex& cells) {
+  std::vector<Index> out;
+  for (std::size_t p = 0; p + 1 < mesh.start.size(); ++p) {
+    const auto number = static_cast<Index>(p);
+    const bool kept = cells.numbers.empty() || std::ranges::binary_search(cells.numbers, number);
+    const std::int64_t triangles = std::max<std::int64_t>(mesh.start[p + 1] - mesh.start[p] - 2, 0);
+    out.insert(out.end(), static_cast<std::size_t>(triangles), kept ? number : kNoIndex);
+  }
+  return out;
+}
+
+}  // namespace
 
 Result<std::shared_ptr<const PolygonSpace>> PolygonSpace::build(const PolygonMesh& mesh) {
   auto cells = cells_of(mesh);
@@ -92,19 +113,28 @@ Result<std::shared_ptr<const PolygonSpace>> PolygonSpace::build(const PolygonMes
   if (!triangles) return triangles.error();
   std::vector<char> used(mesh.positions.size(), 0);
   for (const Index v : cells->corners) used[v] = 1;
-  return std::shared_ptr<const PolygonSpace>(new PolygonSpace(
-      std::make_shared<const CellComplex>(*std::move(cells)),
-      std::make_shared<const TriangleMesh>(*std::move(triangles)), std::move(used)));
+  std::vector<Index> of_faces = polygons_of_triangles(mesh, *cells);
+  assert(std::ssize(of_faces) == triangles->face_count());
+  return std::shared_ptr<const PolygonSpace>(
+      new PolygonSpace(std::make_shared<const CellComplex>(*std::move(cells)),
+                       std::make_shared<const TriangleMesh>(*std::move(triangles)),
+                       std::move(of_faces), std::move(used)));
+}
+
+Index PolygonSpace::place_of(Index cell) const {
+  const auto& numbers = cells_->numbers;
+  if (numbers.empty()) return cell;
+  return static_cast<Index>(std::ranges::lower_bound(numbers, cell) - numbers.begin());
 }
 
 std::vector<Index> PolygonSpace::corners_of(Index cell) const {
-  const auto place = std::ranges::lower_bound(cells_->numbers, cell) - cells_->numbers.begin();
-  const auto corners = cells_->corners_of(static_cast<Index>(place));
+  const auto corners = cells_->corners_of(place_of(cell));
   return {corners.begin(), corners.end()};
 }
 
 std::string PolygonSpace::described() const {
-  return grouped(cell_count()) + " polygons; faces and edges are their triangles'";
+  return counted(cell_count(), "polygon", "polygons") + ", drawn by " +
+         counted(triangles_->face_count(), "triangle", "triangles");
 }
 
 std::vector<Index> PolygonSpace::boundary_vertices() const {

@@ -3,16 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "geotherm/build_method.h"
 #include "geotherm/domains.h"
 #include "geotherm/error.h"
 #include "geotherm/io.h"
+#include "geotherm/quality_fields.h"
 #include "geotherm/sources.h"
 
 namespace geotherm::app {
@@ -23,6 +26,7 @@ struct SpaceWords {
   const char *cell, *cells;  ///< "tet", "tets"; JSON counts them under the second
   const char* body;          ///< "volume"
   const char* drawn;         ///< "border": what Model::mesh is of it
+  const char* width;         ///< "mean longest edge": what t is in squares of
 };
 
 /// The point of a space nearest to a place: a vertex, else a point in a cell.
@@ -30,6 +34,13 @@ struct PlacedPoint {
   Index vertex = kNoIndex;
   CellPoint in_cell;    ///< where `vertex` is kNoIndex
   double distance = 0;  ///< to the place, model units
+};
+
+/// A figure of a space: a row of `info`, and a key of its JSON.
+struct SpaceFigure {
+  std::string row, text;  ///< empty: the JSON alone has it
+  std::string key;
+  std::variant<std::int64_t, double, std::array<double, 3>> value;
 };
 
 /// What distance is computed in, where that is no triangle mesh. Its vertices are those of
@@ -54,8 +65,21 @@ class Space {
   virtual std::shared_ptr<const TetMesh> tets() const { return nullptr; }
   /// Samples along x, y and z; zeros where vertices are no samples of a grid.
   virtual std::array<Index, 3> size() const { return {}; }
-  /// What `info` says of it.
+  /// Whether the answer is travel time, not a length.
+  virtual bool measures_time() const { return false; }
+  /// What `info` says of it, in one line and in figures. Cost: a pass over the cells.
   virtual std::string described() const = 0;
+  virtual std::vector<SpaceFigure> figures() const = 0;
+  /// Parts that no cell joins. Cost: a pass over the cells.
+  virtual Index components() const = 0;
+  /// F: the cell that each face of Model::mesh belongs to; kNoIndex: it stands for none that has a
+  /// gradient.
+  virtual std::vector<Index> cells_of_faces() const = 0;
+  /// The gradient at the middle of a cell, times the speed there, of what has these values at its
+  /// corners: in the cell's own frame.
+  virtual Vec3 gradient_on(Index cell, std::span<const double> values) const = 0;
+  /// What pictures and isolines leave out of it; empty: nothing.
+  virtual std::string unseen() const { return {}; }
   /// The vertices that the source `boundary` is.
   virtual std::vector<Index> boundary_vertices() const = 0;
   virtual Result<PlacedPoint> closest_point(const Vec3& place) const = 0;
@@ -82,6 +106,17 @@ class Space {
   MethodKind rival_;
 };
 
+/// The values of an answer in `cells`: eikonal errors, lost gradients or angles of gradients; none
+/// where the number of a cell is kNoIndex. Precondition: the answer has u where the field needs it.
+std::vector<double> cell_field(const Space& space, QualityField field, const DistanceResult& answer,
+                               std::span<const Index> cells);
+
+/// Whether cell_field() knows it.
+inline bool is_of_cells(QualityField field) {
+  return field == QualityField::kEikonalError || field == QualityField::kLostGradients ||
+         field == QualityField::kGradientAngle;
+}
+
 /// A method for the space; of heat one that shares what it can with `near`, which may be null.
 Result<std::shared_ptr<const DistanceMethod>> build_method_near(const Space& space,
                                                                 const MethodOptions& options,
@@ -100,6 +135,10 @@ class TetSpace final : public Space {
 
   Index cell_count() const override { return volume_->tet_count(); }
   std::string described() const override;
+  std::vector<SpaceFigure> figures() const override;
+  Index components() const override;
+  std::vector<Index> cells_of_faces() const override { return border_.tets; }
+  Vec3 gradient_on(Index cell, std::span<const double> values) const override;
   std::vector<Index> boundary_vertices() const override { return border_.vertices; }
   Result<PlacedPoint> closest_point(const Vec3& place) const override;
   Result<std::shared_ptr<const DistanceMethod>> build_method(
@@ -127,6 +166,10 @@ class PolygonSpace final : public Space {
   Index cell_count() const override { return cells_->cell_count(); }
   std::vector<Index> corners_of(Index cell) const override;
   std::string described() const override;
+  std::vector<SpaceFigure> figures() const override;
+  Index components() const override;
+  std::vector<Index> cells_of_faces() const override { return cells_of_faces_; }
+  Vec3 gradient_on(Index cell, std::span<const double> values) const override;
   std::vector<Index> boundary_vertices() const override;
   /// The nearest vertex of the nearest triangle.
   Result<PlacedPoint> closest_point(const Vec3& place) const override;
@@ -139,10 +182,14 @@ class PolygonSpace final : public Space {
 
  private:
   PolygonSpace(std::shared_ptr<const CellComplex> cells,
-               std::shared_ptr<const TriangleMesh> triangles, std::vector<char> used);
+               std::shared_ptr<const TriangleMesh> triangles, std::vector<Index> cells_of_faces,
+               std::vector<char> used);
+  /// Of a polygon among the cells.
+  Index place_of(Index cell) const;
 
   std::shared_ptr<const CellComplex> cells_;
   std::shared_ptr<const TriangleMesh> triangles_;
+  std::vector<Index> cells_of_faces_;
 };
 
 }  // namespace geotherm::app

@@ -65,8 +65,9 @@ std::string method_caption(const DistanceMethod& method) {
   return (is_double ? "t = " + significant(t) + ", " : "") + heat->options().backend;
 }
 
-std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method) {
-  const std::string text = one_line(model) + ", " + counted(faces, "face", "faces");
+std::string picture_caption(const std::string& model, const std::string& size,
+                            const DistanceMethod* method) {
+  const std::string text = one_line(model) + ", " + size;
   return method == nullptr ? text : text + ", " + method_caption(*method);
 }
 

@@ -41,8 +41,10 @@ std::string solver_at_work(const DistanceMethod& method, const DistanceResult& r
 /// "t = 0.0123, cholmod", or the name of another method.
 std::string method_caption(const DistanceMethod& method);
 
-/// "bunny, 4,000 faces, t = 0.0123, cholmod"; `method`: null without a solve.
-std::string picture_caption(const std::string& model, Index faces, const DistanceMethod* method);
+/// "bunny, 4,000 faces, t = 0.0123, cholmod"; `size`: size_in_words(); `method`: null without a
+/// solve.
+std::string picture_caption(const std::string& model, const std::string& size,
+                            const DistanceMethod* method);
 
 /// "cotan", or what else the Laplacian of a method is that was built.
 std::string laplacian_name(const HeatMethod& method);

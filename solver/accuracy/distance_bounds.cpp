@@ -228,6 +228,7 @@ void check_straight_lines(std::span<const Vec3> positions, const StraightLine& s
   result.quality.below_straight_line = all.below;
   result.quality.most_below_straight_line = all.most;
   result.quality.clamped_reach = all.reach / to_edges;
+  result.quality.lines_checked = true;
 }
 
 void add_bound_warnings(MethodKind method, DistanceResult& result) {

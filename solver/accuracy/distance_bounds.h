@@ -106,6 +106,7 @@ class SteepSides {
   void write_to(Quality& quality) const {
     quality.steep_edges = static_cast<Index>(std::ceil(count_));
     quality.steepest_edge = steepest_;
+    quality.edges_checked = true;
   }
 
  private:

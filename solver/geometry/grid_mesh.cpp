@@ -75,10 +75,10 @@ Result<void> check_grid(const Grid& grid) {
 }
 
 template <class Body>
-void GridLattice::for_cells_at_edge(Index sample, int e, const Body& body) const {
-  // Their lowest corners are here, or one step back along the other axes.
+void GridLattice::for_cells_at(Index sample, int e, const Body& body) const {
+  // Their lowest corners are here, or one step back along axes other than the edge's.
   for (int k = 0; k < 1 << dimension_; ++k) {
-    if ((k >> e & 1) != 0) continue;
+    if (e != kNoIndex && (k >> e & 1) != 0) continue;
     Index lowest = sample;
     bool inside = true;
     for (int f = 0; f < dimension_; ++f) {
@@ -123,7 +123,7 @@ GridLattice::GridLattice(std::shared_ptr<const Grid> grid) : grid_(std::move(gri
     for (int e = 0; e < dimension_; ++e) {
       if (!has_edge(v, e)) continue;
       bool alone = true;
-      for_cells_at_edge(v, e, [&alone](Index) { alone = false; });
+      for_cells_at(v, e, [&alone](Index) { alone = false; });
       if (!alone) continue;
       bits_[v] |= static_cast<std::uint8_t>(2 << e);
       ++cells_;
@@ -147,16 +147,7 @@ bool GridLattice::has_edge(Index sample, int e) const {
 
 int GridLattice::cells_at(Index sample) const {
   int count = 0;
-  for (int k = 0; k < 1 << dimension_; ++k) {
-    Index lowest = sample;
-    bool inside = true;
-    for (int e = 0; e < dimension_; ++e) {
-      if ((k >> e & 1) == 0) continue;
-      inside = inside && !at_start(sample, e);
-      lowest -= stride_[e];
-    }
-    count += inside && has_cell(lowest) ? 1 : 0;
-  }
+  for_cells_at(sample, kNoIndex, [&count](Index) { ++count; });
   return count;
 }
 
@@ -183,7 +174,7 @@ double GridLattice::edge_weight(Index sample, int e) const {
     return power_of(edge(sample, e).slowness, dimension_ - 2);
   }
   double sum = 0;
-  for_cells_at_edge(sample, e, [&](Index lowest) {
+  for_cells_at(sample, e, [&](Index lowest) {
     sum += uniform_ ? 1 : power_of(cell(lowest).slowness, dimension_ - 2);
   });
   return sum / (1 << (dimension_ - 1));

@@ -81,9 +81,10 @@ class GridLattice {
   }
   bool at_start(Index sample, int e) const { return sample / stride_[e] % length_[e] == 0; }
   GridCell edge(Index sample, int e) const;
-  /// body(lowest corner) for the whole cells at the edge from here along e.
+  /// body(lowest corner) for the whole cells at the edge from here along e; at the sample where e
+  /// is kNoIndex.
   template <class Body>
-  void for_cells_at_edge(Index sample, int e, const Body& body) const;
+  void for_cells_at(Index sample, int e, const Body& body) const;
   double slowness(Index sample) const { return 1 / grid_->speed(sample); }
 
   std::shared_ptr<const Grid> grid_;

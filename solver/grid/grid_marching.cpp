@@ -11,7 +11,7 @@
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/grid_mesh.h"
-#include "solver/method/solve_sets.h"
+#include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
@@ -272,44 +272,20 @@ class GridMarch {
   std::priority_queue<News> queue_;
 };
 
-class GridMarchingMethod final : public DistanceMethod {
+class GridMarchingMethod final : public MarchingMethod {
  public:
   GridMarchingMethod(GridLattice lattice, double setup_ms, int threads, double nanoseconds)
-      : lattice_(std::move(lattice)), threads_{threads, nanoseconds} {
-    timing_.operators = timing_.setup = setup_ms;
-  }
-
-  MethodKind kind() const override { return MethodKind::kFastMarching; }
-
-  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
-                                                 const QueryOptions& query,
-                                                 const Progress& progress) const override {
-    const auto one = [&](const SourceSet& sources, const Progress& part) -> Result<DistanceResult> {
-      return solve_one(sources, query, part);
-    };
-    return solve_sets(sets, threads_, progress, one);
-  }
-
-  const SetupTiming& timing() const override { return timing_; }
-  double memory_mb() const override { return lattice_.grid().sample_count() / double(1 << 20); }
-  const std::vector<Warning>& warnings() const override { return warnings_; }
+      : MarchingMethod(lattice.grid().sample_count() / double(1 << 20), setup_ms, threads,
+                       nanoseconds),
+        lattice_(std::move(lattice)) {}
 
  private:
-  Result<DistanceResult> solve_one(const SourceSet& sources, const QueryOptions& query,
-                                   const Progress& progress) const {
-    const Stopwatch watch;
-    if (sources.empty()) return Error{ErrorCode::kBadInput, "there is no source"};
-    if (!sources.edges.empty()) {
-      return Error{ErrorCode::kBadInput,
-                   "curves of mesh edges are sources of triangle meshes alone"};
+  Result<Marched> march(const SourceSet& sources, const Progress& progress) const override {
+    if (auto valid = check_space_sources(sources, "samples or points of cells"); !valid) {
+      return valid.error();
     }
     GridMarch march(lattice_);
     for (std::size_t i = 0; i < sources.points.size(); ++i) {
-      if (!sources.points[i].is_vertex()) {
-        return Error{ErrorCode::kBadInput,
-                     "points in faces are sources of triangle meshes alone; give samples or points "
-                     "of cells"};
-      }
       const double offset = sources.offsets.empty() ? 0 : sources.offsets[i];
       if (auto added = march.add_sample(sources.points[i].vertex, offset); !added) {
         return added.error();
@@ -319,18 +295,10 @@ class GridMarchingMethod final : public DistanceMethod {
       if (auto added = march.add_point(point); !added) return added.error();
     }
     if (auto done = march.march(progress); !done) return done.error();
-    DistanceResult result;
-    result.distances = march.take_distances();
-    if (query.nearest) result.nearest_source = march.take_nearest();
-    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
-        result.distances, [](double distance) { return distance < kUnreached; }));
-    result.timing.query = watch.milliseconds();
-    if (query.quality) result.quality.eikonal_error_mean = eikonal_error(result.distances);
-    return result;
+    return Marched{march.take_distances(), march.take_nearest()};
   }
 
-  /// By measure, over the cells whose corners are all reached.
-  double eikonal_error(std::span<const double> distances) const {
+  double eikonal_error(std::span<const double> distances) const override {
     double error = 0, measure = 0;
     lattice_.for_each_cell(0, lattice_.layer_count(), [&](const GridCell& cell) {
       double square = 0;
@@ -354,9 +322,6 @@ class GridMarchingMethod final : public DistanceMethod {
   }
 
   GridLattice lattice_;
-  SetThreads threads_;
-  SetupTiming timing_;
-  std::vector<Warning> warnings_;
 };
 
 }  // namespace

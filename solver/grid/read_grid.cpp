@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
-#include <stdexcept>
 #include <utility>
 
 #include "geotherm/domains.h"
@@ -135,16 +133,19 @@ std::string to_speeds(io::RawGrid& raw, GridValues asked) {
 
 GridFile finish_grid(io::RawGrid raw, GridValues values) {
   GridFile out;
-  out.meaning = to_speeds(raw, values);
+  out.meaning = to_speeds(raw, values) + raw.detail;
   for (std::size_t e = 0; e < 3; ++e) {
     out.grid.size[e] = static_cast<Index>(raw.size[e]);
     out.grid.spacing[e] = raw.spacing[e];
   }
   out.grid.origin = raw.origin;
+  out.grid.three_axes = raw.three_axes;
   const bool one = std::ranges::all_of(raw.values, [](double speed) { return speed == 1; });
   if (!one) out.grid.speeds = std::move(raw.values);
   out.notes = std::move(raw.notes);
-  if (auto valid = check_grid(out.grid); !valid) throw io::ReadFailure{valid.error().message};
+  if (auto valid = check_grid(out.grid); !valid) {
+    throw io::ReadFailure{valid.error().message, 0, {}, {"as read, " + out.meaning}};
+  }
   return out;
 }
 
@@ -161,11 +162,17 @@ Result<io::RawGrid> read_nrrd(const std::string& path, std::string_view bytes) {
   if (header.data_file.empty()) {
     return io::read_nrrd_data(header, bytes.substr(header.data_begins));
   }
-  const auto data = io::InputFile::open(data_path(path, header.data_file));
+  const std::string data_name = data_path(path, header.data_file);
+  const auto data = io::InputFile::open(data_name);
   if (!data) return data.error();
-  io::RawGrid raw = io::read_nrrd_data(header, io::FileBytes(*data).bytes());
-  if (auto same = data->check_unchanged(); !same) return same.error();
-  return raw;
+  try {
+    io::RawGrid raw = io::read_nrrd_data(header, io::FileBytes(*data).bytes());
+    if (auto same = data->check_unchanged(); !same) return same.error();
+    return raw;
+  } catch (io::ReadFailure& failure) {
+    failure.message.insert(0, io::printable(data_name) + ": ");
+    throw;
+  }
 }
 
 }  // namespace
@@ -193,10 +200,10 @@ Result<GridFile> read_grid(const std::string& path, GridValues values) {
   const GridFormat* const format = grid_format_of(extension);
   if (format == nullptr) {
     return Error{ErrorCode::kNotAvailable,
-                 name + ": unknown extension \"" + io::printable(extension) + "\"",
+                 name + ": unknown extension \"" + io::printable(extension) + "\" of grids",
                  {"there are .npy .png .vti .nrrd .nhdr"}};
   }
-  try {
+  return io::guarded_read(name, "grid", file->size(), [&]() -> Result<GridFile> {
     const io::FileBytes bytes(*file);
     auto raw =
         format->read != nullptr ? format->read(bytes.bytes()) : read_nrrd(path, bytes.bytes());
@@ -204,13 +211,7 @@ Result<GridFile> read_grid(const std::string& path, GridValues values) {
     auto made = finish_grid(*std::move(raw), values);
     if (auto same = file->check_unchanged(); !same) return same.error();
     return made;
-  } catch (const io::ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
-  }
-  return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the grid in its " +
-                                            std::to_string(file->size()) + " bytes"};
+  });
 }
 
 }  // namespace geotherm

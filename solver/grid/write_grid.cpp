@@ -21,7 +21,7 @@ struct GridData {
 /// An array of the grid's shape, its last axis x; nearest sources are one more axis behind it.
 std::string grid_npy_bytes(const Grid& grid, const GridData& data) {
   std::vector<std::uint64_t> shape;
-  for (int e = grid.size[2] > 1 ? 2 : 1; e >= 0; --e) {
+  for (int e = grid.three_axes || grid.size[2] > 1 ? 2 : 1; e >= 0; --e) {
     shape.push_back(static_cast<std::uint64_t>(grid.size[static_cast<std::size_t>(e)]));
   }
   if (!data.nearest.empty()) shape.push_back(2);

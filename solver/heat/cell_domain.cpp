@@ -5,15 +5,14 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
-#include <set>
 
 #include "solver/accuracy/distance_bounds.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/heat/cell_field.h"
+#include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
@@ -110,17 +109,11 @@ Error bad_source(const std::string& message) { return {ErrorCode::kBadInput, mes
 /// Checks the sources of a CellComplex.
 Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sources) {
   const CellComplex& cells = *domain.given;
-  if (sources.empty()) return bad_source("there is no source");
-  if (!sources.edges.empty()) {
-    return bad_source("curves of mesh edges are sources of triangle meshes alone");
+  if (auto valid = check_space_sources(sources, "vertices or points of " + cells.cells_name);
+      !valid) {
+    return valid;
   }
   for (const SurfacePoint& point : sources.points) {
-    if (!point.is_vertex()) {
-      return bad_source(
-          "points in faces are sources of triangle meshes alone; give vertices or "
-          "points of " +
-          cells.cells_name);
-    }
     if (point.vertex < 0 || point.vertex >= cells.vertices) {
       return bad_source("source vertex " + std::to_string(point.vertex) +
                         " is out of range (0 to " + std::to_string(cells.vertices - 1) + ")");
@@ -139,25 +132,11 @@ Result<void> check_cell_sources(const CellDomain& domain, const SourceSet& sourc
                              ? " was left out"
                              : " is out of range (0 to " + std::to_string(last) + ")"));
     }
-    const auto corners = cells.corners_of(cell);
-    double sum = 0;
-    bool valid = std::ssize(point.weights) == std::ssize(corners);
-    for (const double weight : point.weights) {
-      valid = valid && weight >= 0;
-      sum += weight;
-    }
-    constexpr double kOfOne = 1e-9;
-    if (!valid || !(std::abs(sum - 1) <= kOfOne)) {
-      return bad_source("the source in " + cells.cell_name + " " + std::to_string(point.cell) +
-                        " needs " + std::to_string(corners.size()) +
-                        " weights that are not negative and sum to 1");
-    }
+    auto valid = check_weights(point.weights, cells.corners_of(cell).size(),
+                               cells.cell_name + " " + std::to_string(point.cell));
+    if (!valid) return valid;
   }
-  for (const double offset : sources.offsets) {
-    if (!(offset > 0)) continue;
-    return bad_source("the heat method takes no offsets, and one is " + rounded_text(offset));
-  }
-  return {};
+  return refuse_offsets(sources);
 }
 
 double between(const double* a, const double* b, std::size_t dimension) {
@@ -173,10 +152,7 @@ class CellPlacer {
  public:
   explicit CellPlacer(const CellDomain& domain) : domain_(domain), mesh_(*domain.mesh) {}
 
-  void add_vertex(Index vertex) {
-    const Index row = domain_.row_of_vertex[vertex];
-    anchors_[row] = {row, 0.0, 1.0};
-  }
+  void add_vertex(Index vertex) { anchors_.add_vertex(domain_.row_of_vertex[vertex]); }
 
   void add_point(const CellPoint& point) {
     const Index cell = domain_.cell_of_given[domain_.find_cell(point.cell)];
@@ -189,30 +165,17 @@ class CellPlacer {
       for (std::size_t e = 0; e < d; ++e) at[e] += point.weights[k] * places[k * d + e];
     }
     for (std::size_t k = 0; k < corners.size(); ++k) {
-      auto& anchor =
-          anchors_.try_emplace(corners[k], SourceAnchors::Anchor{corners[k], kUnreached, 0.0})
-              .first->second;
-      if (anchor.offset == 0) continue;  // a source itself, with all its heat
-      anchor.offset = std::min(anchor.offset, between(places.data() + k * d, at.data(), d));
-      anchor.heat += point.weights[k];
+      anchors_.add_corner(corners[k], between(places.data() + k * d, at.data(), d),
+                          point.weights[k]);
     }
   }
 
-  SourceAnchors finish() const {
-    SourceAnchors out;
-    std::set<Index> parts;
-    for (const auto& [row, anchor] : anchors_) {
-      out.anchors.push_back(anchor);
-      parts.insert(mesh_.components.of[row]);
-    }
-    out.components.assign(parts.begin(), parts.end());
-    return out;
-  }
+  SourceAnchors finish() const { return anchors_.finish(mesh_.components); }
 
  private:
   const CellDomain& domain_;
   const CellMesh& mesh_;
-  std::map<Index, SourceAnchors::Anchor> anchors_;
+  AnchorMap anchors_;
 };
 
 }  // namespace
@@ -272,8 +235,7 @@ std::unique_ptr<const UnitField> CellDomain::unit_field(const HeatField& heat,
 void CellDomain::check_straight_lines(const SourceSet& sources, int threads,
                                       DistanceResult& result) const {
   if (given->positions.empty() || !given->lengths_are_straight) {
-    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
-        result.distances, [](double distance) { return distance < kUnreached; }));
+    result.quality.reached_vertices = count_reached(result.distances);
     return;
   }
   std::vector<LineSource> lines;

@@ -32,30 +32,11 @@ std::array<double, 3> cell_gradient(const CellMesh& mesh, Index cell, const Valu
   return g;
 }
 
-double norm(const std::array<double, 3>& g) {
-  return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}
-
 }  // namespace
 
 CellField::CellField(const CellDomain& domain, const HeatField& heat, const PerComponent& t,
                      const Workspace& work)
-    : domain_(domain),
-      heat_(heat),
-      root_t_(t.map([](double each) { return std::sqrt(each); })),
-      shortens_(root_t_.most() > 0 && domain.mesh->dimension > 1),
-      work_(work) {
-  if (!shortens_) return;
-  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
-  const double step = std::log(heat.step);
-  work_.for_rows(log_u_.size(), 1, [&](std::int64_t begin, std::int64_t end) {
-    logarithms(heat_.u.data() + begin, log_u_.data() + begin,
-               static_cast<std::size_t>(end - begin));
-    for (std::int64_t e = begin; e < end && !heat_.level.empty(); ++e) {
-      log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
-    }
-  });
-}
+    : CellsUnitField(heat, t, domain.mesh->dimension, work), domain_(domain) {}
 
 CellField::Square CellField::inverse_square(Index cell) const {
   if (!shortens_) return {};
@@ -112,18 +93,8 @@ CellField::Direction CellField::of_cell(Index cell, const Square& inverse,
                                         Eigen::Index column) const {
   const CellMesh& mesh = *domain_.mesh;
   const auto corners = mesh.corners_of(cell);
-  const auto level_of = [&](Index row) {
-    return heat_.level.empty()
-               ? 0
-               : int{heat_.level[static_cast<std::size_t>(row * heat_.u.cols() + column)]};
-  };
-  int least = level_of(corners[0]);
-  for (const Index row : corners) least = std::min(least, level_of(row));
-  const auto value = [&](std::size_t k) {  // to one exponent: the largest values'
-    const int above = level_of(corners[k]) - least;
-    const double u = heat_.u(corners[k], column);
-    return above > 0 ? u * std::pow(heat_.step, above) : u;
-  };
+  const int least = least_level(corners, column);
+  const auto value = [&](std::size_t k) { return value_at(corners[k], column, least); };
   const double first = value(0);
   double largest = 0;
   for (std::size_t k = 1; k < corners.size(); ++k) {
@@ -216,48 +187,25 @@ Block CellField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
 CellCounts CellField::inspect(std::span<const double> phi, Eigen::Index column,
                               const SourceAnchors& anchors, std::span<const char> held_at_zero,
                               int threads, Quality& quality) const {
-  struct Sums {
-    double error = 0, measure = 0;
-    CellCounts counts;
-    Index lost = 0;
-  };
   const CellMesh& mesh = *domain_.mesh;
-  std::vector<char> held(phi.size(), 0);
-  std::ranges::copy(held_at_zero, held.begin());
-  for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
-  std::vector<char> holds(static_cast<std::size_t>(mesh.components.count), 0);
-  for (const Index c : anchors.components) holds[c] = 1;
+  const Inspection inspection(mesh.components, phi.size(), anchors, held_at_zero);
   Sums all;
   for (const Sums& part :
        sums_of_blocks<Sums>(threads, mesh.cell_count(), [&](std::int64_t begin, std::int64_t end) {
          Sums sum;
          for (auto c = static_cast<Index>(begin); c < static_cast<Index>(end); ++c) {
            const auto corners = mesh.corners_of(c);
-           if (!holds[mesh.components.of[corners.front()]]) continue;
-           ++sum.counts.in_reach;
+           if (!inspection.reaches(corners)) continue;
            const Direction x = of_cell(c, inverse_square(c), column);
-           if (x == Direction{}) {
-             ++sum.counts.without_direction;
-             const bool known =
-                 std::ranges::all_of(corners, [&held](Index row) { return held[row] != 0; });
-             sum.lost += known ? 0 : 1;
-           }
            const double slope =
                norm(cell_gradient(mesh, c, [&](std::size_t k) { return phi[corners[k]]; }));
-           sum.error += mesh.measures[c] * std::abs(slope - 1);
-           sum.measure += mesh.measures[c];
+           inspection.add(corners, x, slope, mesh.measures[c], sum);
          }
          return sum;
        })) {
-    all.error += part.error;
-    all.measure += part.measure;
-    all.counts.in_reach += part.counts.in_reach;
-    all.counts.without_direction += part.counts.without_direction;
-    all.lost += part.lost;
+    all.add(part);
   }
-  quality.zero_gradient_faces = all.lost;
-  quality.eikonal_error_mean = all.measure > 0 ? all.error / all.measure : 0.0;
-  return all.counts;
+  return all.write_to(quality);
 }
 
 }  // namespace geotherm

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <string>
 
 #include "solver/accuracy/distance_bounds.h"
@@ -12,6 +10,7 @@
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/heat/grid_field.h"
+#include "solver/method/marching_method.h"
 
 namespace geotherm {
 namespace {
@@ -122,17 +121,8 @@ Result<void> check_cell_point(const GridLattice& lattice, const CellPoint& point
       !lattice.has_cell(point.cell)) {
     return bad_grid_source("at sample " + std::to_string(point.cell) + " begins no cell");
   }
-  double sum = 0;
-  bool valid = std::ssize(point.weights) == 1 << lattice.dimension();
-  for (const double weight : point.weights) {
-    valid = valid && weight >= 0;
-    sum += weight;
-  }
-  constexpr double kOfOne = 1e-9;
-  if (valid && std::abs(sum - 1) <= kOfOne) return {};
-  return bad_grid_source("the source in cell " + std::to_string(point.cell) + " needs " +
-                         std::to_string(1 << lattice.dimension()) +
-                         " weights that are not negative and sum to 1");
+  return check_weights(point.weights, std::size_t{1} << lattice.dimension(),
+                       "cell " + std::to_string(point.cell));
 }
 
 }  // namespace
@@ -158,24 +148,12 @@ void GridDomain::apply_stiffness(std::span<const double> x, std::span<double> y,
 }
 
 Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
-  if (sources.empty()) return bad_grid_source("there is no source");
-  if (!sources.edges.empty()) {
-    return bad_grid_source("curves of mesh edges are sources of triangle meshes alone");
+  if (auto valid = check_space_sources(sources, "samples or points of cells"); !valid) {
+    return valid.error();
   }
-  for (const double offset : sources.offsets) {
-    if (!(offset > 0)) continue;
-    return bad_grid_source("the heat method takes no offsets, and one is " + rounded_text(offset));
-  }
-  std::map<Index, SourceAnchors::Anchor> anchors;
-  const auto add_vertex = [&](Index vertex) {
-    const Index row = row_of_vertex[vertex];
-    anchors[row] = {row, 0.0, 1.0};
-  };
+  if (auto none = refuse_offsets(sources); !none) return none.error();
+  AnchorMap anchors;
   for (const SurfacePoint& point : sources.points) {
-    if (!point.is_vertex()) {
-      return bad_grid_source(
-          "points in faces are sources of triangle meshes alone; give samples or points of cells");
-    }
     if (point.vertex < 0 || point.vertex >= input_vertices) {
       return bad_grid_source("source sample " + std::to_string(point.vertex) +
                              " is out of range (0 to " + std::to_string(input_vertices - 1) + ")");
@@ -183,7 +161,7 @@ Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
     if (row_of_vertex[point.vertex] == kNoIndex) {
       return bad_grid_source("nothing passes at the source sample " + std::to_string(point.vertex));
     }
-    add_vertex(point.vertex);
+    anchors.add_vertex(row_of_vertex[point.vertex]);
   }
   const int d = lattice->dimension();
   for (const CellPoint& point : sources.cell_points) {
@@ -195,27 +173,16 @@ Result<SourceAnchors> GridDomain::place(const SourceSet& sources) const {
     }
     for (int k = 0; k < cell.count; ++k) {
       const Index row = row_of_vertex[cell.corners[k]];
-      if (point.weights[k] == 1) add_vertex(cell.corners[k]);
-      auto& anchor =
-          anchors.try_emplace(row, SourceAnchors::Anchor{row, kUnreached, 0.0}).first->second;
-      if (anchor.offset == 0) continue;  // a source itself, with all its heat
+      if (point.weights[k] == 1) anchors.add_vertex(row);
       double square = 0;
       for (int e = 0; e < d; ++e) {
         const double along = (at[e] - (k >> e & 1)) * lattice->spacing(e);
         square += along * along;
       }
-      anchor.offset = std::min(anchor.offset, std::sqrt(square) * cell.slowness / unit);
-      anchor.heat += point.weights[k];
+      anchors.add_corner(row, std::sqrt(square) * cell.slowness / unit, point.weights[k]);
     }
   }
-  SourceAnchors out;
-  std::set<Index> parts;
-  for (const auto& [row, anchor] : anchors) {
-    out.anchors.push_back(anchor);
-    parts.insert(matrix->components.of[row]);
-  }
-  out.components.assign(parts.begin(), parts.end());
-  return out;
+  return anchors.finish(matrix->components);
 }
 
 std::unique_ptr<const UnitField> GridDomain::unit_field(const HeatField& heat,
@@ -227,8 +194,7 @@ std::unique_ptr<const UnitField> GridDomain::unit_field(const HeatField& heat,
 void GridDomain::check_straight_lines(const SourceSet& sources, int threads,
                                       DistanceResult& result) const {
   if (!lattice->is_uniform()) {  // travel time is no length
-    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
-        result.distances, [](double distance) { return distance < kUnreached; }));
+    result.quality.reached_vertices = count_reached(result.distances);
     return;
   }
   const Grid& grid = lattice->grid();

@@ -11,10 +11,6 @@
 namespace geotherm {
 namespace {
 
-double norm_of(const std::array<double, 3>& g) {
-  return std::sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
-}
-
 /// Layers are cut into so many ranges of two or more, whatever the number of threads.
 std::vector<Index> cut_layers(Index layers) {
   constexpr Index kMaxLayerRanges = 64;
@@ -37,6 +33,7 @@ struct GridField::Element {
   std::array<double, 3> weight;  ///< of the corners in the gradient; 0: nothing along this axis
   std::array<double, 3> extent;  ///< along each axis
 
+  std::span<const Index> all_rows() const { return {rows.data(), static_cast<std::size_t>(count)}; }
   bool is_farther(int k, int e) const { return count == 2 ? k == 1 : (k >> e & 1) != 0; }
 
   template <class Values>
@@ -52,22 +49,7 @@ struct GridField::Element {
 
 GridField::GridField(const GridDomain& domain, const HeatField& heat, const PerComponent& t,
                      const Workspace& work)
-    : domain_(domain),
-      heat_(heat),
-      root_t_(t.map([](double each) { return std::sqrt(each); })),
-      shortens_(root_t_.most() > 0 && domain.lattice->dimension() > 1),
-      work_(work) {
-  if (!shortens_) return;
-  log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
-  const double step = std::log(heat.step);
-  work_.for_rows(log_u_.size(), 1, [&](std::int64_t begin, std::int64_t end) {
-    logarithms(heat_.u.data() + begin, log_u_.data() + begin,
-               static_cast<std::size_t>(end - begin));
-    for (std::int64_t e = begin; e < end && !heat_.level.empty(); ++e) {
-      log_u_.data()[e] += step * heat_.level[static_cast<std::size_t>(e)];
-    }
-  });
-}
+    : CellsUnitField(heat, t, domain.lattice->dimension(), work), domain_(domain) {}
 
 GridField::Element GridField::element_of(const GridCell& cell) const {
   const GridLattice& lattice = *domain_.lattice;
@@ -90,7 +72,7 @@ GridField::Element GridField::element_of(const GridCell& cell) const {
 /// The length of X: the slope sqrt(t) |grad log u| relative to that of one front, at most 1.
 double GridField::length(const Element& element, Eigen::Index column) const {
   const auto g = element.gradient([&](std::size_t k) { return log_u_(element.rows[k], column); });
-  const double size = norm_of(g);
+  const double size = norm(g);
   if (!(size > 0) || !std::isfinite(size)) return 1;  // no logarithm: u <= 0
   double reach = 0;
   for (int k = 0; k < element.count; ++k) {
@@ -125,19 +107,11 @@ void GridField::straighten(const Element& element, const std::array<double, 8>& 
 
 /// (0, 0, 0) where the gradient is zero or not finite.
 GridField::Direction GridField::of_cell(const Element& element, Eigen::Index column) const {
-  const auto level_of = [&](int k) {
-    return heat_.level.empty() ? 0
-                               : int{heat_.level[static_cast<std::size_t>(
-                                     element.rows[k] * heat_.u.cols() + column)]};
-  };
-  int least = level_of(0);
-  for (int k = 1; k < element.count; ++k) least = std::min(least, level_of(k));
+  const int least = least_level(element.all_rows(), column);
   std::array<double, 8> value{};
   double largest = 0;
   for (int k = 0; k < element.count; ++k) {  // to one exponent: the largest values'
-    const int above = level_of(k) - least;
-    const double u = heat_.u(element.rows[k], column);
-    value[k] = above > 0 ? u * std::pow(heat_.step, above) : u;
+    value[k] = value_at(element.rows[k], column, least);
     largest = std::max(largest, std::abs(value[k] - value[0]));
   }
   if (!(largest > kEquallyWarm * std::abs(value[0])) || !std::isfinite(largest)) return {};
@@ -146,7 +120,7 @@ GridField::Direction GridField::of_cell(const Element& element, Eigen::Index col
   const double first = value[0];
   auto g = element.gradient([&](std::size_t k) { return std::ldexp(value[k] - first, -exponent); });
   straighten(element, value, g);
-  const double size = norm_of(g);
+  const double size = norm(g);
   if (!(size > 0) || !std::isfinite(size)) return {};
   const double scale = -(shortens_ ? length(element, column) : 1.0) / size;
   return {g[0] * scale, g[1] * scale, g[2] * scale};
@@ -189,33 +163,16 @@ Block GridField::divergence(std::span<const SourceAnchors> /*anchors*/) const {
 CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
                               const SourceAnchors& anchors, std::span<const char> held_at_zero,
                               int threads, Quality& quality) const {
-  struct Sums {
-    double error = 0, measure = 0;
-    CellCounts counts;
-    Index lost = 0;
-  };
-  const Components& parts = domain_.matrix->components;
-  std::vector<char> held(phi.size(), 0);
-  std::ranges::copy(held_at_zero, held.begin());
-  for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
-  std::vector<char> holds(static_cast<std::size_t>(parts.count), 0);
-  for (const Index c : anchors.components) holds[c] = 1;
+  const Inspection inspection(domain_.matrix->components, phi.size(), anchors, held_at_zero);
   const std::vector<Index> cuts = cut_layers(domain_.lattice->layer_count());
   std::vector<Sums> sums(cuts.size() - 1);
   const auto inspect_cell = [&](const GridCell& cell, Sums& sum) {
     const Element element = element_of(cell);
-    if (!holds[parts.of[element.rows[0]]]) return;
-    ++sum.counts.in_reach;
-    if (of_cell(element, column) == Direction{}) {
-      ++sum.counts.without_direction;
-      bool known = true;
-      for (int k = 0; k < element.count; ++k) known = known && held[element.rows[k]] != 0;
-      sum.lost += known ? 0 : 1;
-    }
+    const auto rows = element.all_rows();
+    if (!inspection.reaches(rows)) return;
     const double slope =
-        norm_of(element.gradient([&](std::size_t k) { return phi[element.rows[k]]; }));
-    sum.error += element.measure * std::abs(slope - 1);
-    sum.measure += element.measure;
+        norm(element.gradient([&](std::size_t k) { return phi[element.rows[k]]; }));
+    inspection.add(rows, of_cell(element, column), slope, element.measure, sum);
   };
   parallel_for(threads, std::ssize(sums), 1, [&](std::int64_t begin, std::int64_t end) {
     for (auto r = static_cast<std::size_t>(begin); r < static_cast<std::size_t>(end); ++r) {
@@ -224,16 +181,8 @@ CellCounts GridField::inspect(std::span<const double> phi, Eigen::Index column,
     }
   });
   Sums all;
-  for (const Sums& part : sums) {
-    all.error += part.error;
-    all.measure += part.measure;
-    all.counts.in_reach += part.counts.in_reach;
-    all.counts.without_direction += part.counts.without_direction;
-    all.lost += part.lost;
-  }
-  quality.zero_gradient_faces = all.lost;
-  quality.eikonal_error_mean = all.measure > 0 ? all.error / all.measure : 0.0;
-  return all.counts;
+  for (const Sums& part : sums) all.add(part);
+  return all.write_to(quality);
 }
 
 }  // namespace geotherm

@@ -3,11 +3,8 @@
 
 #include <array>
 #include <span>
-#include <vector>
 
-#include "solver/heat/diffuse.h"
-#include "solver/heat/domain.h"
-#include "solver/heat/linear_system.h"
+#include "solver/heat/cells_unit_field.h"
 
 namespace geotherm {
 
@@ -16,14 +13,11 @@ struct GridDomain;
 
 /// X = -grad u / |grad u| at the middle of every cell of a grid, for K source sets. With t > 0 it
 /// is shortened where fronts meet, as CellField does it.
-class GridField final : public UnitField {
+class GridField final : public CellsUnitField {
  public:
   /// `t` in squares of the unit, or 0 everywhere. Keeps references.
   GridField(const GridDomain& domain, const HeatField& heat, const PerComponent& t,
             const Workspace& work);
-  ~GridField() override { work_.pool.give(std::move(log_u_)); }
-  GridField(const GridField&) = delete;
-  GridField& operator=(const GridField&) = delete;
 
   Block divergence(std::span<const SourceAnchors> anchors) const override;
   CellCounts inspect(std::span<const double> phi, Eigen::Index column, const SourceAnchors& anchors,
@@ -31,7 +25,6 @@ class GridField final : public UnitField {
                      Quality& quality) const override;
 
  private:
-  using Direction = std::array<double, 3>;
   /// A cell with its rows and the weights 1 / (2^(D-1) h) of its gradient.
   struct Element;
 
@@ -42,11 +35,6 @@ class GridField final : public UnitField {
   void add_layers(Index first, Index end, Block& b) const;
 
   const GridDomain& domain_;
-  const HeatField& heat_;
-  PerComponent root_t_;
-  bool shortens_;
-  Workspace work_;
-  Block log_u_;  ///< n x K, natural logarithm of u with its exponent; empty where nothing shortens
 };
 
 }  // namespace geotherm

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "solver/core/text.h"
 #include "solver/geometry/edit.h"
@@ -251,14 +252,45 @@ std::vector<Index> SourceAnchors::rows() const {
   return out;
 }
 
-Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {
-  if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
+SourceAnchors AnchorMap::finish(const Components& parts) const {
+  SourceAnchors out;
+  std::set<Index> components;
+  for (const auto& [row, anchor] : anchors_) {
+    out.anchors.push_back(anchor);
+    components.insert(parts.of[row]);
+  }
+  out.components.assign(components.begin(), components.end());
+  return out;
+}
+
+Result<void> refuse_offsets(const SourceSet& sources, Hint hint) {
   for (const double offset : sources.offsets) {
     if (!(offset > 0)) continue;
     return Error{ErrorCode::kBadInput,
                  "the heat method takes no offsets, and one is " + rounded_text(offset),
-                 {"use ", SettingHint{"method", {"wavefront"}}}};
+                 std::move(hint)};
   }
+  return {};
+}
+
+Result<void> check_weights(std::span<const double> weights, std::size_t corners,
+                           const std::string& cell) {
+  double sum = 0;
+  bool valid = weights.size() == corners;
+  for (const double weight : weights) {
+    valid = valid && weight >= 0;
+    sum += weight;
+  }
+  constexpr double kOfOne = 1e-9;
+  if (valid && std::abs(sum - 1) <= kOfOne) return {};
+  return Error{ErrorCode::kBadInput, "the source in " + cell + " needs " + std::to_string(corners) +
+                                         " weights that are not negative and sum to 1"};
+}
+
+Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources) {
+  if (const auto valid = check_sources(surface, sources); !valid) return valid.error();
+  const Hint other = {"use ", SettingHint{"method", {"wavefront"}}};
+  if (auto none = refuse_offsets(sources, other); !none) return none.error();
   Placer placer(surface);
   for (const SurfacePoint& point : sources.points) placer.add(point);
   for (const auto& edge : sources.edges) placer.add_edge(edge);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geotherm/error.h"
 #include "geotherm/sources.h"
+#include "solver/linear/symmetric_pattern.h"
 
 namespace geotherm {
 
@@ -41,6 +45,33 @@ struct SourceAnchors {
 
   std::vector<Index> rows() const;
 };
+
+/// Gathers the anchors of vertices and points of cells, by rows.
+class AnchorMap {
+ public:
+  void add_vertex(Index row) { anchors_[row] = {row, 0.0, 1.0}; }
+  /// A corner of a cell that holds a point, at this distance and with this weight.
+  void add_corner(Index row, double offset, double weight) {
+    SourceAnchors::Anchor& anchor =
+        anchors_.try_emplace(row, SourceAnchors::Anchor{row, kUnreached, 0.0}).first->second;
+    if (anchor.offset == 0) return;  // a source itself, with all its heat
+    anchor.offset = std::min(anchor.offset, offset);
+    anchor.heat += weight;
+  }
+  /// `parts`: of the rows.
+  SourceAnchors finish(const Components& parts) const;
+
+ private:
+  std::map<Index, SourceAnchors::Anchor> anchors_;
+};
+
+/// Errors (kBadInput): an offset above 0. `hint`: of that error.
+Result<void> refuse_offsets(const SourceSet& sources, Hint hint = {});
+
+/// Whether a point has a weight for each corner of its cell, none below 0, that sum to 1. `cell`:
+/// "tet 17". Errors: kBadInput.
+Result<void> check_weights(std::span<const double> weights, std::size_t corners,
+                           const std::string& cell);
 
 /// Errors (kBadInput): those of check_sources(), and offsets above 0.
 Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sources);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -82,15 +81,7 @@ Result<PolygonFile> polygon_file(const std::string& name, io::RawMesh raw) {
 template <class File, class Read>
 Result<File> guarded(Result<File> (*finish)(const std::string&, io::RawMesh),
                      const std::string& name, std::size_t size, const Read& read) {
-  try {
-    return finish(name, read());
-  } catch (const io::ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
-  }
-  return Error{ErrorCode::kOutOfMemory,
-               name + ": not enough memory for the mesh in its " + std::to_string(size) + " bytes"};
+  return io::guarded_read(name, "mesh", size, [&] { return finish(name, read()); });
 }
 
 template <class File>

@@ -64,9 +64,9 @@ Result<void> check_field(const std::string& path, const DataField& field) {
                  {"its name may hold letters, digits and _"}};
   }
   const std::string extension = extension_of(path);
-  if (extension == ".ply" || extension == ".vtp") return {};
+  if (extension == ".ply" || extension == ".vtp" || extension == ".vtu") return {};
   const bool on_faces = field.place == DataField::Place::kFaces;
-  if (extension == ".csv" && !on_faces) return {};
+  if ((extension == ".csv" || extension == ".vti") && !on_faces) return {};
   return Error{ErrorCode::kNotAvailable,
                io::printable(path) + ": " + extension + " holds no field \"" + field.name +
                    (on_faces ? "\", which has a value per face" : "\" beside the distances"),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,20 +33,14 @@ const PointFormat* point_format_of(std::string_view extension) {
 
 Result<PointFile> parse_points(const std::string& shown, const io::InputFile& file,
                                const PointFormat& format) {
-  try {
+  return io::guarded_read(shown, "points", file.size(), [&]() -> Result<PointFile> {
     io::RawPoints raw = format.read(io::FileBytes(file).bytes());
     auto points = PointCloud::build(std::move(raw.positions), std::move(raw.normals));
     if (!points) {
       return Error{ErrorCode::kBadFile, shown + ": " + points.error().message, points.error().hint};
     }
     return PointFile{*std::move(points), std::move(raw.notes)};
-  } catch (const io::ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, shown + ": " + failure.message, failure.hint};
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
-  }
-  return Error{ErrorCode::kOutOfMemory, shown + ": not enough memory for the points in its " +
-                                            std::to_string(file.size()) + " bytes"};
+  });
 }
 
 /// The header of a PLY file, from as much of the file as it takes. Throws ReadFailure.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -52,29 +51,15 @@ Result<TetFile> finish_tets(const std::string& name, io::RawTets raw) {
   return TetFile{*std::move(mesh), std::move(raw.notes)};
 }
 
-/// Calls read() and makes errors of what it throws, for the file `name`.
-template <class Read>
-auto guarded_read(const std::string& name, std::size_t size, const Read& read)
-    -> Result<decltype(read())> {
-  try {
-    return read();
-  } catch (const io::ReadFailure& failure) {
-    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
-  } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {
-  }
-  return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the volume in its " +
-                                            std::to_string(size) + " bytes"};
-}
-
 /// The bytes of a file are given to `read`; what they hold, or the file itself changed.
 template <class Read>
 auto read_bytes_of(const std::string& path, const Read& read)
     -> Result<decltype(read(std::string_view()))> {
   const auto file = io::InputFile::open(path);
   if (!file) return file.error();
-  auto made = guarded_read(io::printable(path), file->size(),
-                           [&] { return read(io::FileBytes(*file).bytes()); });
+  using Made = Result<decltype(read(std::string_view()))>;
+  auto made = io::guarded_read(io::printable(path), "volume", file->size(),
+                               [&]() -> Made { return read(io::FileBytes(*file).bytes()); });
   if (auto same = file->check_unchanged(); !same) return same.error();
   return made;
 }
@@ -115,9 +100,10 @@ Result<TetFile> read_tets(const std::string& path) {
   const TetFormat* const format = tet_format_of(extension);
   if (format == nullptr) {
     if (auto there = io::InputFile::open(path); !there) return there.error();
-    return Error{ErrorCode::kNotAvailable,
-                 io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\"",
-                 {"there are .mesh .meshb .msh .vtk .vtu .node .ele"}};
+    return Error{
+        ErrorCode::kNotAvailable,
+        io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\" of tets",
+        {"there are .mesh .meshb .msh .vtk .vtu .node .ele"}};
   }
   if (format->read == nullptr) return read_tetgen(path, extension);
   auto raw = read_bytes_of(path, format->read);

@@ -6,7 +6,7 @@
 
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/method/solve_sets.h"
+#include "solver/method/marching_method.h"
 #include "solver/volume/clean_tets.h"
 #include "solver/volume/fast_marching_tets.h"
 
@@ -15,17 +15,12 @@ namespace {
 
 /// The sources as points of the volume. Errors: what only triangle meshes have.
 Result<std::vector<VolumePoint>> volume_points(const SourceSet& sources) {
+  if (auto valid = check_space_sources(sources, "vertices or points of tets"); !valid) {
+    return valid.error();
+  }
   std::vector<VolumePoint> out;
   for (const SurfacePoint& point : sources.points) {
-    if (!point.is_vertex()) {
-      return Error{ErrorCode::kBadInput,
-                   "points in faces are sources of triangle meshes alone; give vertices or points "
-                   "of tets"};
-    }
     out.push_back(VolumePoint::at_vertex(point.vertex));
-  }
-  if (!sources.edges.empty()) {
-    return Error{ErrorCode::kBadInput, "curves of mesh edges are sources of triangle meshes alone"};
   }
   for (const CellPoint& point : sources.cell_points) {
     if (point.weights.size() != 4) {
@@ -40,37 +35,18 @@ Result<std::vector<VolumePoint>> volume_points(const SourceSet& sources) {
   return out;
 }
 
-class TetMarchingMethod final : public DistanceMethod {
+class TetMarchingMethod final : public MarchingMethod {
  public:
   TetMarchingMethod(std::shared_ptr<const TetMesh> mesh, TetFastMarching marching,
                     std::int64_t bytes, double setup_ms, int threads, double nanoseconds)
-      : mesh_(std::move(mesh)),
-        marching_(std::move(marching)),
-        bytes_(bytes),
-        threads_{threads, nanoseconds} {
-    timing_.operators = timing_.setup = setup_ms;
+      : MarchingMethod(static_cast<double>(bytes) / (1 << 20), setup_ms, threads, nanoseconds),
+        mesh_(std::move(mesh)),
+        marching_(std::move(marching)) {
     for (const std::string& note : marching_.notes()) warnings_.push_back({note});
   }
 
-  MethodKind kind() const override { return MethodKind::kFastMarching; }
-
-  Result<std::vector<DistanceResult>> solve_each(std::span<const SourceSet> sets,
-                                                 const QueryOptions& query,
-                                                 const Progress& progress) const override {
-    const auto one = [&](const SourceSet& sources, const Progress& part) -> Result<DistanceResult> {
-      return solve_one(sources, query, part);
-    };
-    return solve_sets(sets, threads_, progress, one);
-  }
-
-  const SetupTiming& timing() const override { return timing_; }
-  double memory_mb() const override { return static_cast<double>(bytes_) / (1 << 20); }
-  const std::vector<Warning>& warnings() const override { return warnings_; }
-
  private:
-  Result<DistanceResult> solve_one(const SourceSet& sources, const QueryOptions& query,
-                                   const Progress& progress) const {
-    const Stopwatch watch;
+  Result<Marched> march(const SourceSet& sources, const Progress& progress) const override {
     const auto points = volume_points(sources);
     if (!points) return points.error();
     // Offsets stand for the points of SourceSet::points; points of cells have none.
@@ -78,18 +54,10 @@ class TetMarchingMethod final : public DistanceMethod {
     if (!offsets.empty()) offsets.resize(points->size(), 0.0);
     auto solved = marching_.solve(*points, offsets, {}, progress);
     if (!solved) return solved.error();
-    DistanceResult result;
-    result.distances = std::move(solved->distances);
-    if (query.nearest) result.nearest_source = std::move(solved->nearest);
-    result.quality.reached_vertices = static_cast<Index>(std::ranges::count_if(
-        result.distances, [](double distance) { return distance < kUnreached; }));
-    result.timing.query = watch.milliseconds();
-    if (query.quality) result.quality.eikonal_error_mean = eikonal_error(result.distances);
-    return result;
+    return Marched{std::move(solved->distances), std::move(solved->nearest)};
   }
 
-  /// By volume, over the tets whose corners are all reached.
-  double eikonal_error(std::span<const double> distances) const {
+  double eikonal_error(std::span<const double> distances) const override {
     const auto positions = mesh_->positions();
     double error = 0, volume = 0;
     for (const Tet& tet : mesh_->tets()) {
@@ -106,10 +74,6 @@ class TetMarchingMethod final : public DistanceMethod {
 
   std::shared_ptr<const TetMesh> mesh_;
   TetFastMarching marching_;
-  std::int64_t bytes_;
-  SetThreads threads_;
-  SetupTiming timing_;
-  std::vector<Warning> warnings_;
 };
 
 }  // namespace

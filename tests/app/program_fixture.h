@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,13 @@ class Program : public testing::Test {
     Json value = Json::parse(result.out, nullptr, false);
     EXPECT_FALSE(value.is_discarded()) << result.out;
     return value;
+  }
+  /// Ends with one line that holds `says`.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& says) {
+    const ProgramRun result = run_program(folder.path("."), arguments);
+    EXPECT_NE(result.code, 0);
+    EXPECT_NE(result.err.find(says), std::string::npos) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
   }
 
   TemporaryDirectory folder;

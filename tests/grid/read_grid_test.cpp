@@ -64,17 +64,20 @@ std::string png_chunk(const std::string& name, const std::string& data) {
          big(static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(body.data()),
                                               static_cast<uInt>(body.size()))));
 }
-/// Rows of 8-bit samples; colour: 0 grey, 2 RGB.
+/// Rows of 8-bit samples; colour: 0 grey, 2 RGB, 3 numbers of a palette, which is RGB.
 std::string png(std::uint32_t width, std::uint32_t height, const std::string& samples,
-                int colour = 0) {
+                int colour = 0, const std::string& palette = {}) {
   std::string rows;
   const std::size_t row = samples.size() / height;
   for (std::uint32_t y = 0; y < height; ++y) rows += '\0' + samples.substr(y * row, row);
   return std::string("\x89PNG\r\n\x1a\n") +
          png_chunk("IHDR",
                    big(width) + big(height) + std::string{8, static_cast<char>(colour), 0, 0, 0}) +
-         png_chunk("IDAT", packed(rows)) + png_chunk("IEND", "");
+         (palette.empty() ? "" : png_chunk("PLTE", palette)) + png_chunk("IDAT", packed(rows)) +
+         png_chunk("IEND", "");
 }
+
+const std::string kPalette("\xff\xff\xff\x70\x70\x70\0\0\0", 9);
 
 const std::string kNrrd = "NRRD0004\n# made by hand\ntype: uint8\ndimension: 2\nsizes: 3 2\n";
 std::string vti(const std::string& array, const std::string& more = "") {
@@ -148,6 +151,11 @@ std::vector<GridSample> grid_samples() {
        png(3, 1, std::string("\xff\xff\xff\xa0\xa0\xa0\x20\x10\x10", 9), 2),
        {3, 1, 1},
        {1, 1, 0}},
+      {"png_palette",
+       "a.png",
+       png(3, 2, std::string("\0\1\0\2\0\0", 6), 3, kPalette),
+       {3, 2, 1},
+       mask},
       {"png_speeds",
        "a.png",
        png(3, 1, std::string("\xff\x33\0", 3)),
@@ -161,6 +169,11 @@ std::vector<GridSample> grid_samples() {
        {3, 2, 1},
        mask},
       {"nrrd_gzip", "a.nrrd", kNrrd + "encoding: gzip\n\n" + gzip(bytes), {3, 2, 1}, mask},
+      {"nrrd_kinds",
+       "a.nrrd",
+       kNrrd + "kinds: domain space\nencoding: raw\n\n" + bytes,
+       {3, 2, 1},
+       mask},
       {"nrrd_text", "a.nrrd", kNrrd + "encoding: ascii\n\n1 0 2\n0 3 255\n", {3, 2, 1}, mask},
       {"nrrd_big_endian",
        "a.nrrd",
@@ -249,7 +262,25 @@ std::vector<GridDamage> grid_damages() {
        "the speed in column 1 of row 1 is -2; speeds are 0 or more; grid mask takes what is not 0 "
        "as passable"},
       {"npy_walls", "a.npy", npy("|u1", "(2, 2)", std::string("\1\0\0\1", 4)),
-       "no two neighbouring samples of the grid pass"},
+       "no two neighbouring samples of the grid pass; as read, 0 is wall, all else passes"},
+      {"npy_long", "a.npy", npy("<i2", "(2, 2)", raw<std::int16_t>({1, 1, 1, 1, 1, 1})),
+       "there are to be 4 samples of 2 bytes, but 12 bytes follow, 4 too many"},
+      {"png_palette", "a.png", png(2, 1, std::string("\0\4", 2), 3, kPalette),
+       "the pixel in column 1 of row 0 has the colour 4 of a palette of 3"},
+      {"nrrd_gzip_cut", "a.nrrd",
+       kNrrd + "encoding: gzip\n\n" + gzip(std::string(6, '\1')).substr(0, 19),
+       "the compressed samples are cut off or damaged behind their 6 bytes: 19 compressed ones do "
+       "not end with their checksum"},
+      {"nrrd_gzip_long", "a.nrrd", kNrrd + "encoding: gzip\n\n" + gzip(std::string(7, '\1')),
+       "there are to be 6 bytes, but the compressed samples are more"},
+      {"nrrd_colours", "a.nrrd",
+       kNrrd + "kinds: RGB-color domain\nencoding: raw\n\n" + std::string(6, '\1'),
+       "line 6: axis 0 of 3 values is RGB-color; a grid has one value a sample; save the "
+       "brightness or one of them alone"},
+      {"nrrd_no_direction", "a.nrrd",
+       kNrrd + "encoding: raw\nspace directions: none (1,0)\n\n" + std::string(6, '\1'),
+       "line 7: axis 0 of 3 values has no direction; a grid has one value a sample; save the "
+       "brightness or one of them alone"},
       {"nrrd_other", "a.nrrd", "hello\n", "line 1: a file of NRRD starts with NRRD000"},
       {"nrrd_encoding", "a.nrrd", kNrrd + "encoding: bzip2\n\n",
        "line 6: the encoding \"bzip2\" is not supported; save it raw or gzip"},
@@ -328,6 +359,23 @@ TEST(GridFiles, DistancesReadBackInTheShapeOfTheGrid) {
   EXPECT_EQ(back->grid.size, grid.size);
   EXPECT_EQ(back->grid.spacing, grid.spacing);
   EXPECT_EQ(back->grid.origin, grid.origin);
+}
+
+TEST(GridFiles, ArraysKeepTheirAxesAndSayWhatWasLeftOut) {
+  const TemporaryDirectory directory;
+  const auto thin = read_grid(directory.write("a.npy", npy("|u1", "(1, 2, 3)", "abcdef")));
+  ASSERT_TRUE(thin) << sentence(thin.error());
+  ASSERT_TRUE(write_distances(directory.path("d.npy"), thin->grid, std::vector<double>(6, 1)));
+  EXPECT_NE(bytes_of(directory.path("d.npy")).find("'shape': (1, 2, 3), }"), std::string::npos);
+
+  const auto more =
+      read_grid(directory.write("a.nrrd", kNrrd + "encoding: raw\n\n" + std::string(9, '\1')));
+  ASSERT_TRUE(more) << sentence(more.error());
+  EXPECT_EQ(more->notes, std::vector<std::string>{"3 bytes behind the samples were left out"});
+  const auto coloured =
+      read_grid(directory.write("a.png", png(2, 1, std::string("\0\0", 2), 3, kPalette)));
+  ASSERT_TRUE(coloured) << sentence(coloured.error());
+  EXPECT_EQ(coloured->meaning, "brightness of at least half passes, of a palette of 3 colours");
 }
 
 TEST(GridPoints, AreTheNearestThatPass) {

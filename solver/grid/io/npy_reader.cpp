@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "solver/core/text.h"
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/npy_header.h"
@@ -56,7 +57,15 @@ RawGrid read_npy(std::string_view bytes) {
   }
   RawGrid grid;
   std::copy(header.shape.rbegin(), header.shape.rend(), grid.size.begin());
+  grid.three_axes = header.shape.size() == 3;
   const std::size_t count = count_samples(grid.size);
+  const std::size_t each = size_of(type.type), wanted = count * each;
+  const std::size_t there = bytes.size() - header.begins;
+  if (there > wanted) {
+    throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
+                      counted_text(each, "byte", "bytes") + ", but " + std::to_string(there) +
+                      " bytes follow, " + std::to_string(there - wanted) + " too many"};
+  }
   grid.values = decode_samples(bytes.substr(header.begins), count, type.type, header.order);
   if (header.fortran) grid.values = in_c_order(grid.values, grid.size);
   grid.type = type.name == "b1" ? RawGrid::Values::kBooleans : values_of(type.type);

@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "solver/core/text.h"
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/text_scanner.h"
@@ -84,6 +85,7 @@ class NrrdHeaderReader {
     }
     header_.data_begins = std::min(at_, text_.size());
     if (!typed_ || sizes_ == 0) throw ReadFailure{"the header has no type or no sizes"};
+    check_kinds();
     return std::move(header_);
   }
 
@@ -116,6 +118,8 @@ class NrrdHeaderReader {
       }
     } else if (field == "sizes") {
       read_sizes(value);
+    } else if (field == "kinds") {
+      kinds_ = value;
     } else if (field == "encoding") {
       using Encoding = NrrdHeader::Encoding;
       if (value != "raw" && value != "gzip" && value != "gz" && value != "ascii" &&
@@ -146,6 +150,33 @@ class NrrdHeaderReader {
       header_.line_skip = whole(value, 0);
     } else if (field == "byte skip" || field == "byteskip") {
       header_.byte_skip = whole(value, -1);
+    }
+  }
+
+  [[noreturn]] void fail_of_axis(std::string_view where, std::size_t axis,
+                                 const std::string& what) const {
+    const std::int64_t size = header_.grid.size[std::min<std::size_t>(axis, 2)];
+    fail(where,
+         "axis " + std::to_string(axis) + " of " + std::to_string(size) + " values " + what +
+             "; a grid has one value a sample",
+         {"save the brightness or one of them alone"});
+  }
+
+  /// Axes are places, or numbers of one sample such as a colour's, which have no direction. One
+  /// value is none too many.
+  void check_kinds() const {
+    if (!no_direction_.empty()) {
+      fail_of_axis(no_direction_, axis_without_direction_, "has no direction");
+    }
+    constexpr std::string_view kPlaces[] = {"domain", "space", "time", "none", "???"};
+    std::size_t axis = 0;
+    for (std::string_view rest = kinds_; axis < sizes_; ++axis) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+      const std::string_view kind = rest.substr(0, rest.find_first_of(" \t"));
+      if (kind.empty()) return;
+      rest.remove_prefix(kind.size());
+      if (std::ranges::count(kPlaces, kind) > 0 || header_.grid.size[axis] == 1) continue;
+      fail_of_axis(kind, axis, "is " + printable(kind));
     }
   }
 
@@ -192,6 +223,14 @@ class NrrdHeaderReader {
   }
 
   void read_directions(std::string_view value) {
+    for (std::size_t axis = 0, at = 0; (at = value.find_first_of("(n", at)) != value.npos; ++axis) {
+      if (value[at] == 'n' && no_direction_.empty()) {
+        no_direction_ = value.substr(at);
+        axis_without_direction_ = axis;
+        return;
+      }
+      at = std::min(value.find(')', at), value.size());
+    }
     const std::vector<double> all = reals(value, 9);
     const std::size_t axes = all.size() == 4 ? 2 : 3;
     bool along = all.size() == 4 || all.size() == 6 || all.size() == 9;
@@ -213,6 +252,8 @@ class NrrdHeaderReader {
   std::size_t at_ = 0;
   bool typed_ = false;
   std::size_t sizes_ = 0;
+  std::string_view kinds_, no_direction_;
+  std::size_t axis_without_direction_ = 0;
   NrrdHeader header_;
 };
 
@@ -223,19 +264,20 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
     throw ReadFailure{"there are to be " + std::to_string(bytes) + " bytes, but only " +
                       std::to_string(packed.size()) + " compressed ones follow"};
   }
-  std::string out(bytes, '\0');
+  // One byte more than there are to be, so that the stream is read to its end, its checksum.
+  std::string out(bytes + 1, '\0');
   z_stream stream{};
   constexpr int kGzip = 16 + MAX_WBITS;
   if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
   constexpr std::size_t kMostAtOnce = 1 << 30;
   std::size_t taken = 0, made = 0;
   int code = Z_OK;
-  while (code == Z_OK && made < bytes) {
+  while (code == Z_OK && made < out.size()) {
     stream.next_in =
         reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));  // zlib's own const
     stream.avail_in = static_cast<uInt>(std::min(kMostAtOnce, packed.size() - taken));
     stream.next_out = reinterpret_cast<Bytef*>(out.data() + made);
-    stream.avail_out = static_cast<uInt>(std::min(kMostAtOnce, bytes - made));
+    stream.avail_out = static_cast<uInt>(std::min(kMostAtOnce, out.size() - made));
     const uInt in = stream.avail_in, room = stream.avail_out;
     code = inflate(&stream, Z_NO_FLUSH);
     taken += in - stream.avail_in;
@@ -248,6 +290,16 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
     throw ReadFailure{"the compressed samples are damaged or too few: " + std::to_string(made) +
                       " bytes of " + std::to_string(bytes)};
   }
+  if (made > bytes) {
+    throw ReadFailure{"there are to be " + std::to_string(bytes) +
+                      " bytes, but the compressed samples are more"};
+  }
+  if (code != Z_STREAM_END) {
+    throw ReadFailure{"the compressed samples are cut off or damaged behind their " +
+                      std::to_string(bytes) + " bytes: " + std::to_string(packed.size()) +
+                      " compressed ones do not end with their checksum"};
+  }
+  out.pop_back();
   return out;
 }
 
@@ -272,6 +324,10 @@ RawGrid read_nrrd_data(const NrrdHeader& header, std::string_view data) {
   switch (header.encoding) {
     case NrrdHeader::Encoding::kRaw:
       grid.values = decode_samples(data, count, header.type, header.order);
+      if (data.size() > bytes) {
+        grid.notes.push_back(counted_text(data.size() - bytes, "byte", "bytes") +
+                             " behind the samples were left out");
+      }
       break;
     case NrrdHeader::Encoding::kGzip:
       grid.values = decode_samples(unzipped(data, bytes), count, header.type, header.order);

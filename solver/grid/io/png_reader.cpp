@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <png.h>
 
+#include <array>
 #include <new>
 
 #include "solver/grid/io/raw_grid.h"
@@ -36,13 +37,28 @@ RawGrid read_png(std::string_view bytes) {
                       std::to_string(image.png.height) + " pixels, but the file has only " +
                       std::to_string(bytes.size()) + " bytes"};
   }
-  image.png.format = PNG_FORMAT_GRAY;
-  std::vector<unsigned char> gray(count);
+  // Behind a palette are the numbers of its colours: libpng takes those beyond it as black.
+  const bool palette = (image.png.format & PNG_FORMAT_FLAG_COLORMAP) != 0;
+  image.png.format = PNG_FORMAT_GRAY | (palette ? PNG_FORMAT_FLAG_COLORMAP : 0U);
+  std::vector<unsigned char> pixels(count);
+  std::array<unsigned char, 256> colours{};
   const png_color white = {255, 255, 255};  // behind what is transparent
-  if (png_image_finish_read(&image.png, &white, gray.data(), 0, nullptr) == 0) {
+  if (png_image_finish_read(&image.png, &white, pixels.data(), 0, colours.data()) == 0) {
     throw ReadFailure{"the picture cannot be read: " + std::string(image.png.message)};
   }
-  grid.values.assign(gray.begin(), gray.end());
+  for (std::size_t i = 0; i < count && palette; ++i) {
+    if (pixels[i] >= image.png.colormap_entries) {
+      throw ReadFailure{"the pixel in column " + std::to_string(i % image.png.width) + " of row " +
+                        std::to_string(i / image.png.width) + " has the colour " +
+                        std::to_string(pixels[i]) + " of a palette of " +
+                        std::to_string(image.png.colormap_entries)};
+    }
+    pixels[i] = colours[pixels[i]];
+  }
+  if (palette) {
+    grid.detail = ", of a palette of " + std::to_string(image.png.colormap_entries) + " colours";
+  }
+  grid.values.assign(pixels.begin(), pixels.end());
   grid.type = RawGrid::Values::kPixels;
   // The first row is the top, and y points up: the lowest row of pixels is at 0.
   grid.spacing[1] = -1;

@@ -23,8 +23,10 @@ struct RawGrid {
   std::array<std::int64_t, 3> size = {1, 1, 1};
   std::array<double, 3> spacing = {1, 1, 1};
   Vec3 origin = Vec3::Zero();
+  bool three_axes = false;  ///< as Grid has it
   Values type = Values::kReals;
   std::vector<double> values;  ///< x fastest
+  std::string detail;          ///< of what the values mean, behind it: "of a palette ..."
   std::vector<std::string> notes;
 };
 

@@ -53,6 +53,9 @@ struct Quality {
   /// largest difference over length of one of them.
   Index steep_edges = 0;
   double steepest_edge = 0;
+  /// Whether these two bounds were looked at: travel times have no straight line, and edges are
+  /// those of triangle meshes.
+  bool lines_checked = false, edges_checked = false;
   int iterations_heat = 0;  ///< 0 for direct backends
   int iterations_poisson = 0;
 };

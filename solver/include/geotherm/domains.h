@@ -97,6 +97,7 @@ struct Grid {
   /// For each sample, x fastest: the speed with which distance is travelled there, so that the
   /// answer is travel time; 0 where nothing passes. Empty: 1 everywhere.
   std::vector<double> speeds;
+  bool three_axes = false;  ///< arrays that are written have three, also where size[2] is 1
 
   Index sample_count() const { return size[0] * size[1] * size[2]; }
   Index number(const std::array<Index, 3>& at) const {

@@ -93,7 +93,8 @@ Result<void> write_distances(const std::string& path, const TriangleMesh& mesh,
                              std::span<const double> distances, std::span<const Index> nearest = {},
                              std::span<const DataField> fields = {});
 
-/// Whether the file of this path holds the field beside the distances. Errors: kNotAvailable, with
+/// Whether the file of this path holds the field beside the distances (.vtu of tets, .vti of grids
+/// among them). Errors: kNotAvailable, with
 /// the extensions that do.
 Result<void> check_field(const std::string& path, const DataField& field);
 

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,6 +96,22 @@ class FileBytes {
  private:
   LargeBuffer buffer_;  ///< with the padding
 };
+
+/// What `read` gives, a Result, or an error of what it throws. `name`: of the file, as printed;
+/// `what`: "mesh"; `size`: bytes of the file.
+template <class Read>
+auto guarded_read(const std::string& name, const char* what, std::size_t size, const Read& read)
+    -> decltype(read()) {
+  try {
+    return read();
+  } catch (const ReadFailure& failure) {
+    return Error{ErrorCode::kBadFile, name + ": " + failure.message, failure.hint};
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the " + what + " in its " +
+                                            std::to_string(size) + " bytes"};
+}
 
 /// All that a stream (a pipe, a terminal, a file) held, with the padding that FileBytes has.
 class StreamBytes {
