@@ -58,14 +58,6 @@ std::shared_ptr<const WaveSurface> waves_of(const DistanceMethod* method) {
   return nullptr;
 }
 
-/// Whether a method was made with these options.
-bool was_asked_for(const HeatMethod& method, HeatOptions options) {
-  HeatOptions asked = method.options();
-  if (!method.fallbacks().empty()) asked.backend = method.fallbacks().front().backend;
-  if (options.backend.empty()) options.backend = backend_names().front();
-  return asked == options;
-}
-
 /// On the mesh as it is.
 Built build_plain(std::shared_ptr<const TriangleMesh> mesh, const MethodOptions& options,
                   const Progress& progress, std::shared_ptr<const WaveSurface> waves) {
@@ -192,9 +184,8 @@ Built build_method_near(std::shared_ptr<const TriangleMesh> mesh, const MethodOp
 Built build_method_moved(std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
                          const DistanceMethod* earlier, const Progress& progress) try {
   const auto* const heat = dynamic_cast<const HeatMethod*>(earlier);
-  if (heat != nullptr && options.method == MethodKind::kHeat && options.refine == 0 &&
-      was_asked_for(*heat, options)) {
-    return as_heat(heat->with_mesh(std::move(moved), progress));
+  if (heat != nullptr && options.method == MethodKind::kHeat && !needs_mapping(*moved, options)) {
+    return as_heat(heat->with_mesh(std::move(moved), options, progress));
   }
   const std::shared_ptr<const WaveSurface> waves = waves_of(earlier);
   if (waves == nullptr || options.method == MethodKind::kHeat || needs_mapping(*moved, options)) {

@@ -114,6 +114,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   solver_.reset();
   placed_.clear();
   pose_ = {};
+  rest_ = {};
   sequence_.reset();
   sculptor_.reset();
   inspected_ = true;
@@ -242,6 +243,17 @@ Result<std::shared_ptr<const ExploredModel>> Explorer::moved_model(
   return std::shared_ptr<const ExploredModel>(std::move(moved));
 }
 
+namespace {
+
+/// The diffusion time of a heat method; none where components have their own.
+std::optional<double> time_of(const HeatMethod* heat) {
+  if (heat == nullptr) return {};
+  const auto [least, most] = heat->t_range();
+  return least == most ? std::optional(least) : std::nullopt;
+}
+
+}  // namespace
+
 /// What is said of the mesh, once it rests.
 Result<void> Explorer::inspect(const Progress& progress) {
   if (inspected_) return {};
@@ -255,6 +267,17 @@ Result<void> Explorer::inspect(const Progress& progress) {
   model_ = std::move(model);
   inspected_ = true;
   return {};
+}
+
+/// The options while a stroke is drawn: the diffusion time stays what it was at rest, where it
+/// would follow the mean edge, so that the heat step, too, is solved anew only near the brush.
+MethodOptions Explorer::live_options(const ExploreRequest& request) const {
+  MethodOptions options = request.options;
+  const bool carves = !request.quality && !pose_.sculpture.strokes.empty();
+  if (carves && rest_.t && same_method(options, rest_.options)) {
+    options.time_step = {TimeRule::kAbsolute, options.time_step.factor, *rest_.t};
+  }
+  return options;
 }
 
 Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& request,
@@ -322,11 +345,13 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();
   const ResolvedSources sources{explored.set, *std::move(warnings)};
-  std::vector<MethodOptions> wanted = {request.options};
+  const MethodOptions options = live_options(request);
+  std::vector<MethodOptions> wanted = {request.options, options};
   if (request.kept) wanted.push_back(*request.kept);
   solver_->want_methods(std::move(wanted));
-  auto a = answer(request, request.options, sources, false, progress);
+  auto a = answer(request, options, sources, false, progress);
   if (!a) return a.error();
+  if (request.quality) rest_ = {request.options, time_of((*a)->method->heat())};
   explored.a = *std::move(a);
   if (request.target) {
     if (auto found = find_paths(request, explored, progress); !found) return found.error();

@@ -72,6 +72,7 @@ class Explorer {
   Result<void> make_rays(ExploredModel& model, const Progress& progress);
   Result<void> inspect(const Progress& progress);
   Result<std::vector<Warning>> place_sources(const ExploreRequest& request, Explored& explored);
+  MethodOptions live_options(const ExploreRequest& request) const;
   Result<std::shared_ptr<const Answer>> answer(const ExploreRequest& request,
                                                const MethodOptions& options,
                                                const ResolvedSources& sources, bool is_b,
@@ -85,6 +86,11 @@ class Explorer {
   std::shared_ptr<const ExploredModel> model_;  ///< in the pose `pose_`
   std::shared_ptr<const RayTree> rays_;         ///< the last that was made
   Pose pose_;
+  struct Rest {
+    MethodOptions options;
+    std::optional<double> t;  ///< of the last heat method while nothing moved, model units squared
+  };
+  Rest rest_;
   struct Sequence {
     std::string path;
     Frames frames;

@@ -73,8 +73,13 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
                                                                 const DistanceMethod* near,
                                                                 const Progress& progress) {
   if (model_.space) return build_method_near(*model_.space, options, near, progress);
-  if (const ReadyMethod* const earlier = find_in(earlier_, options);
-      earlier != nullptr && options.method == MethodKind::kHeat) {
+  const ReadyMethod* earlier = find_in(earlier_, options);
+  if (earlier == nullptr && options.method == MethodKind::kHeat) {
+    const auto heat = std::ranges::find(
+        earlier_, MethodKind::kHeat, [](const ReadyMethod& ready) { return ready.options.method; });
+    if (heat != earlier_.end() && near == nullptr) earlier = &*heat;
+  }
+  if (earlier != nullptr) {
     return build_method_moved(model_.mesh, options, earlier->method.get(), progress);
   }
   if (options.method == MethodKind::kHeat) {

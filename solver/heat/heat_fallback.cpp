@@ -75,10 +75,12 @@ Result<HeatMethod> HeatMethod::with_positions(std::vector<Vec3> positions,
   }
   auto moved = surface->mesh->moved(std::move(positions));
   if (!moved) return moved.error();
-  return with_mesh(std::make_shared<const TriangleMesh>(*std::move(moved)), progress);
+  return with_mesh(std::make_shared<const TriangleMesh>(*std::move(moved)),
+                   with_backend(state_->options, state_->asked()), progress);
 }
 
 Result<HeatMethod> HeatMethod::with_mesh(std::shared_ptr<const TriangleMesh> moved,
+                                         const HeatOptions& options,
                                          const Progress& progress) const {
   const Surface* const surface = state_->domain->surface();
   if (surface == nullptr) {
@@ -88,7 +90,7 @@ Result<HeatMethod> HeatMethod::with_mesh(std::shared_ptr<const TriangleMesh> mov
   if (auto same = check_moved(*surface->mesh, *moved); !same) return same.error();
   return State::build(
       surface_input(std::move(moved), std::shared_ptr<const Surface>(state_->domain, surface)),
-      with_backend(state_->options, state_->asked()), progress, state_.get());
+      options, progress, state_.get());
 }
 
 Result<HeatMethod> HeatMethod::with(const HeatOptions& options, const Progress& progress) const

@@ -263,10 +263,10 @@ TEST(MovingRefusals, NameWhatDiffers) {
 
   Draft other = sphere(2);
   std::swap(other.faces[5][0], other.faces[5][1]);
-  const auto turned = method.with_mesh(finish(other));
+  const auto turned = method.with_mesh(finish(other), method.options());
   ASSERT_FALSE(turned);
   EXPECT_EQ(turned.error().message, "face 5 has other corners than before");
-  const auto finer = method.with_mesh(finish(sphere(3)));
+  const auto finer = method.with_mesh(finish(sphere(3)), method.options());
   ASSERT_FALSE(finer);
   EXPECT_EQ(finer.error().message,
             "the mesh has 642 vertices and 1280 faces, not 162 vertices and 320 faces");

@@ -55,8 +55,8 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_near(
     const DistanceMethod* near, const Progress& progress = {});
 
 /// The same surface with its vertices elsewhere: frames of an animation, a mesh that is sculpted.
-/// `earlier`: a method on a mesh of the same faces, from which a heat method and waves take over
-/// what stays the same; with other options, or null, everything is made afresh. Errors: those of
+/// `earlier`: a method on a mesh of the same faces, or null; a heat method and waves take over what
+/// stays the same from one of their kind (HeatMethod::with_positions()). Errors: those of
 /// check_moved() and build_method().
 Result<std::shared_ptr<const DistanceMethod>> build_method_moved(
     std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,

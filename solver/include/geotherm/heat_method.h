@@ -80,9 +80,10 @@ class HeatMethod final : public DistanceMethod {
   Result<HeatMethod> with_positions(std::vector<Vec3> positions,
                                     const Progress& progress = {}) const;
 
-  /// The same for a mesh that was moved elsewhere. Errors: the same, and those of check_moved().
+  /// The same for a mesh that was moved elsewhere, and with other options. Errors: the same, and
+  /// those of check_moved().
   Result<HeatMethod> with_mesh(std::shared_ptr<const TriangleMesh> moved,
-                               const Progress& progress = {}) const;
+                               const HeatOptions& options, const Progress& progress = {}) const;
 
   MethodKind kind() const override { return MethodKind::kHeat; }
 
