@@ -110,8 +110,8 @@ struct ExploreRow {
   // A source is dragged: from one picture with new distances to the next, and what it consists of.
   double drag_ms = kNotMeasured;
   double query_ms = kNotMeasured, upload_ms = kNotMeasured, frame_ms = kNotMeasured;
-  // A stroke goes on: the same way, with the set-up on the surface that was moved.
-  double stroke_ms = kNotMeasured, stroke_setup_ms = kNotMeasured;
+  // A stroke goes on: pictures with new distances a second, and the set-up on what was moved.
+  double stroke_pictures = kNotMeasured, stroke_setup_ms = kNotMeasured;
   // t is switched: the longest frame while the worker factors, and that time.
   double switch_ms = kNotMeasured;
   double longest_frame_ms = kNotMeasured, usual_frame_ms = kNotMeasured;

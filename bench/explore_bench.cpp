@@ -2,10 +2,12 @@
 #include "bench/benches.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <filesystem>
 #include <mutex>
 #include <system_error>
+#include <thread>
 
 #include "app/session/session.h"
 #include "app/window/scene_screen.h"
@@ -22,6 +24,7 @@ constexpr glm::ivec2 kWindow(1280, 800);
 constexpr PictureArea kArea{{310, 22}, {660, 756}};
 constexpr int kDrags = 40;
 constexpr int kFrames = 15;
+constexpr double kStrokeMs = 5000, kTouchMs = 16;
 
 /// Wakes whoever waits for a session's work.
 class Bell {
@@ -104,7 +107,7 @@ class Hand {
     return session_.finish();
   }
 
-  /// Touches side by side, each from the mouse to the picture of its distances.
+  /// A hand goes on with a stroke, and pictures with new distances follow as fast as they can.
   Result<void> measure_stroke(ExploreRow& row) {
     session_.set_dragging(true);
     const MeshReport mesh = session_.explored().model->mesh;
@@ -112,19 +115,27 @@ class Hand {
     const auto point = [&](int i) {
       return FacePoint{(1000 + 7 * i) % mesh.faces, {0.25, 0.25, 0.5}};
     };
-    if (auto done = session_.submit(command::Sculpt{{SculptTool::kPull, radius, 0.05, {point(0)}}});
-        !done)
-      return done;
-    std::vector<double> all, setups;
-    for (int i = 1; i <= kDrags; ++i) {
-      const Stopwatch watch;
-      if (auto done = follow(command::ExtendStroke{{point(i)}}); !done) return done;
+    const command::Sculpt first{{SculptTool::kPull, radius, 0.01, {point(0)}}};
+    if (auto done = follow(first); !done) return done;
+    std::vector<double> setups;
+    const Stopwatch watch;
+    for (int touches = 1; watch.milliseconds() < kStrokeMs;) {
+      if (watch.milliseconds() > touches * kTouchMs) {
+        if (auto done = session_.submit(command::ExtendStroke{{point(++touches)}}); !done) {
+          return done;
+        }
+      }
+      const std::uint64_t before = session_.explored().version;
+      session_.update();
+      if (session_.explored().version == before) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        continue;
+      }
+      setups.push_back(session_.explored().a->setup_ms);
       if (auto done = screen_->update(session_, kArea); !done) return done;
       if (auto done = frame(); !done) return done;
-      if (i > 3) all.push_back(watch.milliseconds());
-      setups.push_back(session_.explored().a->setup_ms);
     }
-    row.stroke_ms = median(all);
+    row.stroke_pictures = 1e3 * static_cast<double>(setups.size()) / watch.milliseconds();
     row.stroke_setup_ms = median(setups);
     session_.set_dragging(false);
     return session_.finish();

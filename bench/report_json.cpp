@@ -138,7 +138,7 @@ std::string to_json(const BenchRun& run) {
                               {"upload_ms", value(row.upload_ms)},
                               {"frame_ms", value(row.frame_ms)},
                               {"drag_ratio", value(row.drag_ratio())},
-                              {"stroke_ms", value(row.stroke_ms)},
+                              {"stroke_pictures_per_second", value(row.stroke_pictures)},
                               {"stroke_setup_ms", value(row.stroke_setup_ms)},
                               {"switch_ms", value(row.switch_ms)},
                               {"longest_frame_ms", value(row.longest_frame_ms)},

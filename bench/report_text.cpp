@@ -143,16 +143,16 @@ std::string explore_text(const ExploreBench& bench) {
   if (!bench.rows.empty()) {
     text +=
         "\nExploring at 1280x800: a source dragged, from picture to picture, beside what that\n"
-        "consists of; the surface sculpted, beside the set-up in that; the longest frame while\n"
-        "t is switched, beside the usual one\n" +
+        "consists of; pictures a second while the surface is sculpted, beside their set-up; the\n"
+        "longest frame while t is switched, beside the usual one\n" +
         format("%-12s%10s%10s%9s%9s%9s%8s%11s%9s%11s%9s%8s\n", "mesh", "faces", "drag ms", "query",
-               "upload", "frame", "ratio", "stroke ms", "set-up", "switch ms", "longest", "ratio");
+               "upload", "frame", "ratio", "stroke /s", "set-up", "switch ms", "longest", "ratio");
   }
   for (const ExploreRow& row : bench.rows) {
     text += format("%-12s%10d", row.mesh.c_str(), row.faces) + milliseconds(row.drag_ms, 10) +
             milliseconds(row.query_ms, 9) + milliseconds(row.upload_ms, 9) +
             milliseconds(row.frame_ms, 9) + number(row.drag_ratio(), 8, 2, "x") +
-            milliseconds(row.stroke_ms, 11) + milliseconds(row.stroke_setup_ms, 9) +
+            number(row.stroke_pictures, 11, 1, "") + milliseconds(row.stroke_setup_ms, 9) +
             milliseconds(row.switch_ms, 11) + milliseconds(row.longest_frame_ms, 9) +
             number(row.frame_ratio(), 8, 2, "x") + "\n";
   }
