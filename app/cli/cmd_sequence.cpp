@@ -82,7 +82,7 @@ class RowSink final : public FrameSink {
         bad_(static_cast<std::size_t>(vertices), std::numeric_limits<double>::quiet_NaN()) {}
 
   Result<void> take(std::int64_t, const Answer* answer) override {
-    const auto written = rows_.append(answer ? answer->result.distances : bad_);
+    auto written = rows_.append(answer ? answer->result.distances : bad_);
     if (written) return written;
     return with_hint(written.error(), {"make room there, or choose another place"});
   }
