@@ -95,6 +95,8 @@ class Builder {
   Builder(const IntrinsicMesh& mesh, Index size, int threads, OperatorMesh& out)
       : mesh_(mesh), threads_(threads), size_(static_cast<std::size_t>(size)), out_(out) {}
 
+  void use_threads(int threads) { threads_ = threads; }
+
   /// row(vertex): its elimination number.
   template <class Row>
   void rename_faces(const Row& row) {
@@ -233,23 +235,30 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
   return out;
 }
 
-FollowingMesh follow_order(const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
-                           std::span<const Index> row_of_vertex, const Components& parts,
-                           int threads) {
-  FollowingMesh made;
+std::shared_ptr<const OperatorMesh> follow_order(
+    const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
+    std::span<const Index> row_of_vertex, const Components& parts, int threads,
+    const std::function<void(const SymmetricPattern&, int threads)>& analyze) {
   auto out = std::make_shared<OperatorMesh>();
   Builder builder(mesh, static_cast<Index>(vertex_of_row.size()), threads, *out);
   builder.rename_faces([&](Index vertex) { return row_of_vertex[vertex]; });
   builder.sort_faces();
-  made.pattern = builder.pattern();
-  out->lower = lower_of(made.pattern, threads);
-  out->pattern = pattern_hash(out->lower, threads);
-  builder.lay_out_faces();
-  builder.add_up_faces();
-  builder.name_components(parts.count, [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
-  builder.add_up_areas();
-  made.operators = std::move(out);
-  return made;
+  const SymmetricPattern pattern = builder.pattern();
+  const int half = std::max(1, threads / 2);
+  builder.use_threads(half);
+  run_both(
+      threads,
+      [&] {
+        builder.lay_out_faces();
+        builder.add_up_faces();
+        builder.name_components(parts.count,
+                                [&](std::size_t k) { return parts.of[vertex_of_row[k]]; });
+        builder.add_up_areas();
+        out->lower = lower_of(pattern, half);
+        out->pattern = pattern_hash(out->lower, half);
+      },
+      [&] { analyze(pattern, std::max(1, threads - half)); });
+  return out;
 }
 
 std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <ranges>
 #include <span>
@@ -67,15 +68,12 @@ std::shared_ptr<const OperatorMesh> build_operator_mesh(const IntrinsicMesh& mes
                                                         std::span<const Index> order,
                                                         const Components& parts, int threads = 1);
 
-/// Operators in an order that is given by vertices of the mesh, and the pattern that they have in
-/// it, which build_operator_mesh() is given. `parts`: of the vertices.
-struct FollowingMesh {
-  std::shared_ptr<const OperatorMesh> operators;
-  SymmetricPattern pattern;
-};
-FollowingMesh follow_order(const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
-                           std::span<const Index> row_of_vertex, const Components& parts,
-                           int threads);
+/// Operators in an order that is given by vertices of the mesh. `parts`: of the vertices.
+/// `analyze` is called, beside the rest, with the pattern in that order.
+std::shared_ptr<const OperatorMesh> follow_order(
+    const IntrinsicMesh& mesh, std::span<const Index> vertex_of_row,
+    std::span<const Index> row_of_vertex, const Components& parts, int threads,
+    const std::function<void(const SymmetricPattern&, int threads)>& analyze);
 
 /// The operators of a mesh that has the faces and twins of an earlier one, and other lengths.
 std::shared_ptr<const OperatorMesh> moved_operator_mesh(const OperatorMesh& earlier,

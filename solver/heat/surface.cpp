@@ -181,17 +181,22 @@ bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& 
   const auto nodes = order_along(kept->parent, kept->vertices, node, out.intrinsic.faces);
   if (!nodes) return false;
   name_vertices(nodes->order, out);
-  const FollowingMesh made =
-      follow_order(out.intrinsic, out.vertex_of_row, out.row_of_vertex, out.parts, threads);
   out.timing.operators += watch.lap();
-  auto analysis = earlier.analysis->follow(*nodes, made.pattern, threads);
+  std::shared_ptr<const Analysis> analysis;
+  auto operators =
+      follow_order(out.intrinsic, out.vertex_of_row, out.row_of_vertex, out.parts, threads,
+                   [&](const SymmetricPattern& pattern, int half) {
+                     if (auto followed = earlier.analysis->follow(*nodes, pattern, half)) {
+                       analysis = *std::move(followed);
+                     }
+                   });
   out.timing.analyze += watch.lap();
   if (!analysis) return false;
-  const auto bytes = static_cast<double>((*analysis)->factor_bytes(FactorStorage::kFull));
+  const auto bytes = static_cast<double>(analysis->factor_bytes(FactorStorage::kFull));
   if (bytes > kMostGrowth * static_cast<double>(kept->factor_bytes)) return false;
   out.kept_order = kept;
-  out.analysis = *std::move(analysis);
-  out.operators = made.operators;
+  out.analysis = std::move(analysis);
+  out.operators = std::move(operators);
   return true;
 }
 

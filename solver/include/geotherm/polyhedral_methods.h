@@ -13,9 +13,9 @@ namespace geotherm {
 /// have: what all three walk over. Immutable; one serves all of them.
 struct WaveSurface;
 
-/// `earlier`: of the same faces with vertices elsewhere, of which what stays is taken over; or null.
-/// Errors: kBadInput (no face with area, edges that cannot be added up), kOutOfMemory, kCancelled.
-/// Cost: O(F + flips).
+/// `earlier`: of the same faces with vertices elsewhere, of which what stays is taken over; or
+/// null. Errors: kBadInput (no face with area, edges that cannot be added up), kOutOfMemory,
+/// kCancelled. Cost: O(F + flips).
 Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     std::shared_ptr<const TriangleMesh> mesh, const Progress& progress = {}, int threads = 1,
     const WaveSurface* earlier = nullptr);
