@@ -164,10 +164,15 @@ BufferPool::Block BufferPool::take(std::size_t bytes) {
 void BufferPool::give(Block block) {
   constexpr std::size_t kMostKept = 4;  // the factors of one method
   const std::lock_guard lock(mutex_);
-  kept_.push_back(block);
-  if (kept_.size() <= kMostKept) return;
-  std::free(kept_.front().data);
-  kept_.erase(kept_.begin());
+  if (kept_.size() == kMostKept) {
+    std::free(kept_.front().data);
+    kept_.erase(kept_.begin());
+  }
+  try {
+    kept_.push_back(block);
+  } catch (const std::bad_alloc&) {  // destructors call this
+    std::free(block.data);
+  }
 }
 
 LargeBuffer::LargeBuffer(std::size_t bytes, std::shared_ptr<BufferPool> pool)

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <memory>
+#include <vector>
 
 namespace geotherm::test {
 namespace {
@@ -56,6 +59,36 @@ TEST_F(FreeMemory, KnowsGroupsOfTheFirstVersionWhereTheyAreMounted) {
   add("sys/fs/cgroup/memory/memory.limit_in_bytes", std::to_string(100 * kMebibyte));
   add("sys/fs/cgroup/memory/memory.usage_in_bytes", std::to_string(200 * kMebibyte));
   EXPECT_EQ(free_memory(root), 0) << "never negative";
+}
+
+TEST(BufferPool, GivesBackWhatFits) {
+  const auto pool = std::make_shared<BufferPool>();
+  const std::byte* small = nullptr;
+  const std::byte* large = nullptr;
+  {
+    const LargeBuffer a(1000, pool), b(100'000, pool);
+    small = a.data();
+    large = b.data();
+  }
+  const LargeBuffer first(900, pool), second(101'000, pool), third(50, pool);
+  EXPECT_EQ(first.data(), small);   // the smallest that holds it
+  EXPECT_EQ(second.data(), large);  // which was made with room for a larger one
+  EXPECT_NE(third.data(), small);
+  EXPECT_EQ(third.size(), 50U);
+}
+
+TEST(BufferPool, KeepsAFewBuffersAlone) {
+  const auto pool = std::make_shared<BufferPool>();
+  std::vector<LargeBuffer> buffers;
+  for (int k = 0; k < 10; ++k) buffers.emplace_back(1000, pool);
+  buffers.clear();
+  int kept = 0;
+  for (BufferPool::Block block = pool->take(1000); block.data != nullptr;
+       block = pool->take(1000)) {
+    std::free(block.data);
+    ++kept;
+  }
+  EXPECT_EQ(kept, 4);
 }
 
 }  // namespace

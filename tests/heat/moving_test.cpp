@@ -205,6 +205,50 @@ TEST(MovingBrush, FactorisesOnlyTheFrontsAboveIt) {
   EXPECT_GT(changes, 4);
 }
 
+struct BrushOptions {
+  const char* name;
+  void (*set)(HeatOptions&);
+};
+void PrintTo(const BrushOptions& options, std::ostream* out) { *out << options.name; }
+
+class MovingBrushOptions : public testing::TestWithParam<BrushOptions> {};
+
+// Systems with held rows, several factors or narrow numbers take over what has not changed, too.
+TEST_P(MovingBrushOptions, AnswersAsAFreshBuildDoes) {
+  Draft draft = jittered_plane(70, 0.3, 5);
+  append(draft, transformed(jittered_plane(20, 0.3, 6), 1, {2, 0, 0}, false));
+  const MeshPtr mesh = finish(draft);
+  HeatOptions options = in_doubles();
+  options.time_step = {TimeRule::kAbsolute, 1, method_of(mesh).t()};
+  GetParam().set(options);
+  HeatMethod method = method_of(mesh, options);
+  std::vector<Vec3> positions(mesh->positions().begin(), mesh->positions().end());
+  const SourceSet sources = SourceSet::of_vertices({2000, 5100});
+  for (int stroke = 0; stroke < 5; ++stroke) {
+    positions = brushed(positions, 1500 + 60 * stroke, 0.08);
+    method = *method.with_positions(positions);
+    const MeshPtr moved = std::make_shared<const TriangleMesh>(*mesh->moved(positions));
+    const double difference = relative_difference(
+        solve(method, sources).distances, solve(method_of(moved, options), sources).distances);
+    EXPECT_LE(difference, options.precision == Precision::kFull ? kOtherUnit : 1e-6);
+  }
+}
+
+const BrushOptions kBrushOptions[] = {
+    {"average", [](HeatOptions& o) { o.boundary = BoundaryRule::kAverage; }},
+    {"dirichlet", [](HeatOptions& o) { o.boundary = BoundaryRule::kDirichlet; }},
+    {"pin",
+     [](HeatOptions& o) {
+       o.constraint = {ConstraintMode::kPinVertex, 1500, 10};
+     }},
+    {"hold", [](HeatOptions& o) { o.heat = HeatMode::kHold; }},
+    {"classic", [](HeatOptions& o) { o.variant = Variant::kClassic; }},
+    {"compact", [](HeatOptions& o) { o.precision = Precision::kCompact; }},
+    {"tufted", [](HeatOptions& o) { o.laplacian = LaplacianKind::kTufted; }},
+};
+INSTANTIATE_TEST_SUITE_P(Options, MovingBrushOptions, testing::ValuesIn(kBrushOptions),
+                         [](const auto& each) { return each.param.name; });
+
 // The mean edge changes, and with it every number of the heat step; not those of the Poisson step.
 TEST(MovingBrush, FollowsTheMeanEdgeByDefault) {
   const MeshPtr mesh = finish(jittered_plane(90, 0.3, 5));
