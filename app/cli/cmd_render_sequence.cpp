@@ -224,6 +224,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   pictures.model_argument = arguments.model;
   pictures.vertices = sequence->model.mesh->vertex_count();
   pictures.faces = sequence->model.mesh->face_count();
+  pictures.size = size_in_words(sequence->model);
   pictures.sources = typed_sources(arguments.sources);
   pictures.command = arguments.command;
   pictures.settings = asked.settings;

@@ -206,6 +206,8 @@ bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& 
 std::vector<char> find_changed_rows(const Surface& earlier, const Surface& now) {
   const EliminationTree *before = earlier.analysis->tree(), *tree = now.analysis->tree();
   const IntrinsicMesh &old = earlier.intrinsic, &mesh = now.intrinsic;
+  // A fresh order has inserted vertices anywhere within a node, one that is kept has them last.
+  if (earlier.kept_order != now.kept_order && now.refinement.points > 0) return {};
   if (before == nullptr || tree == nullptr || before->parent != tree->parent ||
       earlier.refinement.points != now.refinement.points || old.back != mesh.back) {
     return {};

@@ -71,6 +71,7 @@ TEST_F(RenderSequence, HasOneCameraAndOneScaleForAllFrames) {
   for (const char* name : {"p_005.png", "p_006.png", "p_007.png"}) {
     const PngContent content = picture(name);
     EXPECT_EQ(content.texts.at("geotherm:range"), picture("p_005.png").texts.at("geotherm:range"));
+    EXPECT_NE(content.texts.at("Description").find(" faces, t = "), std::string::npos);
     seen.push_back(columns(content));
   }
   // The squares lie from 0 to 1, 4 to 5 and 8 to 10 of a scene of 10 units.

@@ -205,6 +205,34 @@ TEST(MovingBrush, FactorisesOnlyTheFrontsAboveIt) {
   EXPECT_GT(changes, 4);
 }
 
+// A fresh order has inserted vertices anywhere within a node, a kept one has them last: nothing is
+// taken over from one to the other. Strict, so that no other backend hides what fails.
+TEST(MovingBrush, KnowsInsertedVerticesOfAnotherOrder) {
+  const MeshPtr mesh = finish(random_delaunay(kSanitized ? 500 : 8000, 2));
+  HeatOptions options = in_doubles();
+  options.strict = true;
+  options.time_step = {TimeRule::kAbsolute, 1, method_of(mesh, options).t()};
+  HeatMethod method = method_of(mesh, options);
+  ASSERT_GT(method.refinement().points, 0);
+  std::vector<Vec3> positions(mesh->positions().begin(), mesh->positions().end());
+  const SourceSet sources = SourceSet::of_vertices({3});
+  for (int stroke = 0; stroke < 4; ++stroke) {
+    // The first stroke flips nothing.
+    std::vector<Vec3> moved = brushed(positions, 200 + 50 * stroke, 0.03);
+    const double share = stroke == 0 ? 1e-4 : 1.0;
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+      positions[v] += share * (moved[v] - positions[v]);
+    }
+    const auto next = method.with_positions(positions);
+    ASSERT_TRUE(next) << next.error().message;
+    method = *next;
+    const MeshPtr now = std::make_shared<const TriangleMesh>(*mesh->moved(positions));
+    EXPECT_LE(relative_difference(solve(method, sources).distances,
+                                  solve(method_of(now, options), sources).distances),
+              kOtherUnit);
+  }
+}
+
 struct BrushOptions {
   const char* name;
   void (*set)(HeatOptions&);
