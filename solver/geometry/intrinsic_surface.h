@@ -31,8 +31,8 @@ struct SurfaceRules {
   CoverRule cover = CoverRule::kNever;
   RefineRule refine = RefineRule::kNever;
   bool parts = false;  ///< name connected parts; where it is refined they are named in any case
-  bool same_unit =
-      false;  ///< lengths in the unit of an earlier surface, if the mean edge is near it
+  /// Measure lengths in the unit of an earlier surface, where the mean edge is near it.
+  bool same_unit = false;
 };
 
 /// What a surface keeps of the clean faces of its mesh, before flips. It says nothing of where

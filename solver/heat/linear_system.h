@@ -77,7 +77,6 @@ struct Workspace {
   static constexpr std::int64_t kValuesOfThread = 1 << 17;
 };
 
-/// An operator on a domain and its factorisation by some backend. Immutable.
 class LinearSystem;
 
 /// The same system of the domain from which one has moved, or null: what Domain::changed_rows
@@ -87,6 +86,7 @@ struct EarlierSystem {
   const LinearSystem* system = nullptr;
 };
 
+/// An operator on a domain and its factorisation by some backend. Immutable.
 class LinearSystem {
  public:
   /// Factorises a A + s L with `held` rows replaced by the identity's.

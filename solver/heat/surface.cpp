@@ -202,7 +202,9 @@ bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& 
 
 /// The rows of `now` whose matrix entries or neighbours are not those of an earlier surface in the
 /// same units: corners of faces that are others, and what surrounds vertices that have another
-/// node. Empty where the nodes are others, or a quarter of the rows would be in it.
+/// node. Empty where the nodes are others, or a quarter of the rows would be in it. Precondition:
+/// keep_order() kept the order of `earlier`; vertices of one node stand in two fresh orders in any
+/// way.
 std::vector<char> find_changed_rows(const Surface& earlier, const Surface& now) {
   const EliminationTree *before = earlier.analysis->tree(), *tree = now.analysis->tree();
   const IntrinsicMesh &old = earlier.intrinsic, &mesh = now.intrinsic;
@@ -303,10 +305,13 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   SetupTiming& timing = out->timing;
   timing.stages = {out->times.clean, out->times.intrinsic, out->times.flips, 0, 0};
   timing.operators = watch.lap();
-  if (earlier == nullptr || !keep_order(*earlier, threads, watch, *out)) {
-    if (auto made = order_afresh(threads, progress, watch, *out); !made) return made.error();
+  if (earlier != nullptr && keep_order(*earlier, threads, watch, *out)) {
+    if (little && out->unit == earlier->unit) {
+      out->changed_rows = find_changed_rows(*earlier, *out);
+    }
+  } else if (auto made = order_afresh(threads, progress, watch, *out); !made) {
+    return made.error();
   }
-  if (little && out->unit == earlier->unit) out->changed_rows = find_changed_rows(*earlier, *out);
   out->corners = {};
   out->on_boundary = find_boundary(*out);
   out->components = measure_components(*out);

@@ -25,7 +25,7 @@ struct KeptOrder {
 /// a backend and renumbered into its elimination order.
 struct Surface final : IntrinsicSurface, Domain {
   LaplacianKind laplacian = LaplacianKind::kCotan;
-  LaplacianKind asked = LaplacianKind::kAuto;   ///< of which that is what it became
+  LaplacianKind asked = LaplacianKind::kAuto;   ///< what was asked for; `laplacian` came of it
   const Backend* backend = nullptr;             ///< that analysed it
   std::shared_ptr<const KeptOrder> kept_order;  ///< null where the analysis is fresh
   std::shared_ptr<const OperatorMesh> operators;

@@ -70,11 +70,7 @@ Error out_of_memory(const std::string& what, Index size) {
           kNativeName};
 }
 
-/// `order`: that of `eliminated`, of which `tree` was built.
-Result<std::shared_ptr<const Analysis>> native_analysis(std::vector<Index> order,
-                                                        const SymmetricPattern& eliminated,
-                                                        FrontTree tree, int threads);
-
+/// What a factorisation can take over; nothing where the earlier factor is none of this backend.
 EarlierFronts fronts_of(const EarlierFactor* earlier) {
   if (earlier == nullptr) return {};
   const TriangularFactor* const factor =
@@ -89,6 +85,20 @@ class NativeAnalysis final : public Analysis {
   NativeAnalysis(std::vector<Index> order, std::uint64_t pattern,
                  std::shared_ptr<const FrontTree> tree, int threads)
       : order_(std::move(order)), pattern_(pattern), tree_(std::move(tree)), threads_(threads) {}
+
+  /// `order`: that of `eliminated`, of which `tree` was built.
+  static Result<std::shared_ptr<const Analysis>> make(std::vector<Index> order,
+                                                      const SymmetricPattern& eliminated,
+                                                      FrontTree tree, int threads) {
+    if (tree.largest_panel > std::numeric_limits<Index>::max()) {
+      return out_of_memory(
+          "would need a front of " + std::to_string(tree.largest_panel) + " numbers",
+          eliminated.size());
+    }
+    const std::uint64_t hash = pattern_hash(eliminated, threads);
+    return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
+        std::move(order), hash, std::make_shared<const FrontTree>(std::move(tree)), threads));
+  }
 
   std::span<const Index> order() const override { return order_; }
   std::int64_t factor_bytes(FactorStorage storage) const override {
@@ -107,8 +117,8 @@ class NativeAnalysis final : public Analysis {
   Result<std::shared_ptr<const Analysis>> follow(const NodeOrder& order,
                                                  const SymmetricPattern& eliminated,
                                                  int threads) const override try {
-    return native_analysis(order.order, eliminated,
-                           build_front_tree(eliminated, order, threads, tree_.get()), threads);
+    return make(order.order, eliminated, build_front_tree(eliminated, order, threads, tree_.get()),
+                threads);
   } catch (const std::bad_alloc&) {
     return out_of_memory("ran out of memory in the analysis", eliminated.size());
   }
@@ -169,18 +179,6 @@ class NativeAnalysis final : public Analysis {
   int threads_;
 };
 
-Result<std::shared_ptr<const Analysis>> native_analysis(std::vector<Index> order,
-                                                        const SymmetricPattern& eliminated,
-                                                        FrontTree tree, int threads) {
-  if (tree.largest_panel > std::numeric_limits<Index>::max()) {
-    return out_of_memory("would need a front of " + std::to_string(tree.largest_panel) + " numbers",
-                         eliminated.size());
-  }
-  const std::uint64_t hash = pattern_hash(eliminated, threads);
-  return std::shared_ptr<const Analysis>(std::make_shared<NativeAnalysis>(
-      std::move(order), hash, std::make_shared<const FrontTree>(std::move(tree)), threads));
-}
-
 class NativeBackend final : public Backend {
  public:
   std::string_view name() const override { return kNativeName; }
@@ -198,9 +196,9 @@ class NativeBackend final : public Backend {
     std::vector<Index> final_order(order.size());
     for (std::size_t k = 0; k < post.size(); ++k) final_order[k] = order[post[k]];
     eliminated = permuted(eliminated, post, threads);
-    return native_analysis(std::move(final_order), eliminated,
-                           build_front_tree(eliminated, count_columns(eliminated), threads),
-                           threads);
+    return NativeAnalysis::make(std::move(final_order), eliminated,
+                                build_front_tree(eliminated, count_columns(eliminated), threads),
+                                threads);
   } catch (const std::bad_alloc&) {
     return out_of_memory("ran out of memory in the analysis", pattern.size());
   }
