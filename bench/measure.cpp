@@ -49,6 +49,16 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
+double relative_difference(std::span<const double> ours, std::span<const double> theirs) {
+  double largest = 0, difference = 0;
+  for (std::size_t v = 0; v < ours.size(); ++v) {
+    if (!std::isfinite(ours[v])) continue;
+    largest = std::max(largest, ours[v]);
+    difference = std::max(difference, std::abs(ours[v] - theirs[v]));
+  }
+  return difference / largest;
+}
+
 namespace {
 
 class Times {

@@ -54,6 +54,9 @@ inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 /// kNotMeasured where there are no values.
 double median(std::vector<double> values);
 
+/// The largest difference over the largest of `ours`, where these are finite.
+double relative_difference(std::span<const double> ours, std::span<const double> theirs);
+
 /// How the two layers below the heat method do: figures of the best attempt.
 struct Rates {
   double factor_gflops = kNotMeasured;  ///< 10^9 operations a second, both matrices side by side

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -10,21 +9,6 @@
 #include "solver/core/stopwatch.h"
 
 namespace geotherm::bench {
-namespace {
-
-/// Largest difference over the largest distance.
-double apart(const DistanceResult& a, const DistanceResult& b) {
-  double most = 0, largest = 0;
-  for (std::size_t v = 0; v < a.distances.size(); ++v) {
-    if (!std::isfinite(a.distances[v])) continue;
-    most = std::max(most, std::abs(a.distances[v] - b.distances[v]));
-    largest = std::max(largest, a.distances[v]);
-  }
-  return largest > 0 ? most / largest : most;
-}
-
-}  // namespace
-
 MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int frames,
                          int threads) {
   MovingRow row{.mesh = name, .faces = mesh.face_count(), .frames = frames};
@@ -50,7 +34,7 @@ MovingRow measure_moving(const std::string& name, const TriangleMesh& mesh, int 
       return row;
     }
     earlier = *std::move(next);
-    difference = std::max(difference, apart(*alone, *after));
+    difference = std::max(difference, relative_difference(alone->distances, after->distances));
     if (k == 0) continue;
     fresh_ms += fresh_time;
     moved_ms += moved_time;

@@ -50,12 +50,7 @@ double disagreement(const std::vector<double>& theirs, std::shared_ptr<const Tri
   if (!method) return kNotMeasured;
   const auto ours = method->solve(SourceSet::of_vertices({source}));
   if (!ours) return kNotMeasured;
-  double largest = 0, difference = 0;
-  for (std::size_t v = 0; v < theirs.size(); ++v) {
-    largest = std::max(largest, ours->distances[v]);
-    difference = std::max(difference, std::abs(ours->distances[v] - theirs[v]));
-  }
-  return difference / largest;
+  return relative_difference(ours->distances, theirs);
 }
 
 /// 2^20 bytes.

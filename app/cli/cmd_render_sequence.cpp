@@ -15,6 +15,7 @@
 #include "app/text/text.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/mesh/connectivity.h"
 #include "solver/mesh/frames.h"
 
 namespace geotherm::app {
@@ -55,7 +56,9 @@ Result<NumberedPath> numbered_output(const std::string& path) {
 /// directions on all sides.
 class FramesExtent {
  public:
-  FramesExtent() {
+  /// `model`: whose faces all frames have.
+  explicit FramesExtent(const TriangleMesh& model)
+      : used_(vertices_in_faces(model.vertex_count(), model.faces())) {
     constexpr int kDirections = 256;
     for (int i = 0; i < kDirections; ++i) {  // a spiral on the sphere
       const double z = 1 - (2 * i + 1.0) / kDirections;
@@ -66,12 +69,8 @@ class FramesExtent {
   }
 
   void add(const TriangleMesh& mesh) {
-    std::vector<char> used(mesh.positions().size(), 0);
-    for (const Face& face : mesh.faces()) {
-      for (const Index v : face) used[static_cast<std::size_t>(v)] = 1;
-    }
-    for (std::size_t v = 0; v < used.size(); ++v) {
-      if (!used[v]) continue;
+    for (std::size_t v = 0; v < used_.size(); ++v) {
+      if (!used_[v]) continue;
       const Vec3& p = mesh.positions()[v];
       for (Side& side : sides_) {
         const double far = side.direction.dot(p);
@@ -94,13 +93,14 @@ class FramesExtent {
     double far = -kUnreached;
     Vec3 point = Vec3::Zero();
   };
+  std::vector<char> used_;
   std::vector<Side> sides_;
 };
 
 /// Reads all frames once: a frame that is bad ends the run before anything is solved.
 Result<std::vector<Vec3>> extent_of(const Sequence& sequence, const Progress& progress) {
   const std::int64_t count = sequence.frames.count();
-  FramesExtent extent;
+  FramesExtent extent(*sequence.model.mesh);
   bool some = false;
   for (std::int64_t k = 0; k < count; ++k) {
     if (!report(progress, "reading", static_cast<double>(k) / static_cast<double>(count))) {

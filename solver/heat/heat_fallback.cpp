@@ -20,6 +20,10 @@ HeatOptions with_backend(HeatOptions options, const std::string& backend) {
   return options;
 }
 
+Error does_not_move() {
+  return {ErrorCode::kBadInput, "only triangle meshes move; this method is on another space"};
+}
+
 }  // namespace
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
@@ -69,10 +73,7 @@ Result<HeatMethod> HeatMethod::State::build(const std::shared_ptr<const Domain::
 Result<HeatMethod> HeatMethod::with_positions(std::vector<Vec3> positions,
                                               const Progress& progress) const {
   const Surface* const surface = state_->domain->surface();
-  if (surface == nullptr) {
-    return Error{ErrorCode::kBadInput,
-                 "only triangle meshes move; this method is on another space"};
-  }
+  if (surface == nullptr) return does_not_move();
   auto moved = surface->mesh->moved(std::move(positions));
   if (!moved) return moved.error();
   return with_mesh(std::make_shared<const TriangleMesh>(*std::move(moved)),
@@ -83,10 +84,7 @@ Result<HeatMethod> HeatMethod::with_mesh(std::shared_ptr<const TriangleMesh> mov
                                          const HeatOptions& options,
                                          const Progress& progress) const {
   const Surface* const surface = state_->domain->surface();
-  if (surface == nullptr) {
-    return Error{ErrorCode::kBadInput,
-                 "only triangle meshes move; this method is on another space"};
-  }
+  if (surface == nullptr) return does_not_move();
   if (auto same = check_moved(*surface->mesh, *moved); !same) return same.error();
   return State::build(
       surface_input(std::move(moved), std::shared_ptr<const Surface>(state_->domain, surface)),

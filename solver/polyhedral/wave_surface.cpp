@@ -35,10 +35,9 @@ std::vector<Side> twinless_sides(const IntrinsicMesh& mesh) {
   return sides;
 }
 
-/// Makes edge_of_side the number of the first side of each side's edge.
-void name_edges_by_first_side(WaveSurface& surface) {
-  const IntrinsicMesh& mesh = surface.base.intrinsic;
-  auto& edge = surface.edge_of_side;
+/// Makes of_side the number of the first side of each side's edge.
+void name_edges_by_first_side(const IntrinsicMesh& mesh, WaveEdges& edges) {
+  auto& edge = edges.of_side;
   edge.resize(mesh.twin.size());
   for (Side side = 0; side < static_cast<Side>(mesh.twin.size()); ++side) {
     edge[side] = mesh.twin[side] == kNoSide ? side : std::min(side, mesh.twin[side]);
@@ -56,8 +55,8 @@ void name_edges_by_first_side(WaveSurface& surface) {
 }
 
 /// Numbers the edges from 0 in the order of their first sides, and lists their sides.
-void list_sides(WaveSurface& surface) {
-  auto& edge = surface.edge_of_side;
+void list_sides(WaveEdges& edges) {
+  auto& edge = edges.of_side;
   std::vector<std::size_t> count;
   for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
     if (edge[side] == side) {
@@ -68,15 +67,15 @@ void list_sides(WaveSurface& surface) {
       ++count[edge[side]];
     }
   }
-  surface.side_start.resize(count.size() + 1);
-  surface.side_start[0] = 0;
+  edges.side_start.resize(count.size() + 1);
+  edges.side_start[0] = 0;
   for (std::size_t e = 0; e < count.size(); ++e) {
-    surface.side_start[e + 1] = surface.side_start[e] + count[e];
+    edges.side_start[e + 1] = edges.side_start[e] + count[e];
   }
-  surface.sides.resize(edge.size());
-  std::vector<std::size_t> next(surface.side_start.begin(), surface.side_start.end() - 1);
+  edges.sides.resize(edge.size());
+  std::vector<std::size_t> next(edges.side_start.begin(), edges.side_start.end() - 1);
   for (Side side = 0; side < static_cast<Side>(edge.size()); ++side) {
-    surface.sides[next[edge[side]]++] = side;
+    edges.sides[next[edge[side]]++] = side;
   }
 }
 
@@ -170,7 +169,7 @@ class Seeder {
 
   void add_on_side(const FacePiece& piece, Side side) {
     const int k = corner_of(side);
-    for (const Side other : surface_.sides_of(surface_.edge_of_side[side])) {
+    for (const Side other : surface_.sides_of(surface_.edge_of_side(side))) {
       const bool same_way = other == side || runs_as(side, other);
       const int first = same_way ? corner_of(other) : next_corner(corner_of(other));
       const int second = same_way ? next_corner(corner_of(other)) : corner_of(other);
@@ -232,9 +231,7 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
     triangulation->corners = {};
     if (earlier != nullptr && same_triangles(earlier->base, *triangulation, threads)) {
       auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
-      surface->edge_of_side = earlier->edge_of_side;
-      surface->side_start = earlier->side_start;
-      surface->sides = earlier->sides;
+      surface->edges = earlier->edges;
       return std::shared_ptr<const WaveSurface>(std::move(surface));
     }
     return build_wave_surface(std::shared_ptr<const IntrinsicSurface>(std::move(triangulation)),
@@ -250,8 +247,10 @@ Result<std::shared_ptr<const WaveSurface>> build_wave_surface(
   const Index faces = triangulation->mesh->face_count();
   try {
     auto surface = std::make_shared<WaveSurface>(std::move(triangulation));
-    name_edges_by_first_side(*surface);
-    list_sides(*surface);
+    auto edges = std::make_shared<WaveEdges>();
+    name_edges_by_first_side(surface->base.intrinsic, *edges);
+    list_sides(*edges);
+    surface->edges = std::move(edges);
     return std::shared_ptr<const WaveSurface>(std::move(surface));
   } catch (const std::bad_alloc&) {
     return wave_out_of_memory("triangulation", faces);

@@ -15,6 +15,14 @@
 
 namespace geotherm {
 
+/// The edges of a triangulation, whatever number of faces they have.
+struct WaveEdges {
+  std::vector<Index> of_side;                 ///< 3F: number of the edge
+  std::vector<std::size_t> side_start = {0};  ///< E + 1
+  std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is boundary, 3 and
+                            ///< more a non-manifold edge. Two sides may run opposite ways or not.
+};
+
 /// The intrinsic Delaunay triangulation with its edges, whatever number of faces they have: what
 /// waves, fast marching and windows walk over. Immutable; one serves all of them. It adds edges to
 /// an IntrinsicSurface as Surface (heat/) adds matrices to one, and shares it with that where it
@@ -27,14 +35,13 @@ struct WaveSurface {
 
   std::shared_ptr<const IntrinsicSurface> shared;  ///< a heat method may use it as well
   const IntrinsicSurface& base;                    ///< the same
-  std::vector<Index> edge_of_side;                 ///< 3F: number of the edge
-  std::vector<std::size_t> side_start;             ///< E + 1
-  std::vector<Side> sides;  ///< of edge e: side_start[e] to side_start[e + 1]; 1 is boundary, 3 and
-                            ///< more a non-manifold edge. Two sides may run opposite ways or not.
+  std::shared_ptr<const WaveEdges> edges;          ///< one for all surfaces with the same triangles
 
-  Index edge_count() const { return static_cast<Index>(side_start.size()) - 1; }
+  Index edge_count() const { return static_cast<Index>(edges->side_start.size()) - 1; }
+  Index edge_of_side(Side side) const { return edges->of_side[side]; }
   std::span<const Side> sides_of(Index edge) const {
-    return {sides.data() + side_start[edge], sides.data() + side_start[edge + 1]};
+    const auto& start = edges->side_start;
+    return {edges->sides.data() + start[edge], edges->sides.data() + start[edge + 1]};
   }
   Index face_count() const { return base.intrinsic.face_count(); }
 };

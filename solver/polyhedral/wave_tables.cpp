@@ -194,7 +194,7 @@ class FaceWriter {
       return place(other) > place(side);
     };
     if (mesh_.twin[side] != kNoSide) return is_later(mesh_.twin[side]);
-    return std::ranges::all_of(surface_.sides_of(surface_.edge_of_side[side]), is_later);
+    return std::ranges::all_of(surface_.sides_of(surface_.edge_of_side(side)), is_later);
   }
 
   Block write_faces(std::int64_t begin, std::int64_t end) {
@@ -219,7 +219,7 @@ class FaceWriter {
       for (const int k : {start, next_corner(start), previous_corner(start)}) {
         const Side side = 3 * tables_.intrinsic_face[i] + k;
         if (!is_first(side)) continue;
-        const Index edge = surface_.edge_of_side[side];
+        const Index edge = surface_.edge_of_side(side);
         const auto sides = surface_.sides_of(edge);
         const SideCode second =
             sides.size() == 2 ? code_of(sides[0] == side ? sides[1] : sides[0]) : kNoSideCode;
@@ -232,7 +232,7 @@ class FaceWriter {
   void add_further_sides() {
     for (auto& [first, second] : tables_.sides) {
       if (second != kNoSideCode) continue;
-      const auto sides = surface_.sides_of(surface_.edge_of_side[side_of(first)]);
+      const auto sides = surface_.sides_of(surface_.edge_of_side(side_of(first)));
       if (sides.size() < 3) continue;
       second = -2 - static_cast<SideCode>(tables_.more.size());
       tables_.more.push_back(static_cast<SideCode>(sides.size()) - 1);
@@ -249,7 +249,7 @@ class FaceWriter {
     face.reversed = face.touching = 0;
     for (int k = 0; k < 3; ++k) {
       const Side side = 3 * tables_.intrinsic_face[i] + k;
-      face.edge[k] = number_[surface_.edge_of_side[side]];
+      face.edge[k] = number_[surface_.edge_of_side(side)];
       if (!same_direction(mesh_, side_of(tables_.sides[face.edge[k]][0]), side)) {
         face.reversed = static_cast<std::uint16_t>(face.reversed | 1U << k);
       }

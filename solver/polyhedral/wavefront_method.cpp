@@ -132,8 +132,7 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
     const int worth = threads_worth_starting(thread_count(threads), kSetUpNanoseconds * faces);
     const ThreadCrew crew(worth);
     const State* const before = earlier != nullptr ? earlier->state_.get() : nullptr;
-    const bool same_tables =
-        before != nullptr && same_triangles(before->surface->base, state->surface->base, worth);
+    const bool same_tables = before != nullptr && before->surface->edges == state->surface->edges;
     state->tables = same_tables ? moved_wave_tables(before->tables, *state->surface, worth)
                                 : build_wave_tables(*state->surface, worth);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);

@@ -27,7 +27,7 @@ Index root_of(std::vector<Index>& parent, Index i) {
 
 /// For each corner the first of the fan that it belongs to.
 std::vector<Index> fans(const WaveSurface& surface) {
-  std::vector<Index> parent(surface.edge_of_side.size());
+  std::vector<Index> parent(surface.edges->of_side.size());
   std::iota(parent.begin(), parent.end(), Index{0});
   for (Index e = 0; e < surface.edge_count(); ++e) {
     const auto around = surface.sides_of(e);
@@ -61,7 +61,7 @@ void WindowMesh::lay_out_sides() {
     const int k = corner_of(s);
     const FaceLayout layout = lay_out({l[k], l[next_corner(k)], l[previous_corner(k)]});
     std::int32_t across = kBoundary;
-    const auto around = surface_->sides_of(surface_->edge_of_side[s]);
+    const auto around = surface_->sides_of(surface_->edge_of_side(s));
     if (around.size() == 2) {
       const Side other = around[0] == s ? around[1] : around[0];
       across = 2 * other + (runs_opposite(mesh, s, other) ? 1 : 0);

@@ -45,7 +45,7 @@ class WindowMesh {
     if (across >= 0) {
       visit(across >> 1, (across & 1) != 0);
     } else if (across <= kBranch) {
-      for (const Side other : surface_->sides_of(surface_->edge_of_side[s])) {
+      for (const Side other : surface_->sides_of(surface_->edge_of_side(s))) {
         if (other != s) visit(other, side(other).origin != side(s).origin);
       }
     }

@@ -50,6 +50,14 @@ class SessionFixture : public testing::Test {
     }
   }
 
+  /// Why a command is not done, in one line.
+  std::string refused(const std::string& line) {
+    const auto command = parse_command(line);
+    if (!command) return sentence(command.error());
+    const auto done = session.submit(*command);
+    return done ? "done: " + line : sentence(done.error());
+  }
+
   Session session;
 
  private:

@@ -144,12 +144,6 @@ TEST_F(SessionSculpt, OpeningAndResettingForgetTheStrokes) {
 }
 
 TEST_F(SessionSculpt, SaysWhatCannotBeSculpted) {
-  const auto refused = [this](const std::string& line) {
-    const auto command = parse_command(line);
-    if (!command) return sentence(command.error());
-    const auto done = session.submit(*command);
-    return done ? "done: " + line : sentence(done.error());
-  };
   run({"open " + small_model()});
   EXPECT_EQ(refused("sculpt extend face:1:1:0:0"),
             "there is no stroke to extend; begin one with sculpt pull RADIUS STRENGTH POINT");

@@ -108,12 +108,6 @@ TEST_F(SessionTimeline, StrokesLieOnTopOfEveryFrameAndUndoLeavesTheFrame) {
 }
 
 TEST_F(SessionTimeline, SaysWhatIsWrongWithFrames) {
-  const auto refused = [this](const std::string& line) {
-    const auto command = parse_command(line);
-    if (!command) return sentence(command.error());
-    const auto done = session.submit(*command);
-    return done ? "done: " + line : sentence(done.error());
-  };
   EXPECT_NE(refused("sequence a.npy").find("open one first"), std::string::npos);
   run({"open " + small_model()});
   EXPECT_EQ(refused("frame 1"),
