@@ -5,15 +5,17 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/setup.sh [--pictures] [--dev] [--lint]
+usage: scripts/setup.sh [--pictures] [--dev] [--lint] [--package]
 
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
 
   --pictures  less: what the command line and its pictures need (the preset demo)
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
-           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers
+           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
+           shells that complete words, the judges of Debian packages and a maker of bare systems
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
+  --package  also what scripts/package.sh needs: help2man
 TEXT
 }
 
@@ -29,7 +31,9 @@ for argument in "$@"; do
   case $argument in
     --pictures) others=() ;;
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
-      assimp-testmodels) ;;
+      assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
+      shared-mime-info pkg-config mmdebstrap) ;;
+    --package) packages+=(help2man dpkg-dev) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && exit 2 ;;

@@ -86,7 +86,7 @@ Warning no_line(const std::vector<double>& levels, double spacing, const Answer&
 
 Json isolines_json(const Answer& figures, const std::vector<double>& levels,
                    const std::vector<Isoline>& lines) {
-  Json json = {{"model", model_json(figures.model.name, figures.mesh)},
+  Json json = {{"model", model_json(figures.model, figures.mesh)},
                {"method", to_text(figures.method->kind())},
                {"sources", sources_json(figures.sources)},
                {"levels", levels},
@@ -203,7 +203,7 @@ Result<CommandOutput> run_isolines(const IsolinesArguments& arguments, const Pro
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json = outputs.write_text(
-        arguments.files.json, to_text(isolines_json(*figures, *levels, lines)), out.text);
+        arguments.files.json, report_text(isolines_json(*figures, *levels, lines)), out.text);
     if (!json) return json.error();
   }
   if (figures->error)

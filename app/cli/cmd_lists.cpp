@@ -54,10 +54,10 @@ Result<CommandOutput> run_info(const InfoArguments& arguments, const Progress& p
   if (!outputs.uses_stdout()) out.text = info_table(*model, mesh);
   if (arguments.json.empty()) return out;
 
-  std::string text = to_text(Json{{"model", full_model_json(*model, mesh)},
-                                  {"cracks", cracks_json(cracks)},
-                                  {"timing_ms", {{"load", model->load_ms}}},
-                                  {"warnings", told(out.warnings)}});
+  std::string text = report_text(Json{{"model", full_model_json(*model, mesh)},
+                                      {"cracks", cracks_json(cracks)},
+                                      {"timing_ms", {{"load", model->load_ms}}},
+                                      {"warnings", told(out.warnings)}});
   const auto written = outputs.write_text(arguments.json, std::move(text), out.text);
   if (!written) return written.error();
   out.made = outputs.made();
@@ -81,7 +81,7 @@ Result<CommandOutput> list(const ListArguments& arguments, const TextTable& tabl
   }
   if (auto expected = outputs.expect(arguments.json, "--json"); !expected) return expected.error();
   if (!outputs.uses_stdout()) out.text = table.text();
-  if (auto written = outputs.write_text(arguments.json, to_text(json), out.text); !written) {
+  if (auto written = outputs.write_text(arguments.json, report_text(json), out.text); !written) {
     return written.error();
   }
   out.made = outputs.made();
@@ -196,7 +196,7 @@ Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& dr
   if (!outputs.uses_stdout()) out.text = device_table(*devices);
   if (arguments.json.empty()) return out;
   const auto written =
-      outputs.write_text(arguments.json, to_text(devices_json(*devices)), out.text);
+      outputs.write_text(arguments.json, report_text(devices_json(*devices)), out.text);
   if (!written) return written.error();
   out.made = outputs.made();
   return out;

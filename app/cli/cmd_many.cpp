@@ -96,7 +96,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   CommandOutput out{"", figures->warnings, {}};
   if (!arguments.json.empty()) {
     const auto reported = outputs.write_text(
-        arguments.json, to_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
+        arguments.json, report_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
     if (!reported) return reported.error();
   }
   out.note = sample_note(arguments, outputs, *figures);
@@ -320,7 +320,7 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   }
   if (!arguments.json.empty()) {
     const auto written = outputs.write_text(
-        arguments.json, to_text(pairs_json(*work, *figures, pairs, apart, arguments.symmetric)),
+        arguments.json, report_text(pairs_json(*work, *figures, pairs, apart, arguments.symmetric)),
         out.text);
     if (!written) return written.error();
   }

@@ -350,7 +350,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!written) return written.error();
   if (!arguments.files.json.empty()) {
     const auto json =
-        outputs.write_text(arguments.files.json, to_text(path_json(figures)), out.text);
+        outputs.write_text(arguments.files.json, report_text(path_json(figures)), out.text);
     if (!json) return json.error();
   }
   if (!outputs.uses_stdout()) out.text = path_table(figures);

@@ -301,7 +301,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   PictureFigures figures;
   figures.model_argument = arguments.model;
   figures.sources = typed_sources(arguments.sources);
-  figures.command = arguments.command;
+  figures.command = typed_command();
   figures.settings = *settings;
   figures.device = *std::move(device);
   figures.paths = frame_paths(arguments.output, *settings);
@@ -325,7 +325,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   }
   if (!arguments.json.empty()) {
     const auto written =
-        outputs.write_text(arguments.json, to_text(picture_json(figures)), out.text);
+        outputs.write_text(arguments.json, report_text(picture_json(figures)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = picture_table(figures);

@@ -226,7 +226,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   pictures.faces = sequence->model.mesh->face_count();
   pictures.size = size_in_words(sequence->model);
   pictures.sources = typed_sources(arguments.sources);
-  pictures.command = arguments.command;
+  pictures.command = typed_command();
   pictures.settings = asked.settings;
   pictures.device = *std::move(device);
   FramePainter painter(drawing, *paths, *std::move(extent), outputs, pictures);
@@ -246,7 +246,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   if (!arguments.json.empty()) {
     Json json = sequence_json(*sequence, *figures);
     json["picture"] = picture_json(pictures)["picture"];
-    const auto written = outputs.write_text(arguments.json, to_text(json), out.text);
+    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = picture_table(pictures);

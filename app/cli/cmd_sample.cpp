@@ -84,7 +84,7 @@ Json sample_json(const SampleFigures& f) {
                        {"radius", sample.radius},
                        {"cell", cells[i]}});
   }
-  Json json = {{"model", model_json(f.model.name, f.mesh)},
+  Json json = {{"model", model_json(f.model, f.mesh)},
                {"options", options_json(*f.method, f.options, f.points.first)},
                {"count", f.points.samples.size()},
                {"radius", f.points.radius()},
@@ -278,7 +278,7 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
 Result<void> write_labels(const std::string& path, const SampleFigures& figures,
                           std::string& standard_output) {
   const FarthestPoints& points = figures.points;
-  if (is_json(path)) return write_file(path, to_text(sample_json(figures)));
+  if (is_json(path)) return write_file(path, report_text(sample_json(figures)));
   if (path != "-") {
     return write_distances(path, *figures.model.mesh, points.distances, points.nearest);
   }
@@ -374,7 +374,7 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   }
   if (!arguments.json.empty()) {
     const auto written =
-        outputs.write_text(arguments.json, to_text(sample_json(*figures)), out.text);
+        outputs.write_text(arguments.json, report_text(sample_json(*figures)), out.text);
     if (!written) return written.error();
   }
   if (figures->error) {

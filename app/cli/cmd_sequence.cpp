@@ -240,7 +240,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
                         {"max", sums.most},
                         {"mean", sums.mean},
                         {"unreached", sums.unreached}};
-    const auto reported = outputs.write_text(arguments.json, to_text(json), out.text);
+    const auto reported = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!reported) return reported.error();
   }
   if (!outputs.uses_stdout()) {

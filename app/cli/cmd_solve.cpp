@@ -356,7 +356,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   }
   if (!arguments.json.empty()) {
     const auto written =
-        outputs.write_text(arguments.json, to_text(solve_json(*figures)), out.text);
+        outputs.write_text(arguments.json, report_text(solve_json(*figures)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = solve_table(*figures);

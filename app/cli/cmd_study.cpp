@@ -232,7 +232,7 @@ Result<CommandOutput> run_study(const StudyArguments& arguments, const Progress&
   const auto write = [&](const std::string& path, std::string text) -> Result<void> {
     return path.empty() ? Result<void>() : outputs.write_text(path, std::move(text), out.text);
   };
-  const std::string json = to_text(study_json(model->name, task.sources, *study));
+  const std::string json = report_text(study_json(model->name, task.sources, *study));
   if (auto done = write(arguments.json, json); !done) return done.error();
   if (auto done = write(arguments.svg, study_svg(model->name, *study)); !done) return done.error();
   out.made = outputs.made();

@@ -101,7 +101,7 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   }
   DrawingDevice device;
   ViewPainter painter;
-  painter.command = arguments.command;
+  painter.command = typed_command();
   painter.device = [&device] { return device; };
   painter.draw = [&](const PictureData& data, const PictureSettings& settings,
                      bool panels) -> Result<DrawnPicture> {
@@ -230,7 +230,7 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   start.device = arguments.picture.device;
   start.scale = *scale;
   start.validation = arguments.validation;
-  start.command = arguments.command;
+  start.command = typed_command();
   if (arguments.settings.has("size")) {
     const PictureSettings picture = settings_in(arguments.settings)->picture;
     start.width = picture.width;

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -16,15 +15,13 @@
 #include "app/cli/commands.h"
 #include "app/session/model.h"
 #include "app/session/progress.h"
+#include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {
-
-constexpr std::array kCommands = {"view",     "solve",    "info",   "compare", "render",
-                                  "path",     "isolines", "sample", "study",   "generate",
-                                  "backends", "devices",  "models"};
 
 int fail(int code, const std::string& message) {
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
@@ -64,10 +61,6 @@ int run_with_bar(const Arguments& arguments, Run&& run) {
   return finish(result);
 }
 
-bool is_in(const auto& list, const std::string& word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
 /// The same for a command that says more than its bar shows.
 template <class Arguments, class Run>
 int run_with_words(const Arguments& arguments, Run&& run) {
@@ -83,19 +76,6 @@ bool is_model(const std::string& word) {
   std::error_code unknown;
   const std::filesystem::path path(word);
   return is_bundled(word) || path.has_extension() || std::filesystem::exists(path, unknown);
-}
-
-/// What is wrong with a first word that is no command; empty when it is one or an option.
-std::string first_word_problem(const std::vector<std::string>& arguments) {
-  const std::string there_are = "there are " + joined(kCommands);
-  if (arguments.empty()) {
-    return "no command and no model was given; name a model to look at, such as bunny, or a "
-           "command: " +
-           there_are + "; see geotherm --help";
-  }
-  const std::string& word = arguments.front();
-  if (word.starts_with('-') || is_in(kCommands, word)) return {};
-  return "there is no command and no model '" + word + "'; " + there_are;
 }
 
 /// CLI11 leaves long descriptions on one line.
@@ -117,38 +97,49 @@ std::string empty_value_problem(const CLI::App& command) {
   return {};
 }
 
-/// CLI11 describes what is wrong; what helps is the help of the command.
-int fail_to_parse(const CLI::ParseError& error, const std::string& first) {
-  std::string what = error.what();
+/// Null when there is no such command.
+const CLI::App* find_command(const CLI::App& root, const std::string& name) {
+  const auto found = root.get_subcommands(
+      [&name](const CLI::App* command) { return command->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+/// A word that begins like an option and is none of the command's; empty: there is no such word.
+std::string unknown_option(const CLI::App& command, const std::vector<std::string>& words,
+                           std::vector<std::string>& known) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (name == "--") return {};
+    if (name.starts_with("--") && std::ranges::find(known, name) == known.end()) return name;
+  }
+  return {};
+}
+
+/// CLI11 describes what is wrong; what helps is the option that was meant, or the command's help.
+int fail_to_parse(const CLI::ParseError& error, const CLI::App& command,
+                  const std::vector<std::string>& words) {
+  std::vector<std::string> known;
+  const std::string unknown = unknown_option(command, words, known);
+  const std::string near = nearest_word(unknown, known);
+  std::string what = unknown.empty() ? error.what() : "there is no option " + unknown;
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
   std::replace(what.begin(), what.end(), '\n', ' ');
-  const std::string command = first.starts_with('-') ? "" : first + " ";
-  return fail(2, what + "; see geotherm " + command + "--help");
+  const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
+  return fail(2, what + "; " + (near.empty() ? "" : "did you mean " + near + "? ") +
+                     "see geotherm " + name + "--help");
 }
 
-}  // namespace
-
-int exit_code(ErrorCode code) {
-  return code == ErrorCode::kBadInput || code == ErrorCode::kNotAvailable ? 2 : 1;
+/// CLI::App::help() is that of the command that was typed.
+std::string help_of(const CLI::App& app) {
+  const std::string name = app.get_parent() == nullptr ? "geotherm" : "geotherm " + app.get_name();
+  return app.get_formatter()->make_help(&app, name, CLI::AppFormatMode::Normal);
 }
 
-int run_command_line(std::vector<std::string> arguments, Drawing& drawing, ViewerWindow& window) {
-  const std::vector<std::string> words = arguments;
-  if (!arguments.empty() && !arguments.front().starts_with('-') &&
-      !is_in(kCommands, arguments.front()) && is_model(arguments.front())) {
-    arguments.insert(arguments.begin(), "view");
-  }
-  if (const std::string problem = first_word_problem(arguments); !problem.empty()) {
-    return fail(2, problem);
-  }
-  CLI::App root("Geodesic distance by the heat method: on meshes, points, volumes and grids.",
-                "geotherm");
-  root.set_version_flag("--version", "geotherm " GEOTHERM_VERSION);
-  root.require_subcommand(0, 1);
-  root.footer(
-      "Examples:\n  geotherm bunny\n  geotherm solve bunny -s 17 -o distances.ply\n"
-      "geotherm COMMAND --help says more about each.");
-
+/// What all sub-commands are given.
+struct AllArguments {
   ViewArguments view;
   SolveArguments solve;
   InfoArguments info;
@@ -161,47 +152,115 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   GenerateArguments generate;
   DevicesArguments devices;
   ListArguments backends, models;
-  CLI::App* const view_app =
-      root.add_subcommand("view", "A window to explore a model in; geotherm MODEL does the same.");
-  CLI::App* const solve_app =
-      root.add_subcommand("solve", "Distance from a source set to every vertex.");
-  CLI::App* const info_app =
-      root.add_subcommand("info", "What a model is, and what is wrong with it.");
-  CLI::App* const compare_app =
-      root.add_subcommand("compare", "The same work through several backends, side by side.");
-  CLI::App* const render_app =
-      root.add_subcommand("render", "Pictures, without a display and without a window.");
-  CLI::App* const path_app = root.add_subcommand("path", "Geodesic paths and streamlines.");
-  CLI::App* const isolines_app =
-      root.add_subcommand("isolines", "Lines of equal distance, closed or open.");
-  CLI::App* const sample_app = root.add_subcommand(
-      "sample", "Farthest-point samples, and the nearest of them to every vertex.");
-  CLI::App* const study_app = root.add_subcommand(
-      "study", "The error of the heat method over time factors, rules and modes.");
-  CLI::App* const generate_app = root.add_subcommand("generate", "Writes a bundled model.");
-  CLI::App* const backends_app =
-      root.add_subcommand("backends", "The linear solvers of this build, the default first.");
-  CLI::App* const devices_app =
-      root.add_subcommand("devices", "What can draw on this machine, the default marked.");
-  CLI::App* const models_app = root.add_subcommand("models", "The bundled models.");
-  add_view_options(*view_app, view);
-  add_solve_options(*solve_app, solve);
-  add_info_options(*info_app, info);
-  add_compare_options(*compare_app, compare);
-  add_render_options(*render_app, render);
-  add_path_options(*path_app, path);
-  add_isolines_options(*isolines_app, isolines);
-  add_sample_options(*sample_app, sample);
-  add_study_options(*study_app, study);
-  add_generate_options(*generate_app, generate);
-  add_devices_options(*devices_app, devices);
-  add_backends_options(*backends_app, backends);
-  add_models_options(*models_app, models);
+  std::string helped, shell;
+};
 
-  for (CLI::App* command : root.get_subcommands({})) wrap_descriptions(*command);
+struct Subcommand {
+  std::string name, description;
+  std::function<void(CLI::App& command)> add_options;
+  std::function<int()> run;
+};
 
-  const std::string first = arguments.front();
-  render.command = view.command = shell_command("geotherm", words);
+std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& drawing,
+                                    ViewerWindow& window) {
+  const auto with_bar = [](auto& arguments, auto run) {
+    return [&arguments, run] { return run_with_bar(arguments, run); };
+  };
+  const auto with_words = [](auto& arguments, auto run) {
+    return [&arguments, run] { return run_with_words(arguments, run); };
+  };
+  const auto options = [](auto add, auto& arguments) {
+    return [add, &arguments](CLI::App& command) { add(command, arguments); };
+  };
+  const auto view = [&drawing, &window](const ViewArguments& arguments, const Progress& progress) {
+    return run_view(arguments, drawing, window, progress);
+  };
+  const auto render = [&drawing](const RenderArguments& arguments, const Progress& progress) {
+    return run_render(arguments, drawing, progress);
+  };
+  return {
+      {"view", "A window to explore a model in; geotherm MODEL does the same.",
+       options(add_view_options, a.view), with_bar(a.view, view)},
+      {"solve", "Distance from a source set to every vertex.", options(add_solve_options, a.solve),
+       with_words(a.solve, run_solve)},
+      {"info", "What a model is, and what is wrong with it.", options(add_info_options, a.info),
+       with_bar(a.info, run_info)},
+      {"compare", "The same work through several backends, side by side.",
+       options(add_compare_options, a.compare), with_bar(a.compare, run_compare)},
+      {"render", "Pictures, without a display and without a window.",
+       options(add_render_options, a.render), with_bar(a.render, render)},
+      {"path", "Geodesic paths and streamlines.", options(add_path_options, a.path),
+       with_bar(a.path, run_path)},
+      {"isolines", "Lines of equal distance, closed or open.",
+       options(add_isolines_options, a.isolines), with_bar(a.isolines, run_isolines)},
+      {"sample", "Farthest-point samples, and the nearest of them to every vertex.",
+       options(add_sample_options, a.sample), with_words(a.sample, run_sample)},
+      {"study", "The error of the heat method over time factors, rules and modes.",
+       options(add_study_options, a.study), with_bar(a.study, run_study)},
+      {"generate", "Writes a bundled model.", options(add_generate_options, a.generate),
+       with_bar(a.generate, run_generate)},
+      {"backends", "The linear solvers of this build, the default first.",
+       options(add_backends_options, a.backends),
+       [&a] { return finish(run_backends(a.backends)); }},
+      {"devices", "What can draw on this machine, the default marked.",
+       options(add_devices_options, a.devices),
+       [&a, &drawing] { return finish(run_devices(a.devices, drawing)); }},
+      {"models", "The bundled models.", options(add_models_options, a.models),
+       [&a] { return finish(run_models(a.models)); }},
+      {"completion", "A script by which a shell completes commands, options and values.",
+       options(add_completion_options, a.shell),
+       [&a, &root] { return finish(run_completion(a.shell, root)); }},
+      {"help", "The help of a command.",
+       [&a](CLI::App& command) {
+         command.add_option("COMMAND", a.helped, "one of those of geotherm --help");
+       },
+       [&a, &root] {
+         if (a.helped.empty()) return print({help_of(root), {}, {}});
+         if (const CLI::App* const command = find_command(root, a.helped)) {
+           return print({help_of(*command), {}, {}});
+         }
+         return fail(2, "there is no command '" + a.helped + "'; " +
+                            known_words(a.helped, command_names(root)));
+       }},
+  };
+}
+
+}  // namespace
+
+int exit_code(ErrorCode code) {
+  return code == ErrorCode::kBadInput || code == ErrorCode::kNotAvailable ? 2 : 1;
+}
+
+int run_command_line(std::vector<std::string> arguments, Drawing& drawing, ViewerWindow& window) {
+  const std::vector<std::string> words = arguments;
+  CLI::App root("Geodesic distance by the heat method: on meshes, points, volumes and grids.",
+                "geotherm");
+  root.set_version_flag("-V,--version", "geotherm " GEOTHERM_VERSION);
+  root.require_subcommand(0, 1);
+  root.footer(
+      "Examples:\n  geotherm bunny\n  geotherm solve bunny -s 17 -o distances.ply\n"
+      "geotherm COMMAND --help says more about each.");
+  AllArguments given;
+  const std::vector<Subcommand> commands = subcommands(given, root, drawing, window);
+  for (const Subcommand& each : commands) {
+    CLI::App* const command = root.add_subcommand(each.name, each.description);
+    each.add_options(*command);
+    wrap_descriptions(*command);
+  }
+  if (arguments.empty()) return print({root.help(), {}, {}});
+
+  const std::string& first = words.front();
+  if (!first.starts_with('-') && find_command(root, first) == nullptr) {
+    if (!is_model(first)) {
+      std::vector<std::string> known = command_names(root);
+      for (const BundledModel& model : bundled_models()) known.emplace_back(model.name);
+      return fail(2,
+                  "there is no command and no model '" + first + "'; " + known_words(first, known));
+    }
+    arguments.insert(arguments.begin(), "view");
+  }
+  const CLI::App* const named = find_command(root, arguments.front());
+  remember_command(shell_command("geotherm", words));
   const bool has_empty_word = std::find(words.begin(), words.end(), "") != words.end();
   if (!has_empty_word) complete_bare_fit(arguments);
   try {
@@ -212,34 +271,17 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   } catch (const CLI::CallForVersion& version) {
     return print({std::string(version.what()) + "\n", {}, {}});
   } catch (const CLI::ParseError& error) {
-    return fail_to_parse(error, first);
+    return fail_to_parse(error, named == nullptr ? root : *named, words);
   }
   for (const CLI::App* command : root.get_subcommands()) {
     if (const std::string problem = empty_value_problem(*command); !problem.empty()) {
       return fail(2, problem);
     }
   }
-  if (view_app->parsed()) {
-    return run_with_bar(view, [&](const ViewArguments& a, const Progress& progress) {
-      return run_view(a, drawing, window, progress);
-    });
+  for (const Subcommand& each : commands) {
+    if (root.got_subcommand(each.name)) return each.run();
   }
-  if (solve_app->parsed()) return run_with_words(solve, run_solve);
-  if (info_app->parsed()) return run_with_bar(info, run_info);
-  if (compare_app->parsed()) return run_with_bar(compare, run_compare);
-  if (render_app->parsed()) {
-    return run_with_bar(render, [&drawing](const RenderArguments& a, const Progress& progress) {
-      return run_render(a, drawing, progress);
-    });
-  }
-  if (path_app->parsed()) return run_with_bar(path, run_path);
-  if (isolines_app->parsed()) return run_with_bar(isolines, run_isolines);
-  if (sample_app->parsed()) return run_with_words(sample, run_sample);
-  if (study_app->parsed()) return run_with_bar(study, run_study);
-  if (devices_app->parsed()) return finish(run_devices(devices, drawing));
-  if (generate_app->parsed()) return run_with_bar(generate, run_generate);
-  if (backends_app->parsed()) return finish(run_backends(backends));
-  return finish(run_models(models));
+  return print({root.help(), {}, {}});
 }
 
 }  // namespace geotherm::app

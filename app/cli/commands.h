@@ -50,6 +50,16 @@ void add_devices_options(CLI::App& command, DevicesArguments& arguments);
 /// kNoDevice when there is none at all, those of the JSON file.
 Result<CommandOutput> run_devices(const DevicesArguments& arguments, Drawing& drawing);
 
+/// The commands there are, in the order of the help.
+std::vector<std::string> command_names(const CLI::App& root);
+
+/// `shell`: bash, zsh or fish.
+void add_completion_options(CLI::App& command, std::string& shell);
+
+/// A script by which that shell completes the commands of `root`, their options, and the values of
+/// settings.
+Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root);
+
 struct GenerateArguments {
   std::string name;
   std::string faces;   ///< empty: the model's usual size
@@ -213,7 +223,6 @@ struct RenderArguments {
   std::string output;
   std::string json;
   bool quiet = false;
-  std::string command;  ///< all that was typed, for the picture's file
 };
 
 void add_render_options(CLI::App& command, RenderArguments& arguments);
@@ -250,7 +259,6 @@ struct ViewArguments {
   std::string scale;
   bool validation = false;
   bool quiet = false;
-  std::string command;  ///< all that was typed, for the picture's file
 };
 
 void add_view_options(CLI::App& command, ViewArguments& arguments);

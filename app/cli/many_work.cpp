@@ -196,7 +196,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
   const SetupTiming& setup = figures.method->timing();
   const auto rows = static_cast<double>(work.sources.sets.size());
   Json json = {
-      {"model", model_json(work.model.name, work.mesh)},
+      {"model", model_json(work.model, work.mesh)},
       {"options", options_json(*figures.method, figures.options, figures.first)},
       {"sources", std::move(sources)},
       {"timing_ms",

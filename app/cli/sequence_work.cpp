@@ -233,7 +233,7 @@ Json sequence_json(const Sequence& sequence, const SequenceFigures& figures) {
     bad.push_back({{"frame", sequence.frames.number(frame.k)}, {"reason", frame.why}});
   }
   Json json = {
-      {"model", model_json(sequence.model.name, answer.mesh)},
+      {"model", model_json(sequence.model, answer.mesh)},
       {"options", options_json(*answer.method, answer.options, answer.result)},
       {"sources", sources_json(sequence.sources.set)},
       {"frames",

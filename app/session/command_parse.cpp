@@ -10,6 +10,7 @@
 #include "app/session/settings.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -257,7 +258,7 @@ const Form kForms[] = {
 };
 
 /// The first words of all forms and settings, or the second words after `first`.
-std::string names(std::string_view first) {
+std::vector<std::string> names(std::string_view first) {
   std::vector<std::string> all;
   for (const Form& form : kForms) {
     const std::size_t blank = form.name.find(' ');
@@ -269,7 +270,7 @@ std::string names(std::string_view first) {
   if (first.empty()) {
     for (const Setting& setting : settings()) all.emplace_back(setting.name);
   }
-  return joined(all);
+  return all;
 }
 
 Result<Command> read_setting(const Setting& setting, WordReader& reader) {
@@ -289,18 +290,19 @@ Result<Command> parse_command(std::string_view line) {
   auto made = WordReader::of(line);
   if (!made) return made.error();
   WordReader& reader = *made;
-  if (reader.at_end()) return reader.fail("a command: " + names(""));
+  if (reader.at_end()) return reader.fail("a command: " + joined(names("")));
   const std::string first = reader.next();
   if (const Setting* setting = find_setting(first)) return read_setting(*setting, reader);
   const bool is_group = std::ranges::any_of(
       kForms, [&first](const Form& form) { return form.name.starts_with(first + " "); });
-  if (is_group && reader.at_end()) return reader.fail("what to do: " + names(first));
+  if (is_group && reader.at_end()) return reader.fail("what to do: " + joined(names(first)));
   const std::string name = is_group ? first + " " + reader.next() : first;
   const auto form = std::ranges::find(kForms, std::string_view(name), &Form::name);
   if (form == std::end(kForms)) {
     return reader.blame_last({ErrorCode::kBadInput,
                               "there is no command '" + one_line(name) + "'",
-                              {"there are " + names(is_group ? first : "")}});
+                              {is_group ? known_words(name.substr(first.size() + 1), names(first))
+                                        : known_words(first, names(""))}});
   }
   if (reader.left() < form->least || reader.left() > form->most) {
     reader.skip(std::min(reader.left(), form->most));  // to what is too much, or missing

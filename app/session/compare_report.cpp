@@ -116,7 +116,7 @@ std::string compare_csv(std::span<const CompareRow> rows) {
 std::string compare_json(const Machine& machine, std::span<const CompareRow> rows) {
   Json list = Json::array();
   for (const CompareRow& row : rows) list.push_back(row_json(row));
-  return to_text(
+  return report_text(
       Json{{"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"blas", machine.blas}}},
            {"rows", list}});
 }

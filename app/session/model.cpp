@@ -19,6 +19,7 @@
 #include "geotherm/io.h"
 #include "geotherm/mesh.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 
@@ -192,11 +193,13 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   const std::filesystem::path path(text);
   std::error_code unknown;
   if (!path.has_extension() && !std::filesystem::exists(path, unknown)) {
-    std::vector<std::string_view> names;
-    for (const BundledModel& model : bundled_models()) names.push_back(model.name);
-    return Error{ErrorCode::kBadFile,
-                 "'" + one_line(text) + "' is neither a file nor a bundled model",
-                 {"bundled are " + joined(names)}};
+    std::vector<std::string> names;
+    for (const BundledModel& model : bundled_models()) names.emplace_back(model.name);
+    const std::string near = nearest_word(text, names);
+    return Error{
+        ErrorCode::kBadFile,
+        "'" + one_line(text) + "' is neither a file nor a bundled model",
+        {(near.empty() ? "" : "did you mean " + near + "? ") + ("bundled are " + joined(names))}};
   }
   if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
   const Stopwatch watch;

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 Json setting_json(const Setting& setting, const ViewerState& state);
 std::string key_of(const Setting& setting);
 
-/// The keys of `model` that every report has.
-Json model_json(const std::string& name, const MeshSummary& mesh);
+/// The keys of `model` that every report has. "path" is null where the model is no file.
+Json model_json(const Model& model, const MeshSummary& mesh);
 
 /// Says what the model holds where that is no surface: "domain", and of a volume "tets". Faces and
 /// edges of a solve are those of its border, or of the triangles between points.
@@ -49,6 +49,14 @@ Json solve_json(const Answer& figures);
 /// Text with a line end. Objects are indented down to the second level, what is deeper stands on
 /// one line. Numbers have the digits that read back as the same double; what is not finite is null.
 std::string to_text(const Json& json);
+
+/// The text of a whole report: "program" (version, schema, command), then the figures.
+std::string report_text(Json figures);
+
+/// What was typed to start this process, as one line for a shell; empty until it is remembered.
+/// remember_command() is called once, before there are other threads.
+void remember_command(std::string command);
+const std::string& typed_command();
 
 /// What `solve` shows to people.
 std::string solve_table(const Answer& figures);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 
 #include "app/session/answer.h"
@@ -17,53 +18,6 @@ namespace geotherm::app {
 namespace {
 
 Json vector_json(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
-
-/// The control characters that JSON lets stand, U+007F to U+009F, are escaped, too: it may end up
-/// on a terminal.
-std::string compact(const Json& json) {
-  const std::string dumped = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (dumped.find_first_of("\x7f\xc2") == std::string::npos) return dumped;
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  std::string out;
-  for (std::size_t i = 0; i < dumped.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(dumped[i]);
-    const unsigned next = i + 1 < dumped.size() ? static_cast<unsigned char>(dumped[i + 1]) : 0;
-    const bool two = byte == 0xc2 && next < 0xa0;
-    if (byte != 0x7f && !two) {
-      out += dumped[i];
-      continue;
-    }
-    const unsigned code = two ? next : byte;
-    out += {'\\', 'u', '0', '0', kDigits[code >> 4U], kDigits[code & 0xfU]};
-    if (two) ++i;
-  }
-  return out;
-}
-
-/// True for what gets a line for each of its members: filled objects, and lists that hold some.
-bool opens(const Json& json) {
-  if (json.empty()) return false;
-  return json.is_object() || (json.is_array() && json.front().is_structured());
-}
-
-void write(const Json& json, int level, std::string& out) {
-  constexpr int kDeepest = 2;
-  if (level >= kDeepest || !opens(json)) {
-    out += compact(json);
-    return;
-  }
-  const bool object = json.is_object();
-  const std::string indent(static_cast<std::size_t>(2 * level), ' ');
-  out += object ? "{" : "[";
-  bool first = true;
-  for (const auto& item : json.items()) {
-    out += (first ? "\n  " : ",\n  ") + indent;
-    if (object) out += compact(item.key()) + ": ";
-    write(item.value(), level + 1, out);
-    first = false;
-  }
-  out += "\n" + indent + (object ? "}" : "]");
-}
 
 /// Backends that failed, at the set-up and at the query.
 Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
@@ -146,8 +100,19 @@ std::string key_of(const Setting& setting) {
   return key;
 }
 
-Json model_json(const std::string& name, const MeshSummary& mesh) {
-  return {{"name", name},
+namespace {
+
+/// Null where the model is no file.
+Json path_json(const Model& model) {
+  if (model.path.empty() || model.path == kStandardInput) return nullptr;
+  return std::filesystem::absolute(model.path).string();
+}
+
+}  // namespace
+
+Json model_json(const Model& model, const MeshSummary& mesh) {
+  return {{"name", model.name},
+          {"path", path_json(model)},
           {"vertices", mesh.vertices},
           {"faces", mesh.faces},
           {"components", mesh.components},
@@ -170,7 +135,7 @@ namespace {
 
 /// The figures of a space; those of the faces that are drawn of it stand under "drawn".
 Json space_json(const Model& model, const MeshReport& mesh) {
-  Json json = {{"name", model.name}, {"vertices", mesh.vertices}};
+  Json json = {{"name", model.name}, {"path", path_json(model)}, {"vertices", mesh.vertices}};
   add_domain(model, json);
   for (const SpaceFigure& figure : model.space->figures()) {
     json[figure.key] = std::visit([](const auto& value) { return Json(value); }, figure.value);
@@ -193,7 +158,7 @@ Json space_json(const Model& model, const MeshReport& mesh) {
 
 Json full_model_json(const Model& model, const MeshReport& mesh) {
   if (model.space) return space_json(model, mesh);
-  Json json = model_json(model.name, mesh);
+  Json json = model_json(model, mesh);
   add_domain(model, json);
   json.update({{"edges", mesh.edges},
                {"edge_components", mesh.edge_components},
@@ -349,7 +314,7 @@ Json solve_json(const Answer& f) {
   const QueryTiming& query = f.result.timing;
   const bool heat = f.method->heat() != nullptr;
   const auto of_heat = [heat](double ms) { return heat ? Json(ms) : Json(nullptr); };
-  Json json = {{"model", model_json(f.model.name, f.mesh)},
+  Json json = {{"model", model_json(f.model, f.mesh)},
                {"options", options_json(*f.method, f.options, f.result)},
                {"sources", sources_json(f.sources)}};
   add_domain(f.model, json["model"]);
@@ -385,12 +350,6 @@ Json solve_json(const Answer& f) {
   if (f.error) json["error"] = error_json(*f.error);
   if (f.replaced) json["replaced"] = error_json(*f.replaced);
   return json;
-}
-
-std::string to_text(const Json& json) {
-  std::string out;
-  write(json, 0, out);
-  return out + '\n';
 }
 
 }  // namespace geotherm::app

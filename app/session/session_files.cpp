@@ -96,7 +96,7 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
   const Explored& explored = session.explored();
   const Answer* answer = shown_answer(explored, session.state().shown);
   if (answer == nullptr || session.stale()) return not_yet("figures");
-  return write_text(session.state(), save.path, "save figures", to_text(solve_json(*answer)));
+  return write_text(session.state(), save.path, "save figures", report_text(solve_json(*answer)));
 }
 
 std::string session_text(const ViewerState& state) {

@@ -57,6 +57,49 @@ std::string printable(std::string_view text) {
   return out;
 }
 
+namespace {
+
+/// Letters to change, add, leave out or swap with their neighbour to make one word the other.
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> apart(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      std::size_t& least = apart[i][j] = i + j;
+      if (i == 0 || j == 0) continue;
+      least = std::min({apart[i - 1][j] + 1, apart[i][j - 1] + 1,
+                        apart[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        least = std::min(least, apart[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return apart[a.size()][b.size()];
+}
+
+}  // namespace
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  constexpr std::size_t kLongest = 40;  // a longer word is no slip of the keyboard
+  if (word.size() > kLongest) return {};
+  std::size_t least = std::min<std::size_t>(word.size() / 3, 3) + 1;
+  std::string nearest;
+  for (const std::string& each : known) {
+    const std::size_t apart = letters_apart(word, each);
+    if (apart >= least) continue;
+    least = apart;
+    nearest = each;
+  }
+  return nearest;
+}
+
+std::string known_words(std::string_view word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  std::string text = near.empty() ? "" : "did you mean " + near + "? ";
+  text += "there are ";
+  for (const std::string& each : known) text += (&each == &known.front() ? "" : ", ") + each;
+  return text;
+}
+
 std::vector<SettingHint> settings_of(const Hint& hint) {
   std::vector<SettingHint> settings;
   for (const auto& part : hint) {
@@ -96,9 +139,7 @@ Error unknown_name(ErrorCode code, std::string_view unknown, std::string_view te
                    const std::vector<std::string>& names) {
   std::string message(unknown);
   message.replace(message.find('*'), 1, printable(text));
-  std::string known;
-  for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-  return {code, std::move(message), {"there are " + known}};
+  return {code, std::move(message), {known_words(text, names)}};
 }
 
 std::string sentence(const Error& error, std::string_view before_name) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace geotherm {
 
@@ -39,6 +40,13 @@ std::size_t printable_length(std::string_view text);
 
 /// The text with '?' for each byte that cannot be shown: one line of UTF-8, whatever it was.
 std::string printable(std::string_view text);
+
+/// What to give in place of a word that is none of `known`: "there are bunny, cube", after
+/// "did you mean bunny?" where one of them is near: letters changed, added, left out or swapped
+/// with their neighbour (Damerau 1964), at most one in three and three in all.
+std::string known_words(std::string_view word, const std::vector<std::string>& known);
+/// The near one alone; empty where none is.
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace geotherm
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geotherm/backend.h"
+#include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
 
 namespace geotherm {
@@ -68,14 +69,12 @@ std::vector<std::string> backend_names() {
 }
 
 Result<const Backend*> find_backend(std::string_view name) {
-  std::string known;
   for (const Backend* backend : Registry::instance().all()) {
     if (backend->name() == name) return backend;
-    known += (known.empty() ? "" : ", ") + std::string(backend->name());
   }
   return Error{ErrorCode::kNotAvailable,
                "there is no backend '" + std::string(name) + "' in this build",
-               {"there are " + known}};
+               {known_words(name, backend_names())}};
 }
 
 AddedBackend::AddedBackend(std::unique_ptr<const Backend> backend) : backend_(std::move(backend)) {

@@ -39,7 +39,6 @@ void write_files(const TemporaryDirectory& folder) {
 const std::vector<Failure>& failures() {
   static const std::vector<Failure> kFailures = {
       // The command line.
-      {"NoCommand", {}, 2, {"no command", "solve, info, compare, render"}},
       {"NeitherCommandNorModel",
        {"rabbit"},
        2,

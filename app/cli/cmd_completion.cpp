@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include "app/cli/commands.h"
+#include "app/session/model.h"
+#include "app/session/settings.h"
+#include "app/text/text.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// The three scripts are written from these: what may stand behind a command.
+struct CompletedOption {
+  std::vector<std::string> names;  ///< with their dashes
+  std::string description;
+  bool takes_value = false, is_file = false;
+  std::vector<std::string> values;
+};
+
+struct CompletedCommand {
+  std::string name, description;
+  std::vector<CompletedOption> options;
+  bool takes_model = false;
+};
+
+/// The first clause of a description, on one line.
+std::string phrase(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  std::erase(text, '\'');
+  for (const char* end : {"; ", ": ", " (", ", default", ". "})
+    text = text.substr(0, text.find(end));
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+/// The words among the values of the setting that has this option; a value with a colon is several
+/// words to a shell.
+std::vector<std::string> values_of(const std::string& option) {
+  const Setting* const setting = find_setting(option);
+  std::vector<std::string> values;
+  if (setting != nullptr && setting->values != nullptr) values = setting->values();
+  std::erase_if(values, [](const std::string& value) {
+    return value.find_first_of(": '\"$&()") != std::string::npos;
+  });
+  return values;
+}
+
+CompletedOption completed(const CLI::Option& option) {
+  CompletedOption out;
+  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) {
+    out.names.push_back("--" + name);
+    if (out.values.empty()) out.values = values_of(name);
+  }
+  out.description = phrase(option.get_description());
+  out.takes_value = option.get_type_size_max() > 0;
+  const std::string type = option.get_type_name();
+  out.is_file = type.find("FILE") != type.npos || type == "FRAMES";
+  return out;
+}
+
+std::vector<CompletedCommand> completed(const CLI::App& root) {
+  std::vector<CompletedCommand> all;
+  for (const std::string& name : command_names(root)) {
+    const CLI::App& command = *root.get_subcommand(name);
+    CompletedCommand one{name, phrase(command.get_description()), {}};
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->nonpositional()) one.options.push_back(completed(*option));
+      one.takes_model |= option->get_name() == "MODEL";
+    }
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+std::string model_names() {
+  std::vector<std::string_view> names;
+  for (const BundledModel& model : bundled_models()) names.push_back(model.name);
+  return joined(names, " ");
+}
+
+/// What may follow a command that is no option.
+std::string words_of(const CompletedCommand& command, const CLI::App& root) {
+  if (command.takes_model || command.name == "compare" || command.name == "generate") {
+    return model_names();
+  }
+  if (command.name == "completion") return "bash zsh fish";
+  return command.name == "help" ? joined(command_names(root), " ") : "";
+}
+
+std::string bash_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
+  std::string cases;
+  std::map<std::string, const CompletedOption*> options;
+  for (const CompletedCommand& command : commands) {
+    std::vector<std::string> names;
+    for (const CompletedOption& option : command.options) {
+      names.insert(names.end(), option.names.begin(), option.names.end());
+      if (option.takes_value) options.emplace(joined(option.names, " | "), &option);
+    }
+    cases += "    " + command.name + ")\n      options='" + joined(names, " ") + "'\n";
+    cases += "      words='" + words_of(command, root) + "'\n      ;;\n";
+  }
+  std::string values;
+  for (const auto& [names, option] : options) {
+    values += "    " + names + ")\n      ";
+    if (option->is_file) {
+      values += "mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n      ";
+    } else if (!option->values.empty()) {
+      values += "mapfile -t COMPREPLY < <(compgen -W '" + joined(option->values, " ") +
+                "' -- \"$current\")\n      ";
+    }
+    values += "return\n      ;;\n";
+  }
+  return "# What bash completes behind geotherm; made by: geotherm completion bash\n"
+         "_geotherm() {\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
+         "  local options='--help --version' words='" +
+         joined(command_names(root), " ") + " " + model_names() +
+         "'\n"
+         "  if ((COMP_CWORD > 1)); then\n"
+         "    case ${COMP_WORDS[1]} in\n" +
+         cases +
+         "    esac\n"
+         "  fi\n"
+         "  case $previous in\n" +
+         values +
+         "  esac\n"
+         "  if [[ $current == -* ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\")\n"
+         "  else\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\" && true\n"
+         "      compgen -f -- \"$current\")\n"
+         "  fi\n"
+         "}\n"
+         "complete -o filenames -F _geotherm geotherm\n";
+}
+
+/// Fit for a description between square brackets.
+std::string for_zsh(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '[' || text[i] == ']' || text[i] == ':') text.insert(i++, 1, '\\');
+  }
+  return text;
+}
+
+std::string zsh_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
+  std::string list, cases;
+  for (const CompletedCommand& command : commands) {
+    list += "    '" + command.name + ":" + for_zsh(command.description) + "'\n";
+    cases += "    " + command.name + ")\n      _arguments -s";
+    for (const CompletedOption& option : command.options) {
+      const std::string value = !option.takes_value ? ""
+                                : option.is_file    ? ":file:_files"
+                                : option.values.empty()
+                                    ? ":value:"
+                                    : ":value:(" + joined(option.values, " ") + ")";
+      for (const std::string& name : option.names) {
+        cases += " \\\n        '*" + name + "[" + for_zsh(option.description) + "]" + value + "'";
+      }
+    }
+    const std::string words = words_of(command, root);
+    if (!words.empty()) cases += " \\\n        '*:word:_geotherm_words " + words + "'";
+    cases += "\n      ;;\n";
+  }
+  return "#compdef geotherm\n"
+         "# What zsh completes behind geotherm; made by: geotherm completion zsh\n"
+         "_geotherm_words() { compadd -- \"$@\"; _files }\n"
+         "_geotherm() {\n"
+         "  local -a commands=(\n" +
+         list +
+         "  )\n"
+         "  if ((CURRENT == 2)); then\n"
+         "    _describe command commands\n"
+         "    _geotherm_words " +
+         model_names() +
+         "\n"
+         "    return\n"
+         "  fi\n"
+         "  local command=$words[2]\n"
+         "  shift words\n"
+         "  ((CURRENT--))\n"
+         "  case $command in\n" +
+         cases +
+         "    *) _files ;;\n"
+         "  esac\n"
+         "}\n"
+         "compdef _geotherm geotherm\n";
+}
+
+std::string fish_script(const std::vector<CompletedCommand>& commands, const CLI::App& root) {
+  std::string script =
+      "# What fish completes behind geotherm; made by: geotherm completion fish\n"
+      "complete -c geotherm -n __fish_use_subcommand -a '" +
+      model_names() + "' -d 'bundled model'\n";
+  for (const CompletedCommand& command : commands) {
+    script += "complete -c geotherm -n __fish_use_subcommand -a " + command.name + " -d '" +
+              command.description + "'\n";
+    const std::string here =
+        "complete -c geotherm -n '__fish_seen_subcommand_from " + command.name + "'";
+    const std::string words = words_of(command, root);
+    if (!words.empty()) script += here + " -a '" + words + "'\n";
+    for (const CompletedOption& option : command.options) {
+      script += here;
+      for (const std::string& name : option.names) {
+        script += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      }
+      if (option.takes_value) script += option.is_file ? " -r" : " -x";
+      if (!option.values.empty()) script += " -a '" + joined(option.values, " ") + "'";
+      script += " -d '" + option.description + "'\n";
+    }
+  }
+  return script;
+}
+
+}  // namespace
+
+std::vector<std::string> command_names(const CLI::App& root) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : root.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+void add_completion_options(CLI::App& command, std::string& shell) {
+  command.add_option("SHELL", shell, "bash, zsh or fish")->required();
+  command.footer(
+      "Examples:\n  source <(geotherm completion bash)\n"
+      "  geotherm completion fish > ~/.config/fish/completions/geotherm.fish");
+}
+
+Result<CommandOutput> run_completion(const std::string& shell, const CLI::App& root) {
+  const std::vector<CompletedCommand> commands = completed(root);
+  if (shell == "bash") return CommandOutput{bash_script(commands, root), {}, {}};
+  if (shell == "zsh") return CommandOutput{zsh_script(commands, root), {}, {}};
+  if (shell == "fish") return CommandOutput{fish_script(commands, root), {}, {}};
+  return bad_value(shell, "is no shell with a completion",
+                   known_words(shell, {"bash", "zsh", "fish"}));
+}
+
+}  // namespace geotherm::app

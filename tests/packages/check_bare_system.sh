@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check_bare_system.sh FOLDER: installs the packages that check_packages.sh made there in a bare Debian
+# of its own, runs what they bring, and removes them again. Exits 77 where it cannot.
+set -euo pipefail
+folder=$1
+
+skip() {
+  echo "SKIPPED: $*"
+  exit 77
+}
+[ "$(id -u)" -eq 0 ] || skip "only root may make a system to install packages in"
+command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed; scripts/setup.sh --dev does it"
+ls "$folder"/made/*.deb >/dev/null 2>&1 || skip "there are no packages"
+
+bare=$(mktemp -d)
+mounted=
+clean_up() {
+  if [ -n "$mounted" ]; then umount "$bare/proc"; fi
+  rm -rf "$bare"
+}
+trap clean_up EXIT
+. /etc/os-release
+mmdebstrap --quiet --variant=apt --mode=root "$VERSION_CODENAME" "$bare" >"$folder/bare.log" 2>&1 || {
+  cat "$folder/bare.log"
+  skip "no bare system could be made, most likely for want of a network; what was said is above"
+}
+mount --bind /proc "$bare/proc" 2>/dev/null || skip "this root may not mount"
+mounted=yes
+for file in /etc/resolv.conf /etc/apt/apt.conf.d/*; do cp "$file" "$bare$file" 2>/dev/null || true; done
+cp "$folder"/made/*.deb "$bare/tmp"
+inside() { chroot "$bare" env DEBIAN_FRONTEND=noninteractive "$@"; }
+
+inside apt-get update -qq
+inside apt-get install -y -qq --no-install-recommends libvulkan1 mesa-vulkan-drivers \
+  "$(cd "$bare" && echo ./tmp/geotherm_*.deb)" >"$folder/install.log" 2>&1 || {
+  cat "$folder/install.log"
+  exit 1
+}
+test "$(inside geotherm solve bunny -s 17 -o - --no-check | wc -l)" -gt 1000
+inside geotherm render bunny -s 17 --no-check -o /tmp/bunny.png
+test "$(head -c 4 "$bare/tmp/bunny.png" | tail -c 3)" = PNG
+inside apt-get purge -y -qq geotherm >"$folder/purge.log" 2>&1
+left=$(find "$bare" -xdev -name '*geotherm*' -not -path "$bare/tmp/*" -not -path "$bare/var/log/*")
+test -z "$left" || { echo "left behind: $left"; exit 1; }

@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check_packages.sh BUILD FOLDER: makes the packages of BUILD in FOLDER and has the judges of Debian look
+# at them. Exits 77 where these judges are not installed.
+set -euo pipefail
+build=$1 folder=$2
+
+for judge in lintian desktop-file-validate appstreamcli update-mime-database help2man man; do
+  if ! command -v "$judge" >/dev/null; then
+    echo "SKIPPED: $judge is not installed; scripts/setup.sh --dev installs it"
+    exit 77
+  fi
+done
+rm -rf "$folder"
+mkdir -p "$folder"
+(cd "$build" && cpack -G DEB -B "$folder/made")
+lintian --allow-root --fail-on error "$folder"/made/*.deb
+
+for package in "$folder"/made/*.deb; do dpkg-deb -x "$package" "$folder/root"; done
+share=$folder/root/usr/share
+desktop-file-validate "$share"/applications/*.desktop
+appstreamcli validate --no-net "$share"/metainfo/*.xml
+cp -r "$share/mime" "$folder/mime"
+update-mime-database "$folder/mime"
+grep -q 'model/x-ply' "$folder/mime/globs2"
+# A page for each command, which says what the command says of itself.
+"$build/geotherm" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p' |
+  while read -r command; do
+    page=$share/man/man1/geotherm-$command.1.gz
+    MANWIDTH=200 man --warnings -l "$page" >"$folder/page" 2>"$folder/said"
+    test ! -s "$folder/said" || { cat "$folder/said"; exit 1; }
+    grep -q "geotherm $command" "$folder/page" || { echo "no page of $command"; exit 1; }
+  done
+PKG_CONFIG_PATH=$folder/root/usr/lib/pkgconfig:$folder/root/usr/lib/$(gcc -print-multiarch)/pkgconfig \
+  pkg-config --define-prefix --cflags --libs geotherm-solver | grep -q -- -lgeotherm_solver
