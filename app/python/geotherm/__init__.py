@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: MIT
+"""Geodesic distance on triangle meshes, polygons, tets, points and grids by the heat method.
+
+>>> import geotherm
+>>> mesh = geotherm.read("bunny")           # or geotherm.Mesh(V, F)
+>>> solver = geotherm.Solver(mesh)
+>>> d = solver.distance(17)                 # (V,), model units
+>>> rows = solver.distances([17, 99])       # (2, V)
+
+Lengths are in the model's own units; vertices and faces are numbered from 0; a distance is
+infinite where no source can be reached. What cannot be done is an Error.
+"""
+
+from geotherm._library import Error, InputError
+from geotherm._models import (
+    Grid,
+    Mesh,
+    Model,
+    PointCloud,
+    Polygons,
+    TetMesh,
+    features,
+    read,
+)
+from geotherm._solver import Line, Lines, Result, Samples, Solver, farthest_points, isolines
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Error",
+    "Grid",
+    "InputError",
+    "Line",
+    "Lines",
+    "Mesh",
+    "Model",
+    "PointCloud",
+    "Polygons",
+    "Result",
+    "Samples",
+    "Solver",
+    "TetMesh",
+    "farthest_points",
+    "features",
+    "isolines",
+    "read",
+]
