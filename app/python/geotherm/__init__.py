@@ -24,7 +24,12 @@ from geotherm._models import (
 )
 from geotherm._solver import Line, Lines, Result, Samples, Solver, farthest_points, isolines
 
-__version__ = "0.1.0"
+
+def __getattr__(name: str) -> str:
+    if name == "__version__":
+        return str(features()["version"])
+    raise AttributeError(f"module 'geotherm' has no attribute {name!r}")
+
 
 __all__ = [
     "Error",

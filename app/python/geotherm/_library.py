@@ -299,7 +299,7 @@ class Watch:
 
     def __enter__(self) -> Watch:
         main = threading.current_thread() is threading.main_thread()
-        callback = _Callback(self._on_progress) if self._tell else _Callback()
+        callback = _Callback(self._on_progress) if self._tell else _Callback(0)
         self._watch = _Watch(callback, None, int(main))
         self.pointer = ctypes.cast(ctypes.pointer(self._watch), c_void_p)
         return self

@@ -398,7 +398,7 @@ def read(
     3996
     """
     settings = {"domain": domain, "weld": weld, "format": format, "grid": grid}
-    name = _bundled(path) if isinstance(path, str) else path
+    name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
     with Watch(progress) as watch:
         options = options_of(settings)
         handle = create("model_read", path_bytes(name, "path"), options.value, watch.pointer)

@@ -99,7 +99,9 @@ class Taken:
                 raise self._wrong("holds a line end")
             self._texts.append(one)
         elif isinstance(one, (int, np.integer)) and not isinstance(one, bool):
-            self._ids(np.array([one], np.int64) if -(2**63) <= one < 2**63 else self._beyond(one))
+            if not 0 <= one < 2**63:
+                raise self._wrong(f"holds {one}, which is no vertex")
+            self._ids(np.array([one], np.int64))
         elif isinstance(one, np.ndarray):
             self._array(one)
         elif isinstance(one, tuple) and len(one) == 2 and np.ndim(one[1]) == 1:
@@ -116,9 +118,6 @@ class Taken:
                 f"holds {one!r}",
                 "give vertex numbers, (face, weights), places (n, 3) or text such as 'boundary'",
             )
-
-    def _beyond(self, number: int) -> AnyArray:
-        raise self._wrong(f"holds {number}, which is no vertex")
 
     def _add_list(self, items: list[Any]) -> None:
         if not items:
