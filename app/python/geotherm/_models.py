@@ -88,7 +88,7 @@ class Model:
         self,
         kind: int,
         *,
-        positions: Any = None,
+        positions: tuple[Any, str, int] | None = None,
         cells: tuple[Any, str, int] | None = None,
         values: tuple[Any, str, int] | None = None,
         starts: Any = None,
@@ -100,7 +100,7 @@ class Model:
         kept = []
 
         def take(what: tuple[Any, str, int] | None) -> Any:
-            if what is None or what[0] is None:
+            if what is None:
                 return no_array()
             array, keep = given(*what)
             kept.append(keep)
@@ -108,10 +108,10 @@ class Model:
 
         shape = Shape(
             kind=kind,
-            positions=take((positions, "positions", 3)),
+            positions=take(positions),
             cells=take(cells),
             values=take(values),
-            starts=take((starts, "starts", 1)),
+            starts=take(None if starts is None else (starts, "starts", 1)),
         )
         if grid is not None:
             size, spacing, origin = grid
@@ -176,6 +176,8 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         maker, *arguments = self._recipe
+        if maker is _not_again:
+            _not_again()
         return maker, tuple(arguments)
 
 
@@ -229,9 +231,6 @@ class Mesh(Model):
     4
     """
 
-    _weld: float | None = None
-    _is_moved = False
-
     def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
         if faces is None:
             faces = _faces_of(vertices)
@@ -241,23 +240,31 @@ class Mesh(Model):
                     "faces is missing", hint="give vertices and faces, or an object with both"
                 )
         options = None if weld is None else options_of({"weld": weld})
-        self._build(_TRIANGLES, positions=vertices, cells=(faces, "faces", 3), options=options)
-        self._weld = weld
+        self._build(
+            _TRIANGLES,
+            positions=(vertices, "vertices", 3),
+            cells=(faces, "faces", 3),
+            options=options,
+        )
+        # Faces of a welded mesh are others, by which it cannot be welded again.
+        welded = (_mesh_again, np.array(vertices), np.array(faces), weld)
+        self._recipe = () if weld is None else welded
 
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
-        moved = cls._around(handle, ())
-        moved._weld = getattr(earlier, "_weld", None)
-        moved._is_moved = True
-        return moved
+        return cls._around(handle, (_not_again,) if earlier._recipe else ())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        if self._weld is not None and self._is_moved:
-            raise InputError(
-                "a mesh with welded vertices that was moved cannot be pickled",
-                hint="pickle the mesh from before, and the vertices",
-            )
-        return _mesh_again, (np.array(self.vertices), np.array(self.faces), self._weld)
+        if self._recipe:
+            return super().__reduce__()
+        return _mesh_again, (np.array(self.vertices), np.array(self.faces), None)
+
+
+def _not_again() -> Any:
+    raise InputError(
+        "a mesh with welded vertices that was moved cannot be pickled",
+        hint="pickle the mesh from before, and the vertices",
+    )
 
 
 def _mesh_again(vertices: AnyArray, faces: AnyArray, weld: float | None) -> Mesh:
@@ -285,7 +292,10 @@ class Polygons(Model):
         corners = np.concatenate(rows) if rows else np.empty(0, np.int64)
         starts = np.cumsum([0, *(len(row) for row in rows)])
         self._build(
-            _POLYGONS, positions=vertices, cells=(corners, "faces", 1), starts=starts
+            _POLYGONS,
+            positions=(vertices, "vertices", 3),
+            cells=(corners, "faces", 1),
+            starts=starts,
         )
         self._recipe = (Polygons, np.array(self.vertices), [row.tolist() for row in rows])
 
@@ -305,7 +315,7 @@ class TetMesh(Model):
             if not blocks or vertices is None:
                 raise InputError("tets is missing", hint="give vertices and tets")
             tets = np.concatenate(blocks)
-        self._build(_TETS, positions=vertices, cells=(tets, "tets", 4))
+        self._build(_TETS, positions=(vertices, "vertices", 3), cells=(tets, "tets", 4))
         self._recipe = (TetMesh, np.array(self.vertices), np.array(tets))
 
 
@@ -323,7 +333,7 @@ class PointCloud(Model):
             if points is None:
                 raise InputError("points is missing")
         values = None if normals is None else (normals, "normals", 3)
-        self._build(_POINTS, positions=points, values=values, progress=progress)
+        self._build(_POINTS, positions=(points, "points", 3), values=values, progress=progress)
         kept = None if normals is None else np.array(normals)
         self._recipe = (PointCloud, np.array(points), kept)
 
@@ -409,12 +419,9 @@ def read(
         "points": PointCloud,
         "grid": Grid,
     }
-    model: Model = kinds.get(handle.text("domain"), Model)._around(
-        handle, (_read_again, os.fspath(path), settings)
-    )
-    if isinstance(model, Mesh):
-        model._weld = weld
-    return model
+    kind = kinds.get(handle.text("domain"), Model)
+    by_arrays = kind is Mesh and weld is None
+    return kind._around(handle, () if by_arrays else (_read_again, os.fspath(path), settings))
 
 
 def _read_again(path: str, settings: dict[str, Any]) -> Any:

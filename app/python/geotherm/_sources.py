@@ -17,6 +17,12 @@ _VERTEX, _FACE, _PLACE = range(3)
 _RECORD = np.dtype([("kind", "i8"), ("id", "i8"), ("at", "f8", (3,)), ("offset", "f8")])
 
 
+def _is_in_face(one: Any) -> bool:
+    """Whether it is (face, weights)."""
+    pair = isinstance(one, tuple) and len(one) == 2
+    return pair and isinstance(one[1], (list, tuple, np.ndarray)) and len(np.shape(one[1])) == 1
+
+
 class Taken:
     """Sources as the library takes them. `sets`: each by itself, in place of all together."""
 
@@ -104,7 +110,7 @@ class Taken:
             self._ids(np.array([one], np.int64))
         elif isinstance(one, np.ndarray):
             self._array(one)
-        elif isinstance(one, tuple) and len(one) == 2 and np.ndim(one[1]) == 1:
+        elif _is_in_face(one):
             try:
                 self._in_face(*one)
             except (TypeError, ValueError) as why:
@@ -131,12 +137,14 @@ class Taken:
             self._add(item)
 
     def _add_sets(self, sources: Any) -> None:
-        if isinstance(sources, (str, int, np.integer)):
+        if isinstance(sources, (str, int, np.integer)) or _is_in_face(sources):
             sources = [sources]
         if isinstance(sources, np.ndarray) and sources.ndim == 1 and sources.dtype.kind in "iu":
             self._array(sources)
             self._starts = list(range(sources.size + 1))
             return
+        if isinstance(sources, np.ndarray) and sources.ndim == 0:
+            sources = [sources]
         if not isinstance(sources, Iterable):
             raise self._wrong(f"is {type(sources).__name__}", "give a list of sources")
         for one in sources:
