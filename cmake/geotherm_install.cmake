@@ -12,6 +12,11 @@ install(TARGETS geotherm_solver EXPORT geothermTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}"
   FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+if(TARGET geotherm_c)
+  install(TARGETS geotherm_c EXPORT geothermTargets
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
 install(EXPORT geothermTargets NAMESPACE geotherm:: DESTINATION "${package_dir}")
 
 configure_package_config_file(cmake/geothermConfig.cmake.in

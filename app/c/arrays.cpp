@@ -46,8 +46,8 @@ constexpr std::int64_t kMaxNumbers = std::int64_t{1} << 46;
 
 Result<void> check(const geotherm_array& array, std::int64_t columns, const std::string& name) {
   if (!is_type(array.type)) {
-    return wrong(name, "has the type " + std::to_string(static_cast<int>(array.type)) +
-                           ", which is none");
+    return wrong(
+        name, "has the type " + std::to_string(static_cast<int>(array.type)) + ", which is none");
   }
   if (array.rows < 0 || array.columns < 0 || array.columns > kMaxNumbers ||
       array.rows > kMaxNumbers / std::max<std::int64_t>(array.columns, 1)) {

@@ -40,7 +40,7 @@ extern "C" {
 GEOTHERM_API int geotherm_interface(void);
 
 /* The version of the program that it belongs to, such as "0.1.0". Never NULL. */
-GEOTHERM_API const char *geotherm_version(void);
+GEOTHERM_API const char* geotherm_version(void);
 
 /* ---- Errors -----------------------------------------------------------------------------------*/
 
@@ -58,7 +58,7 @@ typedef enum geotherm_status {
 
 /* Of the last call of this thread that failed: one sentence with the argument and the numbers, and
  * what to do about it ("" where nothing is known to help). Either pointer may be NULL. */
-GEOTHERM_API geotherm_status geotherm_last_error(const char **message, const char **hint);
+GEOTHERM_API geotherm_status geotherm_last_error(const char** message, const char** hint);
 
 /* ---- Arrays -----------------------------------------------------------------------------------*/
 
@@ -74,7 +74,7 @@ typedef enum geotherm_type {
  * NULL where there are no rows. Numbers of a model are taken from any type; a whole number that is
  * given as floating-point must be one. */
 typedef struct geotherm_array {
-  void *data;
+  void* data;
   geotherm_type type;
   int64_t rows, columns;
   int64_t row_stride, column_stride;
@@ -82,13 +82,14 @@ typedef struct geotherm_array {
 
 /* ---- Long work --------------------------------------------------------------------------------*/
 
-/* NULL in its place: nobody watches. `progress` is told the stage and the share done (0 to 1, below 0
- * when unknown); other than 0 cancels the call (GEOTHERM_CANCELLED), which leaves nothing behind. It
- * is called from any thread of the work, one at a time, and must return. */
+/* NULL in its place: nobody watches. `progress` is told the stage and the share done (0 to 1, below
+ * 0 when unknown); other than 0 cancels the call (GEOTHERM_CANCELLED), which leaves nothing behind.
+ * It is called from any thread of the work, one at a time, and must return. */
 typedef struct geotherm_watch {
-  int (*progress)(void *data, const char *stage, double share); /* or NULL */
-  void *data;
-  int interruptible; /* not 0: SIGINT (Ctrl-C) cancels, too; the program's own handler runs as well */
+  int (*progress)(void* data, const char* stage, double share); /* or NULL */
+  void* data;
+  int interruptible; /* not 0: SIGINT (Ctrl-C) cancels, too; the program's own handler runs as well
+                      */
 } geotherm_watch;
 
 /* ---- Options ----------------------------------------------------------------------------------*/
@@ -98,15 +99,15 @@ typedef struct geotherm_options geotherm_options;
 /* Every option of the command line that is about models, methods and checks, by its name there
  * without dashes ("method", "time-factor", "threads", "weld", "check"), as text ("2"). Errors of
  * set: NOT_AVAILABLE (no such name, with those there are), BAD_INPUT (the value). */
-GEOTHERM_API geotherm_status geotherm_options_new(geotherm_options **options);
-GEOTHERM_API geotherm_status geotherm_options_set(geotherm_options *options, const char *name,
-                                                  const char *value);
-GEOTHERM_API geotherm_status geotherm_options_get(const geotherm_options *options, const char *name,
-                                                  const char **value);
+GEOTHERM_API geotherm_status geotherm_options_new(geotherm_options** options);
+GEOTHERM_API geotherm_status geotherm_options_set(geotherm_options* options, const char* name,
+                                                  const char* value);
+GEOTHERM_API geotherm_status geotherm_options_get(const geotherm_options* options, const char* name,
+                                                  const char** value);
 
-/* What this build has, as JSON: version, interface, methods, backends, formats of files, models that
- * come with it, fields of answers, and settings (name, group, help, default, values). */
-GEOTHERM_API geotherm_status geotherm_features(const char **json);
+/* What this build has, as JSON: version, interface, methods, backends, formats of files, models
+ * that come with it, fields of answers, and settings (name, group, help, default, values). */
+GEOTHERM_API geotherm_status geotherm_features(const char** json);
 
 /* ---- Models -----------------------------------------------------------------------------------*/
 
@@ -114,9 +115,9 @@ typedef struct geotherm_model geotherm_model;
 
 /* Reads a file, or a bundled model by its name. Of `options` (or NULL) those about models count:
  * domain, weld, format, grid. Errors: BAD_FILE, BAD_INPUT, NOT_AVAILABLE. */
-GEOTHERM_API geotherm_status geotherm_model_read(const char *path, const geotherm_options *options,
-                                                 const geotherm_watch *watch,
-                                                 geotherm_model **model);
+GEOTHERM_API geotherm_status geotherm_model_read(const char* path, const geotherm_options* options,
+                                                 const geotherm_watch* watch,
+                                                 geotherm_model** model);
 
 typedef enum geotherm_kind {
   GEOTHERM_TRIANGLES = 0, /* positions V x 3, cells F x 3 */
@@ -136,12 +137,12 @@ typedef struct geotherm_shape {
   double spacing[3], origin[3];
 } geotherm_shape;
 
-/* Of arrays. `options`: weld alone counts, of triangles. Errors: BAD_INPUT, with the array's name and
- * the number that is wrong. Cost: a pass over the arrays; points are joined to a surface. */
-GEOTHERM_API geotherm_status geotherm_model_build(const geotherm_shape *shape,
-                                                  const geotherm_options *options,
-                                                  const geotherm_watch *watch,
-                                                  geotherm_model **model);
+/* Of arrays. `options`: weld alone counts, of triangles. Errors: BAD_INPUT, with the array's name
+ * and the number that is wrong. Cost: a pass over the arrays; points are joined to a surface. */
+GEOTHERM_API geotherm_status geotherm_model_build(const geotherm_shape* shape,
+                                                  const geotherm_options* options,
+                                                  const geotherm_watch* watch,
+                                                  geotherm_model** model);
 
 /* ---- Solvers ----------------------------------------------------------------------------------*/
 
@@ -150,17 +151,17 @@ typedef struct geotherm_solver geotherm_solver;
 /* A model made ready for sources by the method of `options` (or NULL: the heat method). Cost: with
  * `heat` two factorisations. Errors: BAD_FILE (the model has no area and the like),
  * NUMERICAL_FAILURE, OUT_OF_MEMORY, CANCELLED. */
-GEOTHERM_API geotherm_status geotherm_solver_new(const geotherm_model *model,
-                                                 const geotherm_options *options,
-                                                 const geotherm_watch *watch,
-                                                 geotherm_solver **solver);
+GEOTHERM_API geotherm_status geotherm_solver_new(const geotherm_model* model,
+                                                 const geotherm_options* options,
+                                                 const geotherm_watch* watch,
+                                                 geotherm_solver** solver);
 
-/* The same faces and options with the vertices elsewhere (V x 3): half of the cost of a new one. The
- * earlier solver stays as it is. `model`, where it is not NULL, is what it is on. */
-GEOTHERM_API geotherm_status geotherm_solver_move(const geotherm_solver *solver,
-                                                  const geotherm_array *positions,
-                                                  const geotherm_watch *watch,
-                                                  geotherm_solver **moved, geotherm_model **model);
+/* The same faces and options with the vertices elsewhere (V x 3): half of the cost of a new one.
+ * The earlier solver stays as it is. `model`, where it is not NULL, is what it is on. */
+GEOTHERM_API geotherm_status geotherm_solver_move(const geotherm_solver* solver,
+                                                  const geotherm_array* positions,
+                                                  const geotherm_watch* watch,
+                                                  geotherm_solver** moved, geotherm_model** model);
 
 /* ---- Sources ----------------------------------------------------------------------------------*/
 
@@ -179,41 +180,40 @@ typedef struct geotherm_source {
 
 /* Points, and sources as on the command line, one a line ("17", "3,99", "random:5:1", "boundary",
  * "curve:1,2,3", "face:7:0.2:0.3:0.5"); either may be left out. Where many sets are asked for,
- * `starts` has sets + 1 numbers, and set k the points starts[k] to starts[k + 1]; NULL: each point is
- * a set, and so is each point of the text. */
+ * `starts` has sets + 1 numbers, and set k the points starts[k] to starts[k + 1]; NULL: each point
+ * is a set, and so is each point of the text. */
 typedef struct geotherm_sources {
-  const geotherm_source *points;
+  const geotherm_source* points;
   int64_t count;
-  const int64_t *starts;
+  const int64_t* starts;
   int64_t sets;
-  const char *text;
+  const char* text;
 } geotherm_sources;
 
 /* ---- Distances --------------------------------------------------------------------------------*/
 
 /* From one set, all its points together, into `out`: V numbers, FLOAT64 or FLOAT32. No check, no
  * figures: the fastest way. The numbers are those of the command line, to the last bit. */
-GEOTHERM_API geotherm_status geotherm_distance(const geotherm_solver *solver,
-                                               const geotherm_sources *sources,
-                                               const geotherm_array *out,
-                                               const geotherm_watch *watch);
+GEOTHERM_API geotherm_status geotherm_distance(const geotherm_solver* solver,
+                                               const geotherm_sources* sources,
+                                               const geotherm_array* out,
+                                               const geotherm_watch* watch);
 
 /* Where the rows of many sets go: K x V numbers, or K x targets. */
 typedef struct geotherm_rows {
   geotherm_array array;   /* the caller's memory, of which a path leaves all but the type alone;
                              without data and path the call only says its rows and columns */
-  const char *path;       /* NULL, or a file .npy of array.type, there whole or not at all */
-  const int64_t *targets; /* NULL, or the vertices whose distances are kept */
+  const char* path;       /* NULL, or a file .npy of array.type, there whole or not at all */
+  const int64_t* targets; /* NULL, or the vertices whose distances are kept */
   int64_t target_count;
   double max_distance; /* > 0; farther is infinite. INFINITY for all. It saves no time */
 } geotherm_rows;
 
-/* From each set by itself, in blocks of sixteen, in memory for two chunks of these however many there
- * are. The rows have the bits of `solve --each`. */
-GEOTHERM_API geotherm_status geotherm_distances(const geotherm_solver *solver,
-                                                const geotherm_sources *sources,
-                                                geotherm_rows *rows,
-                                                const geotherm_watch *watch);
+/* From each set by itself, in blocks of sixteen, in memory for two chunks of these however many
+ * there are. The rows have the bits of `solve --each`. */
+GEOTHERM_API geotherm_status geotherm_distances(const geotherm_solver* solver,
+                                                const geotherm_sources* sources,
+                                                geotherm_rows* rows, const geotherm_watch* watch);
 
 /* ---- Answers ----------------------------------------------------------------------------------*/
 
@@ -222,54 +222,53 @@ typedef struct geotherm_answer geotherm_answer;
 /* From one set with all that there is to say: what `solve` of the command line reports. `wanted`:
  * NULL, or words with blanks between: "labels" (nearest_source), "fields" (heat, log_heat and the
  * fields that need them), "check=..." in place of the option `check` of the solver. */
-GEOTHERM_API geotherm_status geotherm_solve(const geotherm_solver *solver,
-                                            const geotherm_sources *sources, const char *wanted,
-                                            const geotherm_watch *watch, geotherm_answer **answer);
+GEOTHERM_API geotherm_status geotherm_solve(const geotherm_solver* solver,
+                                            const geotherm_sources* sources, const char* wanted,
+                                            const geotherm_watch* watch, geotherm_answer** answer);
 
-/* The shortest path through two points or more, in order. `field`: "geodesic" (or NULL), "distance",
- * "heat". `closed`: 1 leads back to the first point. On triangles and points alone. */
-GEOTHERM_API geotherm_status geotherm_path(const geotherm_solver *solver,
-                                           const geotherm_sources *through, const char *field,
-                                           int closed, const geotherm_watch *watch,
-                                           geotherm_answer **lines);
+/* The shortest path through two points or more, in order. `field`: "geodesic" (or NULL),
+ * "distance", "heat". `closed`: 1 leads back to the first point. On triangles and points alone. */
+GEOTHERM_API geotherm_status geotherm_path(const geotherm_solver* solver,
+                                           const geotherm_sources* through, const char* field,
+                                           int closed, const geotherm_watch* watch,
+                                           geotherm_answer** lines);
 
 /* The level sets of the function that is linear on each face. values: V; levels: ascending. */
-GEOTHERM_API geotherm_status geotherm_isolines(const geotherm_model *model,
-                                               const geotherm_array *values,
-                                               const geotherm_array *levels,
-                                               geotherm_answer **lines);
+GEOTHERM_API geotherm_status geotherm_isolines(const geotherm_model* model,
+                                               const geotherm_array* values,
+                                               const geotherm_array* levels,
+                                               geotherm_answer** lines);
 
 /* Farthest-point samples. `first`: a vertex, or -1. Cost: a query for each. */
-GEOTHERM_API geotherm_status geotherm_samples(const geotherm_solver *solver, int64_t count,
-                                              int64_t first, const geotherm_watch *watch,
-                                              geotherm_answer **samples);
+GEOTHERM_API geotherm_status geotherm_samples(const geotherm_solver* solver, int64_t count,
+                                              int64_t first, const geotherm_watch* watch,
+                                              geotherm_answer** samples);
 
 /* ---- What a handle holds ----------------------------------------------------------------------*/
 
 /* An array inside of a model or an answer, to be read and not written, valid as long as the handle.
  * Models: positions V x 3, faces F x 3 (of what is drawn of other spaces).
- * Answers of geotherm_solve(): distances V; nearest_source V; heat, log_heat V; error V or F, and the
- * other fields by their names on the command line ("eikonal-error").
- * Lines: points N x 3, faces N, weights N x 3 (the points in these), starts (lines + 1: the points of
- * each), lengths, closed (0 or 1), values (of isolines).
- * Samples: vertices K, distances V, nearest_source V (number of the sample), radius K.
- * Errors: NOT_AVAILABLE, with the names there are. */
-GEOTHERM_API geotherm_status geotherm_array_of(const void *handle, const char *name,
-                                               geotherm_array *array);
+ * Answers of geotherm_solve(): distances V; nearest_source V; heat, log_heat V; error V or F, and
+ * the other fields by their names on the command line ("eikonal-error"). Lines: points N x 3, faces
+ * N, weights N x 3 (the points in these), starts (lines + 1: the points of each), lengths, closed
+ * (0 or 1), values (of isolines). Samples: vertices K, distances V, nearest_source V (number of the
+ * sample), radius K. Errors: NOT_AVAILABLE, with the names there are. */
+GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* name,
+                                               geotherm_array* array);
 
-/* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json" (times
- * in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and samples:
- * "warnings" (JSON). */
-GEOTHERM_API geotherm_status geotherm_text_of(const void *handle, const char *name,
-                                              const char **text);
+/* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
+ * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and
+ * samples: "warnings" (JSON). */
+GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
+                                              const char** text);
 
 /* Writes a model (.ply, .obj, .off, .stl), an answer (.csv, .npy, .ply, .vtp) or lines (.obj, .csv,
  * .vtp) by the ending of the path: whole or not at all. */
-GEOTHERM_API geotherm_status geotherm_write(const void *handle, const char *path);
+GEOTHERM_API geotherm_status geotherm_write(const void* handle, const char* path);
 
-/* Ends a handle of any kind; NULL is left alone. Calls that work with it go on. Errors: BAD_INPUT (no
- * handle, or freed before). */
-GEOTHERM_API geotherm_status geotherm_free(void *handle);
+/* Ends a handle of any kind; NULL is left alone. Calls that work with it go on. Errors: BAD_INPUT
+ * (no handle, or freed before). */
+GEOTHERM_API geotherm_status geotherm_free(void* handle);
 
 #ifdef __cplusplus
 }

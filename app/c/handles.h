@@ -91,10 +91,10 @@ Result<std::shared_ptr<T>> object_of(const void* handle, const char* argument) {
   if (found) {
     if (const auto* const object = std::get_if<std::shared_ptr<T>>(&*found)) return *object;
   }
-  return Error{ErrorCode::kBadInput, std::string(argument) +
-                                         (handle == nullptr ? " is NULL"
-                                          : found           ? " is a handle of another kind"
-                                                            : " is no handle, or was freed")};
+  return Error{ErrorCode::kBadInput,
+               std::string(argument) + (handle == nullptr ? " is NULL"
+                                        : found           ? " is a handle of another kind"
+                                                          : " is no handle, or was freed")};
 }
 
 /// Puts an object behind a handle that the caller gets.

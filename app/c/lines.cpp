@@ -14,8 +14,8 @@ namespace {
 using app::Model;
 
 void keep(const Answer& answer, std::string name, auto values, std::int64_t columns = 1) {
-  answer.arrays.push_back(std::make_unique<const NamedArray>(
-      NamedArray{std::move(name), std::move(values), columns}));
+  answer.arrays.push_back(
+      std::make_unique<const NamedArray>(NamedArray{std::move(name), std::move(values), columns}));
 }
 
 void keep_lines(Answer& answer) {
@@ -64,8 +64,8 @@ Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathFi
   if (solver.geodesics) return solver.geodesics;
   auto method = solver.ready.method;
   if (!near_exact) {
-    auto ready = solver.solver.prepare(
-        app::better_options(solver.options, MethodKind::kWavefront), progress);
+    auto ready = solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront),
+                                       progress);
     if (!ready) return ready.error();
     method = ready->method;
   }

@@ -48,10 +48,9 @@ class Selection {
     for (std::int64_t i = 0; i < rows.target_count; ++i) {
       const std::int64_t v = rows.targets[i];
       if (v < 0 || v >= vertices) {
-        return bad_argument(
-            "targets: there is no vertex " + std::to_string(v) + ", which is number " +
-                std::to_string(i),
-            {"vertices are 0 to " + std::to_string(vertices - 1)});
+        return bad_argument("targets: there is no vertex " + std::to_string(v) +
+                                ", which is number " + std::to_string(i),
+                            {"vertices are 0 to " + std::to_string(vertices - 1)});
       }
       out.targets_.push_back(static_cast<Index>(v));
     }
@@ -84,9 +83,8 @@ Result<void> stream(const Solver& solver, const app::EachSource& each, Selection
   const Index vertices = solver.model().mesh->vertex_count();
   StreamOptions options;
   options.query.quality = false;
-  options.chunk =
-      std::clamp<std::size_t>(each.sets.size(), 1,
-                              good_chunk(vertices, solver.options.threads, free_memory()));
+  options.chunk = std::clamp<std::size_t>(
+      each.sets.size(), 1, good_chunk(vertices, solver.options.threads, free_memory()));
   return stream_answers(
       *solver.ready.method, each.sets, options,
       [&](std::size_t row, DistanceResult&& answer) {
@@ -108,13 +106,13 @@ Result<void> stream_to_file(const Solver& solver, const app::EachSource& each,
     return bad_argument("rows.array must be of float64 or float32");
   }
   const Index vertices = solver.model().mesh->vertex_count();
-  auto file = NpyRows::open(
-      path, each.sets.size(), static_cast<std::uint64_t>(selection.columns(vertices)),
-      rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64);
+  auto file =
+      NpyRows::open(path, each.sets.size(), static_cast<std::uint64_t>(selection.columns(vertices)),
+                    rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64);
   if (!file) return file.error();
-  const auto done = stream(
-      solver, each, selection, progress,
-      [&](std::size_t, std::span<const double> values) { return file->append(values); });
+  const auto done =
+      stream(solver, each, selection, progress,
+             [&](std::size_t, std::span<const double> values) { return file->append(values); });
   if (!done) return done;
   return file->finish();
 }

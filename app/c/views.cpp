@@ -48,9 +48,8 @@ Result<geotherm_array> array_in(const Model& model, const std::string& name) {
   const auto positions = model.mesh->positions();
   const auto faces = model.mesh->faces();
   if (name == "positions") {
-    return view_of(std::span(positions.empty() ? nullptr : positions.data()->data(),
-                             3 * positions.size()),
-                   3);
+    return view_of(
+        std::span(positions.empty() ? nullptr : positions.data()->data(), 3 * positions.size()), 3);
   }
   if (name == "faces") {
     return view_of(std::span(faces.empty() ? nullptr : faces.data()->data(), 3 * faces.size()), 3);
@@ -63,9 +62,9 @@ Result<std::vector<double>> field_in(const app::Answer& answer, QualityField fie
   std::span<const double> error;
   if (field == QualityField::kError) {
     if (!answer.error || answer.error->values.empty()) {
-      return bad_argument("there is no error: " +
-                          (answer.error ? sentence(*answer.error)
-                                        : std::string("the distances were not checked")));
+      return bad_argument(
+          "there is no error: " +
+          (answer.error ? sentence(*answer.error) : std::string("the distances were not checked")));
     }
     error = answer.error->values;
   }
@@ -140,11 +139,10 @@ Result<std::string> text_in(const Solver& solver, const std::string& name) {
   const DistanceMethod& method = *solver.ready.method;
   DistanceResult answer;
   if (method.heat() != nullptr) answer.backend = method.heat()->options().backend;
-  return app::to_text(
-      Json{{"options", app::options_json(method, solver.options, answer)},
-           {"timing_ms", {{"setup", solver.ready.setup_ms}}},
-           {"memory_mb", {{"factor", method.memory_mb()}}},
-           {"warnings", app::told(method.warnings())}});
+  return app::to_text(Json{{"options", app::options_json(method, solver.options, answer)},
+                           {"timing_ms", {{"setup", solver.ready.setup_ms}}},
+                           {"memory_mb", {{"factor", method.memory_mb()}}},
+                           {"warnings", app::told(method.warnings())}});
 }
 
 Result<std::string> text_in(const Answer& answer, const std::string& name) {
@@ -167,8 +165,8 @@ Result<void> write(const Answer& answer, const std::string& path) {
   if (answer.lines) {
     std::vector<Polyline> lines;
     for (const Isoline& line : answer.lines->all) {
-      lines.push_back({&line.path, answer.lines->have_values ? std::optional(line.value)
-                                                             : std::nullopt});
+      lines.push_back(
+          {&line.path, answer.lines->have_values ? std::optional(line.value) : std::nullopt});
     }
     return write_polylines(path, *answer.lines->mesh, lines);
   }

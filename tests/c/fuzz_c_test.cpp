@@ -131,14 +131,17 @@ class Nonsense {
   geotherm_array array() {
     geotherm_array out = {coin() ? data_.data() : nullptr,
                           static_cast<geotherm_type>(static_cast<int>(below(6)) - 1),
-                          size(), size(), 0, 0};
+                          size(),
+                          size(),
+                          0,
+                          0};
     if (out.rows > 4 || out.columns > 4) out.columns = coin() ? INT64_MAX : -1;
     return out;
   }
   const char* text() {
     constexpr std::array<const char*, 10> kTexts = {
-        nullptr, "",  "method", "exact", "json", "distances", "positions", "17,x", "curve:0,1",
-        "\xff\xfe\n\x01"};
+        nullptr,     "",          "method", "exact",     "json",
+        "distances", "positions", "17,x",   "curve:0,1", "\xff\xfe\n\x01"};
     return kTexts[below(kTexts.size())];
   }
   geotherm_sources sources() {

@@ -35,7 +35,8 @@ std::string output_of(const std::string& command) {
 
 /// The declarations of a header, one a line, without comments and directives.
 Names declarations(const std::string& header) {
-  std::string text = std::regex_replace(header, std::regex(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/)"), " ");
+  std::string text =
+      std::regex_replace(header, std::regex(R"(/\*[^*]*\*+(?:[^/*][^*]*\*+)*/)"), " ");
   text = std::regex_replace(text, std::regex(R"((^|\n)[ \t]*#[^\n]*)"), "\n");
   text = std::regex_replace(text, std::regex(R"(extern "C" \{)"), " ");
   text = std::regex_replace(text, std::regex("GEOTHERM_API"), " ");
@@ -94,7 +95,8 @@ TEST(CInterface, NothingThatWasThereChangesWithoutItsNumber) {
 }
 
 TEST(CInterface, ADeclarationThatDiffersIsNoticed) {
-  const Names now = declarations("int f(int a);\n/* int g(void); */\ntypedef struct s {\n int a; } s;");
+  const Names now =
+      declarations("int f(int a);\n/* int g(void); */\ntypedef struct s {\n int a; } s;");
   EXPECT_EQ(now, (Names{"int f(int a)", "typedef struct s { int a; } s"}));
 }
 
@@ -102,7 +104,8 @@ TEST(CInterface, TheLibraryShowsItsFunctionsAndNothingElse) {
   Names declared, shown;
   for (const std::string& each : declarations(text_of(GEOTHERM_C_HEADER))) {
     std::smatch found;
-    if (std::regex_search(each, found, std::regex(R"((geotherm_\w+)\()"))) declared.insert(found[1]);
+    if (std::regex_search(each, found, std::regex(R"((geotherm_\w+)\()")))
+      declared.insert(found[1]);
   }
   std::istringstream lines(output_of("nm -D --defined-only " GEOTHERM_C_LIBRARY));
   for (std::string address, kind, name; lines >> address >> kind >> name;) {

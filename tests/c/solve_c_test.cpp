@@ -85,8 +85,8 @@ TEST_F(CSolve, RowsAreThoseOfEachSourceInMemoryAndInAFile) {
   ASSERT_EQ(geotherm_distances(solver, &sources, &rows, nullptr), GEOTHERM_OK);
   const std::vector<double> alone = distance(99);
   for (std::int64_t v = 0; v < vertices; ++v) {
-    ASSERT_NEAR(values[static_cast<std::size_t>(vertices + v)],
-                alone[static_cast<std::size_t>(v)], 1e-6);
+    ASSERT_NEAR(values[static_cast<std::size_t>(vertices + v)], alone[static_cast<std::size_t>(v)],
+                1e-6);
   }
   rows.path = path.c_str();
   ASSERT_EQ(geotherm_distances(solver, &sources, &rows, nullptr), GEOTHERM_OK);
@@ -101,8 +101,8 @@ TEST_F(CSolve, TargetsAndTheLargestDistanceCutRows) {
   const std::vector<std::int64_t> targets = {17, 500, 900};
   std::vector<double> values(3);
   const double most = (all[500] + all[900]) / 2;
-  geotherm_rows rows = {{values.data(), GEOTHERM_FLOAT64, 1, 3, 0, 0}, nullptr, targets.data(), 3,
-                        most};
+  geotherm_rows rows = {
+      {values.data(), GEOTHERM_FLOAT64, 1, 3, 0, 0}, nullptr, targets.data(), 3, most};
   ASSERT_EQ(geotherm_distances(solver, &sources, &rows, nullptr), GEOTHERM_OK);
   EXPECT_EQ(values[0], 0);
   EXPECT_EQ(std::min(values[1], values[2]), std::min(all[500], all[900]));
@@ -141,13 +141,12 @@ TEST_F(CSolve, WhatIsMovedTwiceAsFarIsTwiceAsFarAway) {
 }
 
 TEST_F(CSolve, ProgressCancelsAndLeavesTheSolverAsItWas) {
-  const geotherm_watch stop = {
-      [](void* data, const char* stage, double) {
-        EXPECT_NE(std::string(stage), "");
-        ++*static_cast<std::atomic<int>*>(data);
-        return 1;
-      },
-      nullptr, 0};
+  const geotherm_watch stop = {[](void* data, const char* stage, double) {
+                                 EXPECT_NE(std::string(stage), "");
+                                 ++*static_cast<std::atomic<int>*>(data);
+                                 return 1;
+                               },
+                               nullptr, 0};
   std::atomic<int> calls{0};
   geotherm_watch watch = stop;
   watch.data = &calls;
@@ -164,12 +163,11 @@ TEST_F(CSolve, AnInterruptCancelsAndReachesTheProgramsOwnHandler) {
   struct sigaction own = {}, earlier = {};
   own.sa_handler = [](int) { ++interrupts; };
   sigaction(SIGINT, &own, &earlier);
-  const geotherm_watch watch = {
-      [](void*, const char*, double) {
-        if (interrupts == 0) std::raise(SIGINT);
-        return 0;
-      },
-      nullptr, 1};
+  const geotherm_watch watch = {[](void*, const char*, double) {
+                                  if (interrupts == 0) std::raise(SIGINT);
+                                  return 0;
+                                },
+                                nullptr, 1};
   geotherm_solver* other = nullptr;
   EXPECT_EQ(geotherm_solver_new(model, nullptr, &watch, &other), GEOTHERM_CANCELLED);
   EXPECT_EQ(interrupts, 1);
@@ -201,8 +199,8 @@ TEST_F(CSolve, PathsIsolinesAndSamplesAreArrays) {
   ASSERT_EQ(geotherm_array_of(samples, "vertices", &chosen), GEOTHERM_OK);
   EXPECT_EQ(chosen.rows, 5);
   EXPECT_EQ(*static_cast<const std::int32_t*>(chosen.data), 17);
-  for (void* handle : {static_cast<void*>(path), static_cast<void*>(lines),
-                       static_cast<void*>(samples)}) {
+  for (void* handle :
+       {static_cast<void*>(path), static_cast<void*>(lines), static_cast<void*>(samples)}) {
     EXPECT_EQ(geotherm_free(handle), GEOTHERM_OK);
   }
 }

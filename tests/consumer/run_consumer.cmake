@@ -22,7 +22,7 @@ foreach(file ${files})
 endforeach()
 
 # The front door is narrow: what is in it is promised to users.
-file(GLOB_RECURSE headers "${prefix}/include/*")
+file(GLOB_RECURSE headers "${prefix}/include/geotherm/*")
 list(LENGTH headers count)
 if(count EQUAL 0 OR count GREATER 20)
   message(FATAL_ERROR "${count} headers are installed; 1 to 20 are meant to be")

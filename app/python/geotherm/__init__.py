@@ -11,6 +11,7 @@ Lengths are in the model's own units; vertices and faces are numbered from 0; a 
 infinite where no source can be reached. What cannot be done is an Error.
 """
 
+from geotherm._answers import Line, Lines, Result, Samples, isolines
 from geotherm._library import Error, InputError
 from geotherm._models import (
     Grid,
@@ -19,10 +20,10 @@ from geotherm._models import (
     PointCloud,
     Polygons,
     TetMesh,
-    features,
     read,
 )
-from geotherm._solver import Line, Lines, Result, Samples, Solver, farthest_points, isolines
+from geotherm._options import features
+from geotherm._solver import Solver, farthest_points
 
 
 def __getattr__(name: str) -> str:

@@ -23,44 +23,10 @@ from geotherm._library import (
     call,
     create,
     path_bytes,
-    text_bytes,
 )
+from geotherm._options import options_of
 
 _TRIANGLES, _POLYGONS, _TETS, _POINTS, _GRID = range(5)
-
-
-def options_of(settings: Mapping[str, Any]) -> Handle:
-    """geotherm_options with the settings that are not None; names have _ in place of -."""
-    options = create("options_new")
-    for name, value in settings.items():
-        if value is None:
-            continue
-        if isinstance(value, bool):
-            text = "on" if value else "off"
-        elif isinstance(value, float):
-            text = repr(value)
-        else:
-            text = str(value)
-        name = name.replace("_", "-")
-        call("options_set", options.value, text_bytes(name, "option"), text_bytes(text, name))
-    return options
-
-
-@functools.lru_cache(maxsize=None)
-def _features_text() -> str:
-    text = ctypes.c_char_p()
-    call("features", ctypes.byref(text))
-    return (text.value or b"").decode()
-
-
-def features() -> dict[str, Any]:
-    """What this build has: version, methods, backends, formats, bundled models, settings.
-
-    >>> "heat" in geotherm.features()["methods"]
-    True
-    """
-    found: dict[str, Any] = json.loads(_features_text())
-    return found
 
 
 class Model:

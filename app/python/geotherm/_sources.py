@@ -19,8 +19,13 @@ _RECORD = np.dtype([("kind", "i8"), ("id", "i8"), ("at", "f8", (3,)), ("offset",
 
 def _is_in_face(one: Any) -> bool:
     """Whether it is (face, weights)."""
-    pair = isinstance(one, tuple) and len(one) == 2
-    return pair and isinstance(one[1], (list, tuple, np.ndarray)) and len(np.shape(one[1])) == 1
+    if not isinstance(one, tuple) or len(one) != 2:
+        return False
+    weights = one[1]
+    if isinstance(weights, np.ndarray):
+        return weights.ndim == 1
+    numbers = (int, float, np.number)
+    return isinstance(weights, (list, tuple)) and all(isinstance(w, numbers) for w in weights)
 
 
 class Taken:
@@ -110,9 +115,9 @@ class Taken:
             self._ids(np.array([one], np.int64))
         elif isinstance(one, np.ndarray):
             self._array(one)
-        elif _is_in_face(one):
+        elif isinstance(one, tuple) and _is_in_face(one):
             try:
-                self._in_face(*one)
+                self._in_face(one[0], one[1])
             except (TypeError, ValueError) as why:
                 if isinstance(why, InputError):
                     raise
