@@ -88,8 +88,7 @@ typedef struct geotherm_array {
 typedef struct geotherm_watch {
   int (*progress)(void* data, const char* stage, double share); /* or NULL */
   void* data;
-  int interruptible; /* not 0: SIGINT (Ctrl-C) cancels, too; the program's own handler runs as well
-                      */
+  int interruptible; /* not 0: Ctrl-C (SIGINT) cancels, too; the program's handler runs as well */
 } geotherm_watch;
 
 /* ---- Options ----------------------------------------------------------------------------------*/

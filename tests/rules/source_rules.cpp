@@ -124,6 +124,7 @@ struct LibraryPrefix {
   std::string_view begin, library;
 };
 constexpr LibraryPrefix kLibraries[] = {
+    {"stdint.h", "std"},
     {"Eigen/", "eigen"},
     {"unsupported/Eigen/", "eigen"},
     {"sys/", "posix"},
