@@ -33,6 +33,12 @@ run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK_DIR}/bu
     -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
 run("${WORK_DIR}/build/consumer")
+if(EXISTS "${WORK_DIR}/build/consumer_c")
+  run("${WORK_DIR}/build/consumer_c")
+endif()
+if(PROGRAM AND NOT EXISTS "${WORK_DIR}/build/consumer_c")
+  message(FATAL_ERROR "the C interface was not installed")
+endif()
 
 if(PROGRAM)
   run("${prefix}/bin/${PROGRAM}" backends)
