@@ -123,8 +123,10 @@ typedef enum geotherm_kind {
   GEOTHERM_POLYGONS = 1,  /* positions, cells: corners of all faces, one after the other; starts */
   GEOTHERM_TETS = 2,      /* positions, cells T x 4 */
   GEOTHERM_POINTS = 3,    /* positions; values: normals V x 3, or none */
-  GEOTHERM_GRID = 4       /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
+  GEOTHERM_GRID = 4,      /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
                              wall; or none: 1 everywhere. The answer is travel time */
+  GEOTHERM_LENGTHS = 5 /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
+                          side opposite each corner; the heat method alone, not checked */
 } geotherm_kind;
 
 typedef struct geotherm_shape {

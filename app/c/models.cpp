@@ -7,6 +7,7 @@
 
 #include "app/c/handles.h"
 #include "app/session/grid_space.h"
+#include "app/session/length_space.h"
 #include "app/session/settings.h"
 #include "geotherm/backend.h"
 #include "geotherm/domains.h"
@@ -159,6 +160,25 @@ Result<Model> build_grid(const geotherm_shape& shape) {
   return model_of(std::move(space), std::move(drawn));
 }
 
+Result<Model> build_from_lengths(const geotherm_shape& shape) {
+  const auto corners = indices_in(shape.cells, 3, "faces");
+  if (!corners) return corners.error();
+  const auto lengths = numbers_in(shape.values, 3, "lengths");
+  if (!lengths) return lengths.error();
+  if (lengths->size() != corners->size()) {
+    return bad_argument("lengths has " + std::to_string(lengths->size() / 3) + " rows, and faces " +
+                        std::to_string(corners->size() / 3));
+  }
+  std::vector<std::array<double, 3>> opposite(lengths->size() / 3);
+  for (std::size_t i = 0; i < lengths->size(); ++i) opposite[i / 3][i % 3] = (*lengths)[i];
+  auto space = app::LengthSpace::build(grouped_by<3>(*corners), opposite);
+  if (!space) return space.error();
+  Model model;
+  model.mesh = (*space)->drawn();
+  model.space = *std::move(space);
+  return model;
+}
+
 Result<Model> build(const geotherm_shape& shape, const Progress& progress) {
   switch (shape.kind) {
     case GEOTHERM_TRIANGLES:
@@ -171,6 +191,8 @@ Result<Model> build(const geotherm_shape& shape, const Progress& progress) {
       return build_points(shape, progress);
     case GEOTHERM_GRID:
       return build_grid(shape);
+    case GEOTHERM_LENGTHS:
+      return build_from_lengths(shape);
   }
   return bad_argument("shape.kind is " + std::to_string(static_cast<int>(shape.kind)) +
                       ", which is no geotherm_kind");

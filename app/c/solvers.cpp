@@ -133,6 +133,8 @@ Result<void> stream_to_memory(const Solver& solver, const app::EachSource& each,
 Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
   app::Wanted wanted;
   wanted.check.against = solver.check;
+  const auto& space = solver.model().space;
+  const bool checks = !space || space->rival() != MethodKind::kHeat;  // there is a better method
   while (!words.empty()) {
     const std::string_view word = words.substr(0, words.find(' '));
     words.remove_prefix(std::min(word.size() + 1, words.size()));
@@ -149,6 +151,7 @@ Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
                           {"there are labels, fields and check=..."});
     }
   }
+  if (!checks) wanted.check.against = app::Check::kOff;
   return wanted;
 }
 

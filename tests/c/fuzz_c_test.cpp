@@ -178,7 +178,7 @@ TEST(CFuzz, NoCallIsMoreThanAnErrorWhateverItIsGiven) {
     geotherm_status status = GEOTHERM_OK;
     switch (any.below(12)) {
       case 0:
-        shape.kind = static_cast<geotherm_kind>(static_cast<int>(any.below(7)) - 1);
+        shape.kind = static_cast<geotherm_kind>(static_cast<int>(any.below(8)) - 1);
         shape.positions = any.array();
         shape.cells = any.array();
         shape.values = any.array();

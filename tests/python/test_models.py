@@ -72,6 +72,33 @@ def test_grids():
     check(geotherm.Grid(speeds, spacing=(0.5, 0.5)), 0, expected, 0.04)
 
 
+def test_edge_lengths(bunny):
+    V, F, _ = grid_of(30)
+    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F[:, [2, 0, 1]]], axis=2)
+    check(geotherm.Mesh.from_edge_lengths(F, sides), 0, np.linalg.norm(V, axis=1), 0.04)
+    V, F = bunny.vertices, bunny.faces
+    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F[:, [2, 0, 1]]], axis=2)
+    solver = geotherm.Solver(geotherm.Mesh.from_edge_lengths(F, sides))
+    exact = geotherm.Solver(bunny, method="exact").distance(17)
+    assert abs(solver.distance(17) - exact).mean() < 0.03 * exact.mean()
+    assert solver.solve(17).error is None
+    for wrong, named in (
+        ([[1, 1, 3]], "no triangle"),
+        ([[1, 1, -1]], "length -1"),
+        ([[1, 1, float("nan")]], "length nan"),
+        ([[1, 1]], "lengths"),
+        ([[1, 1, 1]] * 2, "rows"),
+    ):
+        with pytest.raises(ValueError, match=named):
+            geotherm.Mesh.from_edge_lengths([[0, 1, 2]], wrong)
+    with pytest.raises(ValueError, match="another face"):
+        geotherm.Mesh.from_edge_lengths([[0, 1, 2], [1, 0, 3]], [[1, 1, 1], [1, 1, 1.1]])
+    with pytest.raises(geotherm.Error, match="heat method alone"):
+        geotherm.Solver(solver.model, method="exact")
+    with pytest.raises(geotherm.Error, match="nowhere"):
+        solver.distance([0.0, 0.0, 0.0])
+
+
 def test_models_of_other_packages_by_their_shape():
     V, F, _ = grid_of(5)
     vtk = np.column_stack([np.full(len(F), 3), F]).ravel()

@@ -12,16 +12,9 @@ infinite where no source can be reached. What cannot be done is an Error.
 """
 
 from geotherm._answers import Line, Lines, Result, Samples, isolines
+from geotherm._domains import Grid, PointCloud, Polygons, TetMesh, read
 from geotherm._library import Error, InputError
-from geotherm._models import (
-    Grid,
-    Mesh,
-    Model,
-    PointCloud,
-    Polygons,
-    TetMesh,
-    read,
-)
+from geotherm._models import Mesh, Model
 from geotherm._options import features
 from geotherm._solver import Solver, farthest_points
 

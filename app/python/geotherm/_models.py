@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What distance is computed in: meshes, polygons, tets, points, grids."""
+"""What distance is computed in, and meshes."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import ctypes
 import functools
 import json
 import os
-from collections.abc import Iterable, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,7 +25,7 @@ from geotherm._library import (
 )
 from geotherm._options import options_of
 
-_TRIANGLES, _POLYGONS, _TETS, _POINTS, _GRID = range(5)
+TRIANGLES, POLYGONS, TETS, POINTS, GRID, LENGTHS = range(6)
 
 
 class Model:
@@ -147,14 +146,15 @@ class Model:
         return maker, tuple(arguments)
 
 
-def _attributes(thing: Any, *names: str) -> Any:
+def attributes(thing: Any, *names: str) -> Any:
+    """The first of the attributes that it has, else None."""
     for name in names:
         if hasattr(thing, name):
             return getattr(thing, name)
     return None
 
 
-def _blocks(thing: Any, kind: str) -> list[Any]:
+def blocks(thing: Any, kind: str) -> list[Any]:
     """The cells of a kind of a meshio mesh."""
     cells = getattr(thing, "cells", None)
     if isinstance(cells, Mapping):
@@ -166,9 +166,9 @@ def _blocks(thing: Any, kind: str) -> list[Any]:
 
 def _faces_of(thing: Any) -> Any:
     """Triangles of a trimesh, pyvista or meshio object."""
-    blocks = _blocks(thing, "triangle")
-    if blocks:
-        return np.concatenate(blocks)
+    triangles = blocks(thing, "triangle")
+    if triangles:
+        return np.concatenate(triangles)
     if hasattr(thing, "regular_faces"):
         return thing.regular_faces
     faces = getattr(thing, "faces", None)
@@ -200,14 +200,14 @@ class Mesh(Model):
     def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
         if faces is None:
             faces = _faces_of(vertices)
-            vertices = _attributes(vertices, "vertices", "points")
+            vertices = attributes(vertices, "vertices", "points")
             if faces is None or vertices is None:
                 raise InputError(
                     "faces is missing", hint="give vertices and faces, or an object with both"
                 )
         options = None if weld is None else options_of({"weld": weld})
         self._build(
-            _TRIANGLES,
+            TRIANGLES,
             positions=(vertices, "vertices", 3),
             cells=(faces, "faces", 3),
             options=options,
@@ -215,6 +215,25 @@ class Mesh(Model):
         # Faces of a welded mesh are others, by which it cannot be welded again.
         welded = (_mesh_again, np.array(vertices), np.array(faces), weld)
         self._recipe = () if weld is None else welded
+
+    @classmethod
+    def from_edge_lengths(cls, faces: Any, lengths: Any) -> Model:
+        """A surface of which only lengths are known: the heat method measures it.
+
+        Args:
+            faces: (F, 3) vertex numbers.
+            lengths: (F, 3): of the side opposite each corner (as igl.edge_lengths gives them), the
+                same for both faces of an edge.
+
+        Raises: InputError, with the face whose sides are no triangle or disagree with another's.
+
+        >>> geotherm.Mesh.from_edge_lengths([[0, 1, 2]], [[3, 4, 5]]).info()["model"]["area"]
+        6.0
+        """
+        model: Model = Model.__new__(Model)
+        model._build(LENGTHS, cells=(faces, "faces", 3), values=(lengths, "lengths", 3))
+        model._recipe = (_lengths_again, np.array(faces), np.array(lengths))
+        return model
 
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
@@ -233,162 +252,9 @@ def _not_again() -> Any:
     )
 
 
+def _lengths_again(faces: AnyArray, lengths: AnyArray) -> Model:
+    return Mesh.from_edge_lengths(faces, lengths)
+
+
 def _mesh_again(vertices: AnyArray, faces: AnyArray, weld: float | None) -> Mesh:
     return Mesh(vertices, faces, weld=weld)
-
-
-class Polygons(Model):
-    """Faces with any number of corners, which nothing cuts into triangles.
-
-    Args:
-        vertices: (V, 3), model units.
-        faces: the vertex numbers of each face: a list of lists, or an array (F, k).
-
-    >>> geotherm.Polygons([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]).domain
-    'polygons'
-    """
-
-    def __init__(self, vertices: Any, faces: Iterable[Sequence[int]]) -> None:
-        try:
-            rows = [np.asarray(face) for face in faces]
-        except TypeError:
-            raise InputError("faces is no list of faces") from None
-        if any(row.ndim != 1 for row in rows):
-            raise InputError("faces is no list of faces, each a list of vertices")
-        corners = np.concatenate(rows) if rows else np.empty(0, np.int64)
-        starts = np.cumsum([0, *(len(row) for row in rows)])
-        self._build(
-            _POLYGONS,
-            positions=(vertices, "vertices", 3),
-            cells=(corners, "faces", 1),
-            starts=starts,
-        )
-        self._recipe = (Polygons, np.array(self.vertices), [row.tolist() for row in rows])
-
-
-class TetMesh(Model):
-    """A volume of tetrahedra.
-
-    Args:
-        vertices: (V, 3), model units; or a meshio object.
-        tets: (T, 4) vertex numbers, in either orientation.
-    """
-
-    def __init__(self, vertices: Any, tets: Any = None) -> None:
-        if tets is None:
-            blocks = _blocks(vertices, "tetra")
-            vertices = _attributes(vertices, "points", "vertices")
-            if not blocks or vertices is None:
-                raise InputError("tets is missing", hint="give vertices and tets")
-            tets = np.concatenate(blocks)
-        self._build(_TETS, positions=(vertices, "vertices", 3), cells=(tets, "tets", 4))
-        self._recipe = (TetMesh, np.array(self.vertices), np.array(tets))
-
-
-class PointCloud(Model):
-    """Points of some surface, which is made of them: triangles between near ones.
-
-    Args:
-        points: (P, 3), model units; or an object with points or vertices.
-        normals: (P, 3) of any length, or None; they keep sheets apart.
-    """
-
-    def __init__(self, points: Any, normals: Any = None, *, progress: Progress = None) -> None:
-        if not isinstance(points, (np.ndarray, list, tuple)):
-            points = _attributes(points, "points", "vertices")
-            if points is None:
-                raise InputError("points is missing")
-        values = None if normals is None else (normals, "normals", 3)
-        self._build(_POINTS, positions=(points, "points", 3), values=values, progress=progress)
-        kept = None if normals is None else np.array(normals)
-        self._recipe = (PointCloud, np.array(points), kept)
-
-
-class Grid(Model):
-    """Samples in a box, such as the pixels of an image or the voxels of a scan.
-
-    Args:
-        speeds: (ny, nx) or (nz, ny, nx): the speed at each sample, 0 where nothing passes; booleans
-            are a mask. Distances are travel times. Vertices are numbered with x fastest, so that
-            distances.reshape(speeds.shape) is the answer as an image.
-        spacing, origin: along x, y, z; model units.
-
-    >>> maze = numpy.ones((20, 30)); maze[10, 5:] = 0
-    >>> d = geotherm.Solver(geotherm.Grid(maze)).distance(0).reshape(maze.shape)
-    >>> bool(numpy.isinf(d[10, 7]))
-    True
-    """
-
-    def __init__(
-        self,
-        speeds: Any,
-        *,
-        spacing: Sequence[float] = (1.0, 1.0, 1.0),
-        origin: Sequence[float] = (0.0, 0.0, 0.0),
-    ) -> None:
-        samples = np.asarray(speeds)
-        if samples.ndim not in (2, 3):
-            raise InputError(f"speeds has the shape {samples.shape}", hint="give 2 or 3 axes")
-        steps, begin = [*map(float, spacing)], [*map(float, origin)]
-        steps += [1.0] * (3 - len(steps))
-        begin += [0.0] * (3 - len(begin))
-        if len(steps) != 3 or len(begin) != 3:
-            raise InputError("spacing and origin are along x, y and z")
-        size = [*samples.shape[::-1], 1][:3]
-        if samples.dtype == object:
-            raise InputError("speeds is an array of object", hint="give numbers")
-        flat = samples.astype(np.float64).reshape(-1)
-        self._build(_GRID, values=(flat, "speeds", 1), grid=(size, steps, begin))
-        self._recipe = (_grid_again, np.array(samples), tuple(steps), tuple(begin))
-
-
-def _grid_again(speeds: AnyArray, spacing: tuple[float, ...], origin: tuple[float, ...]) -> Grid:
-    return Grid(speeds, spacing=spacing, origin=origin)
-
-
-def _bundled(name: str) -> str:
-    """The file of a bundled model, where it came with the package."""
-    file = Path(__file__).parent / "models" / f"{name}.ply"
-    return str(file) if file.exists() and not Path(name).exists() else name
-
-
-def read(
-    path: str | os.PathLike[str],
-    *,
-    domain: str | None = None,
-    weld: float | None = None,
-    format: str | None = None,
-    grid: str | None = None,
-    progress: Progress = None,
-) -> Any:
-    """Reads a model from a file, or a bundled one by its name: "bunny".
-
-    Args:
-        path: .obj .ply .off .stl and what else features() lists under formats.
-        domain, weld, format, grid: as on the command line.
-
-    Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
-    Raises: Error, with the path, the line and the cause.
-
-    >>> geotherm.read("bunny").n_faces
-    3996
-    """
-    settings = {"domain": domain, "weld": weld, "format": format, "grid": grid}
-    name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
-    with Watch(progress) as watch:
-        options = options_of(settings)
-        handle = create("model_read", path_bytes(name, "path"), options.value, watch.pointer)
-    kinds: dict[str, type[Model]] = {
-        "triangles": Mesh,
-        "polygons": Polygons,
-        "tets": TetMesh,
-        "points": PointCloud,
-        "grid": Grid,
-    }
-    kind = kinds.get(handle.text("domain"), Model)
-    by_arrays = kind is Mesh and weld is None
-    return kind._around(handle, () if by_arrays else (_read_again, os.fspath(path), settings))
-
-
-def _read_again(path: str, settings: dict[str, Any]) -> Any:
-    return read(path, **settings)

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from geotherm._arrays import AnyArray
-from geotherm._models import Mesh, Model, PointCloud, read
+from geotherm._domains import PointCloud, read
+from geotherm._models import Mesh, Model
 from geotherm._solver import Solver
 
 __all__ = [
