@@ -12,6 +12,12 @@ install(TARGETS geotherm_solver EXPORT geothermTargets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development
   RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT development
   FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
+if(TARGET geotherm_c)
+  install(TARGETS geotherm_c EXPORT geothermTargets
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library
+            NAMELINK_COMPONENT development
+    FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
+endif()
 install(EXPORT geothermTargets NAMESPACE geotherm:: DESTINATION "${package_dir}"
         COMPONENT development)
 

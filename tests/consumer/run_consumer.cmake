@@ -22,7 +22,7 @@ foreach(file ${files})
 endforeach()
 
 # The front door is narrow: what is in it is promised to users.
-file(GLOB_RECURSE headers "${prefix}/include/*")
+file(GLOB_RECURSE headers "${prefix}/include/geotherm/*")
 list(LENGTH headers count)
 if(count EQUAL 0 OR count GREATER 20)
   message(FATAL_ERROR "${count} headers are installed; 1 to 20 are meant to be")
@@ -33,6 +33,12 @@ run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK_DIR}/bu
     -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
 run("${WORK_DIR}/build/consumer")
+if(EXISTS "${WORK_DIR}/build/consumer_c")
+  run("${WORK_DIR}/build/consumer_c")
+endif()
+if(PROGRAM AND NOT EXISTS "${WORK_DIR}/build/consumer_c")
+  message(FATAL_ERROR "the C interface was not installed")
+endif()
 
 if(PROGRAM)
   run("${prefix}/bin/${PROGRAM}" backends)

@@ -47,7 +47,7 @@ std::vector<Violation> check_snippets(const SourceFile& page, std::span<const So
     ++number;
     const bool fence = line.starts_with("```");
     if (fence || line.empty()) end_paragraph();
-    if (fence) inside = !inside && line == "```cpp";
+    if (fence) inside = !inside && (line == "```cpp" || line == "```c");
     if (!inside || fence || line.empty()) continue;
     if (paragraph.empty()) first = number;
     paragraph += trimmed(line);

@@ -92,6 +92,10 @@ const std::vector<Permission>& permissions() {
        {"app/session", "app/picture", "app/text", "solver", "geotherm"},
        {"std", "json", "eigen"},
        {"posix"}},
+      {"app/c",
+       {"app/c", "app/session", "app/picture", "app/text", "solver", "geotherm"},
+       {"std", "json", "eigen"},
+       {"posix"}},
       {"app/cli",
        {"app/cli", "app/session", "app/picture", "app/text", "solver", "geotherm"},
        {"std", "cli11", "json", "eigen"},
@@ -120,6 +124,7 @@ struct LibraryPrefix {
   std::string_view begin, library;
 };
 constexpr LibraryPrefix kLibraries[] = {
+    {"stdint.h", "std"},
     {"Eigen/", "eigen"},
     {"unsupported/Eigen/", "eigen"},
     {"sys/", "posix"},
@@ -362,7 +367,7 @@ std::vector<Violation> check_option_names(const SourceFile& file) {
 
 std::vector<SourceFile> read_tree(const std::filesystem::path& root) {
   namespace fs = std::filesystem;
-  static const std::set<std::string> kOthers = {".cmake", ".in", ".sh"};
+  static const std::set<std::string> kOthers = {".c", ".cmake", ".in", ".py", ".sh"};
   std::vector<fs::path> paths = {root / "CMakeLists.txt"};
   for (const char* folder : kHouse) {
     if (!fs::is_directory(root / folder)) continue;

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "app/c/geotherm.h"
+#include "app/session/answer.h"
+#include "app/session/model.h"
+#include "app/session/model_solver.h"
+#include "app/session/report.h"
+#include "app/session/state.h"
+#include "geotherm/error.h"
+#include "geotherm/many.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
+
+// What stands behind the handles of geotherm.h, and what all its functions have in common.
+namespace geotherm::c {
+
+using app::ViewerState;
+
+/// What geotherm_options is: of the state what the settings of models, methods and checks change.
+struct Options {
+  std::mutex lock;
+  ViewerState state = app::initial_state();
+};
+
+struct Solver {
+  Solver(app::ModelSolver with, app::ReadyMethod by, const ViewerState& asked)
+      : solver(std::move(with)), ready(std::move(by)), options(asked.options), check(asked.check) {}
+
+  mutable std::mutex lock;          ///< of what follows up to `ready`
+  mutable app::ModelSolver solver;  ///< for answers with all there is to say
+  mutable std::shared_ptr<const PathFinder> geodesics;
+  const app::ReadyMethod ready;  ///< for distances alone, on any number of threads
+  const MethodOptions options;
+  const app::Check check;
+
+  const app::Model& model() const { return solver.model(); }
+};
+
+/// An array by its name. Exactly one of the views has values.
+struct NamedArray {
+  std::string name;
+  std::variant<std::vector<double>, std::vector<Index>, std::vector<std::int64_t>> values;
+  std::int64_t columns = 1;
+};
+
+/// Lines with the mesh that they are on.
+struct Lines {
+  std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<Isoline> all;
+  bool have_values = false;  ///< of isolines
+};
+
+/// What geotherm_answer is.
+struct Answer {
+  std::optional<app::Answer> solved;
+  std::optional<Lines> lines;
+  std::vector<Warning> warnings;
+  mutable std::mutex lock;
+  mutable std::vector<std::unique_ptr<const NamedArray>> arrays;  ///< some are made when asked for
+};
+
+using Object = std::variant<std::shared_ptr<Options>, std::shared_ptr<const app::Model>,
+                            std::shared_ptr<const Solver>, std::shared_ptr<const Answer>>;
+
+/// A handle for an object. Handles are numbers that are never used twice.
+void* add_handle(Object object);
+/// Nothing where it is none.
+std::optional<Object> find_handle(const void* handle);
+/// Whether it was one.
+bool remove_handle(const void* handle);
+
+/// The object of a handle. Errors: kBadInput, with the argument's name.
+template <class T>
+Result<std::shared_ptr<T>> object_of(const void* handle, const char* argument) {
+  const auto found = find_handle(handle);
+  if (found) {
+    if (const auto* const object = std::get_if<std::shared_ptr<T>>(&*found)) return *object;
+  }
+  return Error{ErrorCode::kBadInput,
+               std::string(argument) + (handle == nullptr ? " is NULL"
+                                        : found           ? " is a handle of another kind"
+                                                          : " is no handle, or was freed")};
+}
+
+/// Puts an object behind a handle that the caller gets.
+template <class Handle, class T>
+void hand_out(std::shared_ptr<T> object, Handle** out) {
+  *out = static_cast<Handle*>(add_handle(Object(std::move(object))));
+}
+
+inline Error bad_argument(const std::string& message, Hint hint = {}) {
+  return {ErrorCode::kBadInput, message, std::move(hint)};
+}
+
+inline Result<void> require(const void* pointer, const char* argument) {
+  if (pointer != nullptr) return {};
+  return bad_argument(std::string(argument) + " is NULL");
+}
+
+/// Keeps the error for geotherm_last_error().
+geotherm_status keep_error(const Error& error) noexcept;
+
+/// Keeps a text for the caller until the thread's next one.
+const char* keep_text(std::string text);
+
+/// Runs what a function does; nothing that it throws gets out.
+template <class Work>
+geotherm_status guarded(const Work& work) noexcept try {
+  const Result<void> done = work();
+  return done ? GEOTHERM_OK : keep_error(done.error());
+} catch (const std::bad_alloc&) {
+  return keep_error({ErrorCode::kOutOfMemory, "the memory ended"});
+} catch (const std::exception& failure) {
+  return keep_error({ErrorCode::kNumericalFailure, failure.what()});
+} catch (...) {
+  return keep_error({ErrorCode::kNumericalFailure, "something was thrown that is no exception"});
+}
+
+/// A watch as the library's progress, for as long as it lives.
+class Watched {
+ public:
+  explicit Watched(const geotherm_watch* watch);
+  ~Watched();
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+  const Progress& progress() const { return progress_; }
+
+ private:
+  bool interruptible_ = false;
+  Progress progress_;
+};
+
+// arrays.cpp
+
+/// Numbers of any type. `columns`: as many as there must be. Errors: kBadInput, with the name.
+Result<std::vector<double>> numbers_in(const geotherm_array& array, std::int64_t columns,
+                                       const std::string& name);
+Result<std::vector<Vec3>> places_in(const geotherm_array& array, const std::string& name);
+/// Whole numbers that fit an Index.
+Result<std::vector<Index>> indices_in(const geotherm_array& array, std::int64_t columns,
+                                      const std::string& name);
+/// Whether numbers of this size can be written there. Errors: kBadInput, kOutOfMemory.
+Result<void> check_output(const geotherm_array& array, std::int64_t rows, std::int64_t columns,
+                          const std::string& name);
+/// Writes row `row`. Precondition: check_output() has accepted the array. Errors: kBadInput (beyond
+/// the range of float32).
+Result<void> write_row(const geotherm_array& array, std::int64_t row,
+                       std::span<const double> values);
+
+// sources.cpp
+
+/// One set of all points and texts. Errors: kBadInput, with the number of the source.
+Result<app::ResolvedSources> one_set(const geotherm_sources* sources, const app::Model& model);
+/// A set for each range of `starts` or, without these, for each point; then those of the text.
+Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Model& model);
+
+}  // namespace geotherm::c

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Paths, isolines, samples.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "app/c/handles.h"
+#include "app/session/wording.h"
+#include "geotherm/path.h"
+
+namespace geotherm::c {
+namespace {
+
+using app::Model;
+
+void keep(const Answer& answer, std::string name, auto values, std::int64_t columns = 1) {
+  answer.arrays.push_back(
+      std::make_unique<const NamedArray>(NamedArray{std::move(name), std::move(values), columns}));
+}
+
+void keep_lines(Answer& answer) {
+  const Lines& lines = *answer.lines;
+  std::vector<double> points, weights, lengths, values;
+  std::vector<Index> faces, closed;
+  std::vector<std::int64_t> starts = {0};
+  for (const Isoline& line : lines.all) {
+    for (const Vec3& p : positions_of(*lines.mesh, line.path)) {
+      points.insert(points.end(), p.begin(), p.end());
+    }
+    for (const SurfacePoint& point : points_in_faces(*lines.mesh, line.path)) {
+      faces.push_back(point.face);
+      weights.insert(weights.end(), point.weights.begin(), point.weights.end());
+    }
+    starts.push_back(std::ssize(faces));
+    lengths.push_back(line.path.length);
+    closed.push_back(line.path.closed ? 1 : 0);
+    values.push_back(line.value);
+  }
+  keep(answer, "points", std::move(points), 3);
+  keep(answer, "faces", std::move(faces));
+  keep(answer, "weights", std::move(weights), 3);
+  keep(answer, "starts", std::move(starts));
+  keep(answer, "lengths", std::move(lengths));
+  keep(answer, "closed", std::move(closed));
+  if (lines.have_values) keep(answer, "values", std::move(values));
+}
+
+void hand_out_answer(std::shared_ptr<Answer> made, geotherm_answer** answer) {
+  hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
+}
+
+Result<PathField> field_of(const char* text) {
+  return text == nullptr ? Result<PathField>(PathField::kGeodesic) : parse<PathField>(text);
+}
+
+/// Streamlines follow the solver's own distances, geodesics are led by near-exact ones.
+Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathField field,
+                                                    const Progress& progress) {
+  const MethodKind kind = solver.options.method;
+  const bool near_exact = kind != MethodKind::kHeat && kind != MethodKind::kFastMarching;
+  if (field != PathField::kGeodesic) {
+    return std::make_shared<const PathFinder>(solver.model().mesh, solver.ready.method);
+  }
+  if (solver.geodesics) return solver.geodesics;
+  auto method = solver.ready.method;
+  if (!near_exact) {
+    auto ready = solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront),
+                                       progress);
+    if (!ready) return ready.error();
+    method = ready->method;
+  }
+  solver.geodesics = std::make_shared<const PathFinder>(solver.model().mesh, std::move(method));
+  return solver.geodesics;
+}
+
+/// The points of all sources, in their order.
+Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
+                                                  const Model& model) {
+  const auto each = many_sets(sources, model);
+  if (!each) return each.error();
+  std::vector<SurfacePoint> points;
+  for (const SourceSet& set : each->sets) {
+    if (set.points.size() != 1 || !set.edges.empty() || !set.offsets.empty()) {
+      return bad_argument("point " + std::to_string(points.size()) + " of the path is none",
+                          {"give a vertex, a point in a face or a place, without offset"});
+    }
+    points.push_back(set.points.front());
+  }
+  return points;
+}
+
+}  // namespace
+}  // namespace geotherm::c
+
+using namespace geotherm;     // NOLINT: the functions below are C
+using namespace geotherm::c;  // NOLINT
+
+geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sources* through,
+                              const char* field, int closed, const geotherm_watch* watch,
+                              geotherm_answer** lines) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(lines, "lines"); !there) return there;
+    const auto follows = field_of(field);
+    if (!follows) return follows.error();
+    const Model& model = (*object)->model();
+    if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
+    const auto points = points_in_order(through, model);
+    if (!points) return points.error();
+    const Watched watched(watch);
+    const auto prepared = [&] {
+      const std::lock_guard lock((*object)->lock);
+      return finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
+    };
+    const auto finder = prepared();
+    if (!finder) return finder.error();
+    PathOptions options;
+    options.field = *follows;
+    options.closed = closed != 0;
+    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 1.0));
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    made->warnings = std::move(found->warnings);
+    made->lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
+    keep_lines(*made);
+    hand_out_answer(std::move(made), lines);
+    return {};
+  });
+}
+
+geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_array* values,
+                                  const geotherm_array* levels, geotherm_answer** lines) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Model>(model, "model");
+    if (!object) return object.error();
+    if (auto there = require(values, "values"); !there) return there;
+    if (auto there = require(levels, "levels"); !there) return there;
+    if (auto there = require(lines, "lines"); !there) return there;
+    const TriangleMesh& mesh = *(*object)->mesh;
+    const auto at_vertices = numbers_in(*values, 1, "values");
+    if (!at_vertices) return at_vertices.error();
+    if (std::ssize(*at_vertices) != mesh.vertex_count()) {
+      return bad_argument("values has " + std::to_string(at_vertices->size()) +
+                          " numbers, and the model " + std::to_string(mesh.vertex_count()) +
+                          " vertices");
+    }
+    const auto asked = numbers_in(*levels, 1, "levels");
+    if (!asked) return asked.error();
+    const bool finite = std::ranges::all_of(*asked, [](double x) { return std::isfinite(x); });
+    if (!finite || !std::ranges::is_sorted(*asked)) {
+      return bad_argument("levels must be finite and ascend");
+    }
+    auto found = find_isolines(mesh, *at_vertices, *asked);
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    made->lines = Lines{(*object)->mesh, *std::move(found), true};
+    keep_lines(*made);
+    hand_out_answer(std::move(made), lines);
+    return {};
+  });
+}
+
+geotherm_status geotherm_samples(const geotherm_solver* solver, int64_t count, int64_t first,
+                                 const geotherm_watch* watch, geotherm_answer** samples) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(samples, "samples"); !there) return there;
+    const Model& model = (*object)->model();
+    if (auto surface = app::refuse_space(model, "samples are"); !surface) return surface;
+    const Index vertices = model.mesh->vertex_count();
+    if (count < 1 || count > vertices) {
+      return bad_argument("count is " + std::to_string(count),
+                          {"give 1 to " + std::to_string(vertices) + ", the number of vertices"});
+    }
+    if (first < kNoIndex || first >= vertices) {
+      return bad_argument("first: there is no vertex " + std::to_string(first),
+                          {"vertices are 0 to " + std::to_string(vertices - 1)});
+    }
+    const Watched watched(watch);
+    auto found = farthest_points(*(*object)->ready.method, *model.mesh, static_cast<Index>(count),
+                                 {static_cast<Index>(first)}, watched.progress());
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    std::vector<Index> chosen;
+    std::vector<double> radius;
+    for (const FarthestSample& sample : found->samples) {
+      chosen.push_back(sample.vertex);
+      radius.push_back(sample.radius);
+    }
+    keep(*made, "vertices", std::move(chosen));
+    keep(*made, "radius", std::move(radius));
+    keep(*made, "distances", std::move(found->distances));
+    keep(*made, "nearest_source", std::move(found->nearest));
+    made->warnings = std::move(found->first.warnings);
+    hand_out_answer(std::move(made), samples);
+    return {};
+  });
+}

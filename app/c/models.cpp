@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// Options, what the build has, and models.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+#include "app/c/handles.h"
+#include "app/session/grid_space.h"
+#include "app/session/length_space.h"
+#include "app/session/settings.h"
+#include "geotherm/backend.h"
+#include "geotherm/domains.h"
+#include "geotherm/io.h"
+#include "geotherm/quality_fields.h"
+
+namespace geotherm::c {
+namespace {
+
+using app::Model;
+using app::Setting;
+using app::SettingGroup;
+
+bool is_option(const Setting& setting) { return !setting.of_picture(); }
+
+Result<const Setting*> find_option(const char* name) {
+  const Setting* const setting = app::find_setting(name);
+  if (setting != nullptr && is_option(*setting)) return setting;
+  std::vector<std::string> names;
+  for (const Setting& each : app::settings()) {
+    if (is_option(each)) names.emplace_back(each.name);
+  }
+  return unknown_name(ErrorCode::kNotAvailable, "there is no option '*'", name, names);
+}
+
+app::Json settings_json() {
+  constexpr std::array kGroups = {"model", "method", "check"};
+  const ViewerState initial = app::initial_state();
+  app::Json all = app::Json::array();
+  for (const Setting& setting : app::settings()) {
+    if (!is_option(setting)) continue;
+    all.push_back({{"name", setting.name},
+                   {"group", kGroups[static_cast<std::size_t>(setting.group)]},
+                   {"help", setting.help},
+                   {"default", setting.get(initial)},
+                   {"values", setting.values ? setting.values() : std::vector<std::string>()}});
+  }
+  return all;
+}
+
+app::Json features_json() {
+  app::Json models = app::Json::array(), fields = app::Json::array();
+  for (const app::BundledModel& model : app::bundled_models()) models.push_back(model.name);
+  for (const QualityField field : all_quality_fields()) fields.push_back(to_text(field));
+  return {{"version", GEOTHERM_VERSION},        {"interface", GEOTHERM_INTERFACE},
+          {"methods", all_names<MethodKind>()}, {"backends", backend_names()},
+          {"mesh_formats", mesh_formats()},     {"point_formats", point_formats()},
+          {"tet_formats", tet_formats()},       {"grid_formats", grid_formats()},
+          {"models", std::move(models)},        {"fields", std::move(fields)},
+          {"settings", settings_json()}};
+}
+
+app::ModelReading reading_of(const std::shared_ptr<Options>& options) {
+  if (!options) return {};
+  const std::lock_guard lock(options->lock);
+  return options->state.reading;
+}
+
+/// The same space with what is drawn of it.
+Result<Model> model_of(std::shared_ptr<const app::Space> space, Result<TriangleMesh> drawn) {
+  if (!drawn) return drawn.error();
+  Model model;
+  model.mesh = std::make_shared<const TriangleMesh>(*std::move(drawn));
+  model.space = std::move(space);
+  return model;
+}
+
+template <std::size_t N>
+std::vector<std::array<Index, N>> grouped_by(const std::vector<Index>& numbers) {
+  std::vector<std::array<Index, N>> out(numbers.size() / N);
+  for (std::size_t i = 0; i < numbers.size(); ++i) out[i / N][i % N] = numbers[i];
+  return out;
+}
+
+Result<Model> build_triangles(const geotherm_shape& shape) {
+  auto positions = places_in(shape.positions, "positions");
+  if (!positions) return positions.error();
+  const auto corners = indices_in(shape.cells, 3, "faces");
+  if (!corners) return corners.error();
+  return model_of(nullptr, TriangleMesh::build(*std::move(positions), grouped_by<3>(*corners)));
+}
+
+Result<Model> build_polygons(const geotherm_shape& shape) {
+  auto positions = places_in(shape.positions, "positions");
+  if (!positions) return positions.error();
+  auto corners = indices_in(shape.cells, 1, "corners");
+  if (!corners) return corners.error();
+  const auto starts = indices_in(shape.starts, 1, "starts");
+  if (!starts) return starts.error();
+  const bool fits = starts->size() > 1 && starts->front() == 0 && std::ranges::is_sorted(*starts) &&
+                    starts->back() == std::ssize(*corners);
+  if (!fits) {
+    return bad_argument("starts must ascend from 0 to the number of corners, " +
+                        std::to_string(corners->size()));
+  }
+  auto space = app::PolygonSpace::build(
+      {*std::move(positions), {starts->begin(), starts->end()}, *std::move(corners)});
+  if (!space) return space.error();
+  Model model;
+  model.mesh = (*space)->triangles();
+  model.space = *std::move(space);
+  return model;
+}
+
+Result<Model> build_tets(const geotherm_shape& shape) {
+  auto positions = places_in(shape.positions, "positions");
+  if (!positions) return positions.error();
+  const auto corners = indices_in(shape.cells, 4, "tets");
+  if (!corners) return corners.error();
+  auto mesh = TetMesh::build(*positions, grouped_by<4>(*corners));
+  if (!mesh) return mesh.error();
+  auto space = app::TetSpace::build(*std::move(mesh));
+  if (!space) return space.error();
+  const std::vector<Face> border = (*space)->border().faces;
+  return model_of(*std::move(space), TriangleMesh::build(*std::move(positions), border));
+}
+
+Result<Model> build_points(const geotherm_shape& shape, const Progress& progress) {
+  auto positions = places_in(shape.positions, "positions");
+  if (!positions) return positions.error();
+  auto normals = places_in(shape.values, "normals");
+  if (!normals) return normals.error();
+  const auto points = PointCloud::build(*std::move(positions), *std::move(normals));
+  if (!points) return points.error();
+  auto surface = surface_of(*points, {}, progress);
+  if (!surface) return surface.error();
+  Model model;
+  for (std::string& note : surface->notes) model.notes.push_back({std::move(note)});
+  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
+  model.mesh = std::make_shared<const TriangleMesh>(std::move(surface->mesh));
+  model.from_points = true;
+  return model;
+}
+
+Result<Model> build_grid(const geotherm_shape& shape) {
+  constexpr std::int64_t kMaxSamples = 1'000'000'000;  // check_grid() says no to so many
+  Grid grid;
+  for (std::size_t k = 0; k < 3; ++k) {
+    grid.size[k] = static_cast<Index>(std::clamp<std::int64_t>(shape.size[k], -1, kMaxSamples + 1));
+    grid.spacing[k] = shape.spacing[k];
+    grid.origin[static_cast<Eigen::Index>(k)] = shape.origin[k];
+  }
+  auto speeds = numbers_in(shape.values, 1, "speeds");
+  if (!speeds) return speeds.error();
+  grid.speeds = *std::move(speeds);
+  grid.three_axes = grid.size[2] > 1;
+  if (auto fits = check_grid(grid); !fits) return fits.error();
+  auto space = std::make_shared<const app::GridSpace>(GridFile{std::move(grid), "speeds", {}});
+  auto drawn = space->drawn();
+  return model_of(std::move(space), std::move(drawn));
+}
+
+Result<Model> build_from_lengths(const geotherm_shape& shape) {
+  const auto corners = indices_in(shape.cells, 3, "faces");
+  if (!corners) return corners.error();
+  const auto lengths = numbers_in(shape.values, 3, "lengths");
+  if (!lengths) return lengths.error();
+  if (lengths->size() != corners->size()) {
+    return bad_argument("lengths has " + std::to_string(lengths->size() / 3) + " rows, and faces " +
+                        std::to_string(corners->size() / 3));
+  }
+  std::vector<std::array<double, 3>> opposite(lengths->size() / 3);
+  for (std::size_t i = 0; i < lengths->size(); ++i) opposite[i / 3][i % 3] = (*lengths)[i];
+  auto space = app::LengthSpace::build(grouped_by<3>(*corners), opposite);
+  if (!space) return space.error();
+  Model model;
+  model.mesh = (*space)->drawn();
+  model.space = *std::move(space);
+  return model;
+}
+
+Result<Model> build(const geotherm_shape& shape, const Progress& progress) {
+  switch (shape.kind) {
+    case GEOTHERM_TRIANGLES:
+      return build_triangles(shape);
+    case GEOTHERM_POLYGONS:
+      return build_polygons(shape);
+    case GEOTHERM_TETS:
+      return build_tets(shape);
+    case GEOTHERM_POINTS:
+      return build_points(shape, progress);
+    case GEOTHERM_GRID:
+      return build_grid(shape);
+    case GEOTHERM_LENGTHS:
+      return build_from_lengths(shape);
+  }
+  return bad_argument("shape.kind is " + std::to_string(static_cast<int>(shape.kind)) +
+                      ", which is no geotherm_kind");
+}
+
+/// The options of a handle, none where there is NULL.
+Result<std::shared_ptr<Options>> options_or_none(const geotherm_options* options) {
+  if (options == nullptr) return std::shared_ptr<Options>();
+  return object_of<Options>(options, "options");
+}
+
+}  // namespace
+}  // namespace geotherm::c
+
+using namespace geotherm;     // NOLINT: the functions below are C
+using namespace geotherm::c;  // NOLINT
+
+geotherm_status geotherm_features(const char** json) {
+  return guarded([&]() -> Result<void> {
+    if (auto there = require(json, "json"); !there) return there;
+    *json = keep_text(app::to_text(features_json()));
+    return {};
+  });
+}
+
+geotherm_status geotherm_options_new(geotherm_options** options) {
+  return guarded([&]() -> Result<void> {
+    if (auto there = require(options, "options"); !there) return there;
+    hand_out(std::make_shared<Options>(), options);
+    return {};
+  });
+}
+
+geotherm_status geotherm_options_set(geotherm_options* options, const char* name,
+                                     const char* value) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<Options>(options, "options");
+    if (!object) return object.error();
+    if (auto there = require(name, "name"); !there) return there;
+    if (auto there = require(value, "value"); !there) return there;
+    const auto setting = find_option(name);
+    if (!setting) return setting.error();
+    const std::lock_guard lock((*object)->lock);
+    auto done = (*setting)->set((*object)->state, value);
+    if (done) return done;
+    Error error = done.error();
+    error.message = std::string(name) + ": " + error.message;
+    return error;
+  });
+}
+
+geotherm_status geotherm_options_get(const geotherm_options* options, const char* name,
+                                     const char** value) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<Options>(options, "options");
+    if (!object) return object.error();
+    if (auto there = require(name, "name"); !there) return there;
+    if (auto there = require(value, "value"); !there) return there;
+    const auto setting = find_option(name);
+    if (!setting) return setting.error();
+    const std::lock_guard lock((*object)->lock);
+    *value = keep_text((*setting)->get((*object)->state));
+    return {};
+  });
+}
+
+geotherm_status geotherm_model_read(const char* path, const geotherm_options* options,
+                                    const geotherm_watch* watch, geotherm_model** model) {
+  return guarded([&]() -> Result<void> {
+    if (auto there = require(path, "path"); !there) return there;
+    if (auto there = require(model, "model"); !there) return there;
+    const auto asked = options_or_none(options);
+    if (!asked) return asked.error();
+    const Watched watched(watch);
+    auto read = app::load_model(path, reading_of(*asked), watched.progress());
+    if (!read) return read.error();
+    hand_out(std::make_shared<const Model>(*std::move(read)), model);
+    return {};
+  });
+}
+
+geotherm_status geotherm_model_build(const geotherm_shape* shape, const geotherm_options* options,
+                                     const geotherm_watch* watch, geotherm_model** model) {
+  return guarded([&]() -> Result<void> {
+    if (auto there = require(shape, "shape"); !there) return there;
+    if (auto there = require(model, "model"); !there) return there;
+    const auto asked = options_or_none(options);
+    if (!asked) return asked.error();
+    const Watched watched(watch);
+    auto built = build(*shape, watched.progress());
+    if (!built) return built.error();
+    built->name = "model";
+    if (const auto eps = reading_of(*asked).weld) {
+      if (auto surface = app::refuse_space(*built, "welded vertices are"); !surface) return surface;
+      auto welded = weld(*built->mesh, *eps);
+      if (!welded) return welded.error();
+      built->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
+    }
+    hand_out(std::make_shared<const Model>(*std::move(built)), model);
+    return {};
+  });
+}

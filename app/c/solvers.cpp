@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// Solvers, and distances from them.
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "app/c/handles.h"
+#include "app/session/wording.h"
+#include "geotherm/io.h"
+#include "solver/core/memory.h"
+#include "solver/core/text.h"
+
+namespace geotherm::c {
+namespace {
+
+using app::Model;
+
+/// The state of options; the initial one for NULL.
+Result<ViewerState> state_of(const geotherm_options* options) {
+  if (options == nullptr) return app::initial_state();
+  const auto object = object_of<Options>(options, "options");
+  if (!object) return object.error();
+  const std::lock_guard lock((*object)->lock);
+  return (*object)->state;
+}
+
+Result<std::shared_ptr<const Solver>> made_ready(app::ModelSolver with, const ViewerState& asked,
+                                                 const Progress& progress) {
+  with.want_methods({asked.options});
+  auto ready = with.prepare(asked.options, progress);
+  if (!ready) return ready.error();
+  return std::make_shared<const Solver>(std::move(with), *std::move(ready), asked);
+}
+
+/// Distances of the targets alone, those that are too far infinite.
+class Selection {
+ public:
+  static Result<Selection> build(const geotherm_rows& rows, Index vertices) {
+    if (!(rows.max_distance > 0)) {
+      return bad_argument("max_distance is " + number_text(rows.max_distance),
+                          {"give a length above 0, or infinity"});
+    }
+    Selection out;
+    out.most_ = rows.max_distance;
+    if (rows.targets == nullptr) return out;
+    if (rows.target_count < 1) return bad_argument("targets is empty");
+    for (std::int64_t i = 0; i < rows.target_count; ++i) {
+      const std::int64_t v = rows.targets[i];
+      if (v < 0 || v >= vertices) {
+        return bad_argument("targets: there is no vertex " + std::to_string(v) +
+                                ", which is number " + std::to_string(i),
+                            {"vertices are 0 to " + std::to_string(vertices - 1)});
+      }
+      out.targets_.push_back(static_cast<Index>(v));
+    }
+    return out;
+  }
+
+  std::int64_t columns(Index vertices) const {
+    return targets_.empty() ? vertices : std::ssize(targets_);
+  }
+
+  std::span<const double> of(std::vector<double>& distances) {
+    if (most_ < kUnreached) {
+      for (double& d : distances) d = d > most_ ? kUnreached : d;
+    }
+    if (targets_.empty()) return distances;
+    kept_.clear();
+    for (const Index v : targets_) kept_.push_back(distances[static_cast<std::size_t>(v)]);
+    return kept_;
+  }
+
+ private:
+  double most_ = kUnreached;
+  std::vector<Index> targets_;
+  std::vector<double> kept_;
+};
+
+Result<void> stream(const Solver& solver, const app::EachSource& each, Selection& selection,
+                    const Progress& progress,
+                    const std::function<Result<void>(std::size_t, std::span<const double>)>& take) {
+  const Index vertices = solver.model().mesh->vertex_count();
+  StreamOptions options;
+  options.query.quality = false;
+  options.chunk = std::clamp<std::size_t>(
+      each.sets.size(), 1, good_chunk(vertices, solver.options.threads, free_memory()));
+  return stream_answers(
+      *solver.ready.method, each.sets, options,
+      [&](std::size_t row, DistanceResult&& answer) {
+        return take(row, selection.of(answer.distances));
+      },
+      progress);
+}
+
+Result<void> stream_to_file(const Solver& solver, const app::EachSource& each,
+                            const geotherm_rows& rows, Selection& selection,
+                            const Progress& progress) {
+  const std::string path = rows.path;
+  if (io::file_extension(path) != ".npy") {
+    return Error{ErrorCode::kNotAvailable,
+                 printable(path) + ": rows are written as .npy",
+                 {"choose another name"}};
+  }
+  if (rows.array.type != GEOTHERM_FLOAT64 && rows.array.type != GEOTHERM_FLOAT32) {
+    return bad_argument("rows.array must be of float64 or float32");
+  }
+  const Index vertices = solver.model().mesh->vertex_count();
+  auto file =
+      NpyRows::open(path, each.sets.size(), static_cast<std::uint64_t>(selection.columns(vertices)),
+                    rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64);
+  if (!file) return file.error();
+  const auto done =
+      stream(solver, each, selection, progress,
+             [&](std::size_t, std::span<const double> values) { return file->append(values); });
+  if (!done) return done;
+  return file->finish();
+}
+
+Result<void> stream_to_memory(const Solver& solver, const app::EachSource& each,
+                              const geotherm_array& array, Selection& selection,
+                              const Progress& progress) {
+  const Index vertices = solver.model().mesh->vertex_count();
+  auto fits = check_output(array, std::ssize(each.sets), selection.columns(vertices), "out");
+  if (!fits) return fits;
+  return stream(solver, each, selection, progress,
+                [&](std::size_t row, std::span<const double> values) {
+                  return write_row(array, static_cast<std::int64_t>(row), values);
+                });
+}
+
+/// The words of geotherm_solve().
+Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
+  app::Wanted wanted;
+  wanted.check.against = solver.check;
+  const auto& space = solver.model().space;
+  const bool checks = !space || space->rival() != MethodKind::kHeat;  // there is a better method
+  while (!words.empty()) {
+    const std::string_view word = words.substr(0, words.find(' '));
+    words.remove_prefix(std::min(word.size() + 1, words.size()));
+    if (word == "labels") {
+      wanted.query.nearest = true;
+    } else if (word == "fields") {
+      wanted.query.fields = solver.options.method == MethodKind::kHeat;
+    } else if (word.starts_with("check=")) {
+      const auto check = parse<app::Check>(word.substr(word.find('=') + 1));
+      if (!check) return check.error();
+      wanted.check.against = *check;
+    } else if (!word.empty()) {
+      return bad_argument("wanted: there is no '" + printable(word) + "'",
+                          {"there are labels, fields and check=..."});
+    }
+  }
+  if (!checks) wanted.check.against = app::Check::kOff;
+  return wanted;
+}
+
+}  // namespace
+}  // namespace geotherm::c
+
+using namespace geotherm;     // NOLINT: the functions below are C
+using namespace geotherm::c;  // NOLINT
+
+geotherm_status geotherm_solver_new(const geotherm_model* model, const geotherm_options* options,
+                                    const geotherm_watch* watch, geotherm_solver** solver) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Model>(model, "model");
+    if (!object) return object.error();
+    if (auto there = require(solver, "solver"); !there) return there;
+    const auto asked = state_of(options);
+    if (!asked) return asked.error();
+    const Watched watched(watch);
+    auto made = made_ready(app::ModelSolver(**object), *asked, watched.progress());
+    if (!made) return made.error();
+    hand_out(*std::move(made), solver);
+    return {};
+  });
+}
+
+geotherm_status geotherm_solver_move(const geotherm_solver* solver, const geotherm_array* positions,
+                                     const geotherm_watch* watch, geotherm_solver** moved,
+                                     geotherm_model** model) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(positions, "positions"); !there) return there;
+    if (auto there = require(moved, "moved"); !there) return there;
+    Model next = (*object)->model();
+    if (auto surface = app::refuse_space(next, "moving surfaces are"); !surface) return surface;
+    auto places = places_in(*positions, "positions");
+    if (!places) return places.error();
+    auto mesh = next.mesh->moved(*std::move(places));
+    if (!mesh) return mesh.error();
+    next.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
+    const Watched watched(watch);
+    const auto with = [&] {
+      const std::lock_guard lock((*object)->lock);
+      return (*object)->solver;
+    };
+    app::ModelSolver copy = with();
+    copy.move(next);
+    ViewerState asked = app::initial_state();
+    asked.options = (*object)->options;
+    asked.check = (*object)->check;
+    auto made = made_ready(std::move(copy), asked, watched.progress());
+    if (!made) return made.error();
+    hand_out(*std::move(made), moved);
+    if (model != nullptr) hand_out(std::make_shared<const Model>(std::move(next)), model);
+    return {};
+  });
+}
+
+geotherm_status geotherm_distance(const geotherm_solver* solver, const geotherm_sources* sources,
+                                  const geotherm_array* out, const geotherm_watch* watch) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(out, "out"); !there) return there;
+    const Model& model = (*object)->model();
+    geotherm_array row = *out;  // a list is one row
+    if (row.columns == 1) {
+      row.columns = row.rows;
+      row.column_stride = row.row_stride;
+      row.rows = 1;
+    }
+    if (auto fits = check_output(row, 1, model.mesh->vertex_count(), "out"); !fits) return fits;
+    const auto placed = one_set(sources, model);
+    if (!placed) return placed.error();
+    const Watched watched(watch);
+    const auto answer =
+        (*object)->ready.method->solve(placed->set, {.quality = false}, watched.progress());
+    if (!answer) return answer.error();
+    return write_row(row, 0, answer->distances);
+  });
+}
+
+geotherm_status geotherm_distances(const geotherm_solver* solver, const geotherm_sources* sources,
+                                   geotherm_rows* rows, const geotherm_watch* watch) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(rows, "rows"); !there) return there;
+    const Model& model = (*object)->model();
+    auto selection = Selection::build(*rows, model.mesh->vertex_count());
+    if (!selection) return selection.error();
+    const auto each = many_sets(sources, model);
+    if (!each) return each.error();
+    if (each->sets.empty()) return bad_argument("sources is empty", {"name at least one"});
+    if (rows->path == nullptr && rows->array.data == nullptr) {
+      rows->array.rows = std::ssize(each->sets);
+      rows->array.columns = selection->columns(model.mesh->vertex_count());
+      return {};
+    }
+    const Watched watched(watch);
+    if (rows->path != nullptr) {
+      return stream_to_file(**object, *each, *rows, *selection, watched.progress());
+    }
+    return stream_to_memory(**object, *each, rows->array, *selection, watched.progress());
+  });
+}
+
+geotherm_status geotherm_solve(const geotherm_solver* solver, const geotherm_sources* sources,
+                               const char* wanted, const geotherm_watch* watch,
+                               geotherm_answer** answer) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(answer, "answer"); !there) return there;
+    const auto asked = wanted_by(**object, wanted == nullptr ? "" : wanted);
+    if (!asked) return asked.error();
+    const auto placed = one_set(sources, (*object)->model());
+    if (!placed) return placed.error();
+    const Watched watched(watch);
+    const std::lock_guard lock((*object)->lock);
+    auto solved = (*object)->solver.solve((*object)->options, *placed, *asked, watched.progress());
+    if (!solved) return solved.error();
+    auto made = std::make_shared<Answer>();
+    made->solved = *std::move(solved);
+    hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
+    return {};
+  });
+}

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Sources of the caller as those of the library.
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "app/c/handles.h"
+#include "app/session/sources.h"
+#include "app/session/wording.h"
+
+namespace geotherm::c {
+namespace {
+
+using app::EachSource;
+using app::Model;
+using app::ResolvedSources;
+using app::Source;
+
+Error about_source(std::int64_t number, const Error& error) {
+  return app::about("source " + std::to_string(number), error);
+}
+
+Result<void> check_pointers(const geotherm_sources* sources) {
+  if (auto there = require(sources, "sources"); !there) return there;
+  if (sources->count < 0 || sources->sets < 0) return bad_argument("sources has a negative count");
+  if (sources->count > 0) return require(sources->points, "sources.points");
+  return {};
+}
+
+Result<app::SourceSpec> spec_of(const geotherm_source& point) {
+  constexpr std::int64_t kMost = std::numeric_limits<Index>::max();
+  if (point.kind != GEOTHERM_XYZ && (point.id < 0 || point.id > kMost)) {
+    return bad_argument("there is no " +
+                        std::string(point.kind == GEOTHERM_FACE ? "face " : "vertex ") +
+                        std::to_string(point.id));
+  }
+  if (!(point.offset >= 0) || !std::isfinite(point.offset)) {
+    return bad_argument("the offset must be a length that is not negative");
+  }
+  const auto id = static_cast<Index>(point.id);
+  switch (point.kind) {
+    case GEOTHERM_VERTEX:
+      return app::SourceSpec(app::VertexList{{id}, point.offset});
+    case GEOTHERM_FACE:
+      break;
+    case GEOTHERM_XYZ:
+      return app::SourceSpec(
+          app::SpacePoint{Vec3(point.at[0], point.at[1], point.at[2]), point.offset});
+    default:
+      return bad_argument("the kind " + std::to_string(point.kind) + " is no geotherm_place");
+  }
+  constexpr double kRound = 1e-6;  // what nine typed digits give
+  double sum = 0;
+  bool valid = true;
+  for (const double weight : point.at) {
+    valid = valid && weight >= -kRound;
+    sum += weight;
+  }
+  if (valid && std::abs(sum - 1) <= kRound) {
+    std::array<double, 3> weights{};
+    for (std::size_t k = 0; k < 3; ++k) weights[k] = std::max(point.at[k], 0.0) / sum;
+    return app::SourceSpec(app::FacePoint{id, weights, point.offset});
+  }
+  return bad_argument("the weights in face " + std::to_string(id) +
+                      " must not be negative and have the sum 1");
+}
+
+Result<std::vector<Source>> named_sources(const char* text) {
+  std::vector<Source> out;
+  if (text == nullptr) return out;
+  const std::string_view all(text);
+  for (std::size_t from = 0; from < all.size();) {
+    const std::size_t end = std::min(all.find('\n', from), all.size());
+    const std::string_view line = all.substr(from, end - from);
+    from = end + 1;
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    auto spec = app::parse_source(line);
+    if (!spec) return spec.error();
+    out.push_back({*std::move(spec), "source " + app::to_text(*spec)});
+  }
+  return out;
+}
+
+/// Points whose places need no search: the methods themselves check them.
+bool is_ready(const geotherm_source& point) { return point.kind == GEOTHERM_VERTEX; }
+
+/// Adds the points from `from` to `to`.
+Result<void> add_points(const geotherm_sources& sources, std::int64_t from, std::int64_t to,
+                        const Model& model, app::SetUnion& all, std::vector<Warning>& warnings) {
+  for (std::int64_t i = from; i < to; ++i) {
+    const auto spec = spec_of(sources.points[i]);
+    if (!spec) return about_source(i, spec.error());
+    const auto v = static_cast<Index>(sources.points[i].id);
+    const bool on_mesh = !model.space && is_ready(sources.points[i]);
+    if (on_mesh && v < model.mesh->vertex_count()) {
+      all.add(SurfacePoint::at_vertex(v), sources.points[i].offset);
+      continue;
+    }
+    const Source source{*spec, "source " + std::to_string(i)};
+    const auto placed = app::resolve_sources({&source, 1}, model);
+    if (!placed) return placed.error();
+    all.add(placed->set);
+    warnings.insert(warnings.end(), placed->warnings.begin(), placed->warnings.end());
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ResolvedSources> one_set(const geotherm_sources* sources, const Model& model) {
+  if (auto there = check_pointers(sources); !there) return there.error();
+  app::SetUnion all;
+  ResolvedSources out;
+  if (auto added = add_points(*sources, 0, sources->count, model, all, out.warnings); !added) {
+    return added.error();
+  }
+  const auto named = named_sources(sources->text);
+  if (!named) return named.error();
+  if (!named->empty()) {
+    auto placed = app::resolve_sources(*named, model);
+    if (!placed) return placed.error();
+    all.add(placed->set);
+    out.warnings.insert(out.warnings.end(), placed->warnings.begin(), placed->warnings.end());
+  }
+  out.set = all.take();
+  if (out.set.empty()) return bad_argument("sources is empty", {"name at least one"});
+  return out;
+}
+
+Result<EachSource> many_sets(const geotherm_sources* sources, const Model& model) {
+  if (auto there = check_pointers(sources); !there) return there.error();
+  const std::int64_t sets = sources->starts == nullptr ? sources->count : sources->sets;
+  EachSource out;
+  app::SetUnion one;
+  for (std::int64_t k = 0; k < sets; ++k) {
+    const std::int64_t from = sources->starts == nullptr ? k : sources->starts[k];
+    const std::int64_t to = sources->starts == nullptr ? k + 1 : sources->starts[k + 1];
+    if (from < 0 || to <= from || to > sources->count) {
+      return bad_argument("sources.starts: set " + std::to_string(k) + " has the points " +
+                          std::to_string(from) + " to " + std::to_string(to) + " of " +
+                          std::to_string(sources->count));
+    }
+    if (auto added = add_points(*sources, from, to, model, one, out.warnings); !added) {
+      return added.error();
+    }
+    out.sets.push_back(one.take());
+  }
+  const auto named = named_sources(sources->text);
+  if (!named) return named.error();
+  if (!named->empty()) {
+    auto each = app::resolve_each(*named, model);
+    if (!each) return each.error();
+    for (SourceSet& set : each->sets) out.sets.push_back(std::move(set));
+    out.warnings.insert(out.warnings.end(), each->warnings.begin(), each->warnings.end());
+  }
+  return out;
+}
+
+}  // namespace geotherm::c

@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: MIT
+"""What solvers answer: distances, lines, samples."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import json
+import os
+from collections.abc import Iterator, Sequence
+from typing import Any, overload
+
+import numpy as np
+
+from geotherm._arrays import AnyArray, given, view
+from geotherm._library import Handle, InputError, call, create, path_bytes
+from geotherm._models import Model
+
+
+class Result:
+    """Distances from one source set and all that there is to say about them. Prints like the
+    report of `geotherm solve`."""
+
+    def __init__(self, handle: Handle) -> None:
+        self._handle = handle
+
+    @property
+    def distances(self) -> AnyArray:
+        """(V,) float64, model units; infinite where no source can be reached; read-only."""
+        return view(self._handle, "distances")
+
+    @property
+    def nearest(self) -> AnyArray:
+        """(V,) int32: the number of the nearest source, -1 where there is none; with labels."""
+        return view(self._handle, "nearest_source")
+
+    @property
+    def heat(self) -> AnyArray:
+        """(V,): u of the heat method, its largest value 1; with fields."""
+        return view(self._handle, "heat")
+
+    def field(self, name: str) -> AnyArray:
+        """(V,) or (F,) numbers that say where distances are right, by the name on the command line:
+        "error", "eikonal-error", "gradient-angle", "lost-gradients", ..."""
+        return view(self._handle, name)
+
+    @functools.cached_property
+    def report(self) -> dict[str, Any]:
+        """All figures, as `geotherm solve --json` tells them."""
+        found: dict[str, Any] = json.loads(self._handle.text("json"))
+        return found
+
+    @property
+    def error(self) -> dict[str, Any] | None:
+        """How wrong the distances are, against a better method: "mean_relative", "max_of_range",
+        "verdict", "cure"; None where they were not checked."""
+        found: dict[str, Any] | None = self.report.get("error")
+        return found
+
+    @property
+    def warnings(self) -> list[str]:
+        """One sentence each."""
+        return list(self.report["warnings"])
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes .csv, .npy, .ply or .vtp, of tets .vtu, of grids .vti: whole or not at all."""
+        call("write", self._handle.value, path_bytes(path, "path"))
+
+    def __str__(self) -> str:
+        return self._handle.text("table")
+
+    __repr__ = __str__
+
+
+class Line:
+    """A polyline on the surface.
+
+    Attributes:
+        points: (n, 3) float64, model units.
+        faces: (n,) int32: the face of each point; it holds the piece up to the next one, too.
+        weights: (n, 3): barycentric weights in that face.
+        length: model units.
+        closed: whether it ends where it begins.
+        value: of an isoline, else None.
+    """
+
+    def __init__(self, lines: Lines, number: int) -> None:
+        begin, end = (int(i) for i in lines._starts[number : number + 2])
+        self._lines = lines
+        self.points: AnyArray = lines._points[begin:end]
+        self.faces: AnyArray = lines._faces[begin:end]
+        self.weights: AnyArray = lines._weights[begin:end]
+        self.length = float(lines._lengths[number])
+        self.closed = bool(lines._closed[number])
+        self.value = None if lines._values is None else float(lines._values[number])
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes the lines that it is one of: .obj, .csv, .vtp."""
+        self._lines.write(path)
+
+    def __repr__(self) -> str:
+        value = "" if self.value is None else f" at {self.value:g}"
+        return f"<geotherm.Line{value}: length {self.length:g}, {len(self.points)} points>"
+
+
+class Lines(Sequence[Line]):
+    """Polylines, one after the other."""
+
+    def __init__(self, handle: Handle, values: bool) -> None:
+        self._handle = handle
+        self._points = view(handle, "points")
+        self._faces = view(handle, "faces")
+        self._weights = view(handle, "weights")
+        self._starts = view(handle, "starts")
+        self._lengths = view(handle, "lengths")
+        self._closed = view(handle, "closed")
+        self._values = view(handle, "values") if values else None
+
+    @overload
+    def __getitem__(self, number: int) -> Line: ...
+    @overload
+    def __getitem__(self, number: slice) -> list[Line]: ...
+
+    def __getitem__(self, number: int | slice) -> Line | list[Line]:
+        if isinstance(number, slice):
+            return [Line(self, i) for i in range(*number.indices(len(self)))]
+        if not -len(self) <= number < len(self):
+            raise IndexError(f"there are {len(self)} lines, and no number {number}")
+        return Line(self, number % len(self))
+
+    def __len__(self) -> int:
+        return len(self._lengths)
+
+    def __iter__(self) -> Iterator[Line]:
+        return (Line(self, i) for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return repr(list(self))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes .obj, .csv or .vtp: whole or not at all."""
+        call("write", self._handle.value, path_bytes(path, "path"))
+
+
+class Samples:
+    """Farthest-point samples.
+
+    Attributes:
+        vertices: (K,) int32, in the order in which they were chosen.
+        radius: (K,): the largest distance of a vertex to a sample once each is there.
+        distances: (V,): to the nearest sample.
+        nearest: (V,) int32: the number of that sample, -1 where there is none.
+    """
+
+    def __init__(self, handle: Handle) -> None:
+        self.vertices = view(handle, "vertices")
+        self.radius = view(handle, "radius")
+        self.distances = view(handle, "distances")
+        self.nearest = view(handle, "nearest_source")
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    def __repr__(self) -> str:
+        return f"<geotherm.Samples: {len(self)}, radius {self.radius[-1]:g}>"
+
+
+def isolines(
+    model: Model,
+    values: Any,
+    *,
+    spacing: float | None = None,
+    count: int | None = None,
+    levels: Any = None,
+) -> Lines:
+    """The lines on which values, linear on each face, have a level. Sorted by level, the longest
+    first.
+
+    Args:
+        model: where they are.
+        values: (V,) numbers at its vertices; faces with one that is not finite have no lines.
+        spacing: levels at its multiples; or `count` levels up to the largest value; or the `levels`.
+
+    >>> mesh = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> geotherm.isolines(mesh, [0, 1, 1], levels=[0.5])
+    [<geotherm.Line at 0.5: length 0.707107, 2 points>]
+    """
+    if sum(choice is not None for choice in (spacing, count, levels)) != 1:
+        raise InputError("levels: give one of spacing, count and levels")
+    array, kept = given(values, "values", 1)
+    finite = kept[np.isfinite(kept)]
+    largest = float(finite.max()) if finite.size else 0.0
+    if spacing is not None:
+        if not spacing > 0 or not largest / spacing < 1e5:
+            raise InputError(f"spacing is {spacing}, and the largest value {largest:g}")
+        levels = np.arange(1, int(np.ceil(largest / spacing)) + 1) * spacing
+        levels = levels[levels < largest]
+    elif count is not None:
+        if not 1 <= count <= 1e5:
+            raise InputError(f"count is {count}", hint="give 1 to 100,000")
+        levels = largest * (np.arange(1, count + 1) / (count + 1))
+    asked, kept_levels = given(levels, "levels", 1)
+    handle = create("isolines", model._handle.value, ctypes.byref(array), ctypes.byref(asked))
+    del kept_levels
+    return Lines(handle, values=True)

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MIT
+"""Domains other than triangles, and models of files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from geotherm._arrays import AnyArray
+from geotherm._library import InputError, Progress, Watch, create, path_bytes
+from geotherm._models import (
+    GRID,
+    POINTS,
+    POLYGONS,
+    TETS,
+    Mesh,
+    Model,
+    attributes,
+    blocks,
+)
+from geotherm._options import options_of
+
+
+class Polygons(Model):
+    """Faces with any number of corners, which nothing cuts into triangles.
+
+    Args:
+        vertices: (V, 3), model units.
+        faces: the vertex numbers of each face: a list of lists, or an array (F, k).
+
+    >>> geotherm.Polygons([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]).domain
+    'polygons'
+    """
+
+    def __init__(self, vertices: Any, faces: Iterable[Sequence[int]]) -> None:
+        try:
+            rows = [np.asarray(face) for face in faces]
+        except TypeError:
+            raise InputError("faces is no list of faces") from None
+        if any(row.ndim != 1 for row in rows):
+            raise InputError("faces is no list of faces, each a list of vertices")
+        corners = np.concatenate(rows) if rows else np.empty(0, np.int64)
+        starts = np.cumsum([0, *(len(row) for row in rows)])
+        self._build(
+            POLYGONS,
+            positions=(vertices, "vertices", 3),
+            cells=(corners, "faces", 1),
+            starts=starts,
+        )
+        self._recipe = (Polygons, np.array(self.vertices), [row.tolist() for row in rows])
+
+
+class TetMesh(Model):
+    """A volume of tetrahedra.
+
+    Args:
+        vertices: (V, 3), model units; or a meshio object.
+        tets: (T, 4) vertex numbers, in either orientation.
+    """
+
+    def __init__(self, vertices: Any, tets: Any = None) -> None:
+        if tets is None:
+            cells = blocks(vertices, "tetra")
+            vertices = attributes(vertices, "points", "vertices")
+            if not cells or vertices is None:
+                raise InputError("tets is missing", hint="give vertices and tets")
+            tets = np.concatenate(cells)
+        self._build(TETS, positions=(vertices, "vertices", 3), cells=(tets, "tets", 4))
+        self._recipe = (TetMesh, np.array(self.vertices), np.array(tets))
+
+
+class PointCloud(Model):
+    """Points of some surface, which is made of them: triangles between near ones.
+
+    Args:
+        points: (P, 3), model units; or an object with points or vertices.
+        normals: (P, 3) of any length, or None; they keep sheets apart.
+    """
+
+    def __init__(self, points: Any, normals: Any = None, *, progress: Progress = None) -> None:
+        if not isinstance(points, (np.ndarray, list, tuple)):
+            points = attributes(points, "points", "vertices")
+            if points is None:
+                raise InputError("points is missing")
+        values = None if normals is None else (normals, "normals", 3)
+        self._build(POINTS, positions=(points, "points", 3), values=values, progress=progress)
+        kept = None if normals is None else np.array(normals)
+        self._recipe = (PointCloud, np.array(points), kept)
+
+
+class Grid(Model):
+    """Samples in a box, such as the pixels of an image or the voxels of a scan.
+
+    Args:
+        speeds: (ny, nx) or (nz, ny, nx): the speed at each sample, 0 where nothing passes; booleans
+            are a mask. Distances are travel times. Vertices are numbered with x fastest, so that
+            distances.reshape(speeds.shape) is the answer as an image.
+        spacing, origin: along x, y, z; model units.
+
+    >>> maze = numpy.ones((20, 30)); maze[10, 5:] = 0
+    >>> d = geotherm.Solver(geotherm.Grid(maze)).distance(0).reshape(maze.shape)
+    >>> bool(numpy.isinf(d[10, 7]))
+    True
+    """
+
+    def __init__(
+        self,
+        speeds: Any,
+        *,
+        spacing: Sequence[float] = (1.0, 1.0, 1.0),
+        origin: Sequence[float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        samples = np.asarray(speeds)
+        if samples.ndim not in (2, 3):
+            raise InputError(f"speeds has the shape {samples.shape}", hint="give 2 or 3 axes")
+        steps, begin = [*map(float, spacing)], [*map(float, origin)]
+        steps += [1.0] * (3 - len(steps))
+        begin += [0.0] * (3 - len(begin))
+        if len(steps) != 3 or len(begin) != 3:
+            raise InputError("spacing and origin are along x, y and z")
+        size = [*samples.shape[::-1], 1][:3]
+        if samples.dtype == object:
+            raise InputError("speeds is an array of object", hint="give numbers")
+        flat = samples.astype(np.float64).reshape(-1)
+        self._build(GRID, values=(flat, "speeds", 1), grid=(size, steps, begin))
+        self._recipe = (_grid_again, np.array(samples), tuple(steps), tuple(begin))
+
+
+def _grid_again(speeds: AnyArray, spacing: tuple[float, ...], origin: tuple[float, ...]) -> Grid:
+    return Grid(speeds, spacing=spacing, origin=origin)
+
+
+def _bundled(name: str) -> str:
+    """The file of a bundled model, where it came with the package."""
+    file = Path(__file__).parent / "models" / f"{name}.ply"
+    return str(file) if file.exists() and not Path(name).exists() else name
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    domain: str | None = None,
+    weld: float | None = None,
+    format: str | None = None,
+    grid: str | None = None,
+    progress: Progress = None,
+) -> Any:
+    """Reads a model from a file, or a bundled one by its name: "bunny".
+
+    Args:
+        path: .obj .ply .off .stl and what else features() lists under formats.
+        domain, weld, format, grid: as on the command line.
+
+    Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
+    Raises: Error, with the path, the line and the cause.
+
+    >>> geotherm.read("bunny").n_faces
+    3996
+    """
+    settings = {"domain": domain, "weld": weld, "format": format, "grid": grid}
+    name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
+    with Watch(progress) as watch:
+        options = options_of(settings)
+        handle = create("model_read", path_bytes(name, "path"), options.value, watch.pointer)
+    kinds: dict[str, type[Model]] = {
+        "triangles": Mesh,
+        "polygons": Polygons,
+        "tets": TetMesh,
+        "points": PointCloud,
+        "grid": Grid,
+    }
+    kind = kinds.get(handle.text("domain"), Model)
+    by_arrays = kind is Mesh and weld is None
+    return kind._around(handle, () if by_arrays else (_read_again, os.fspath(path), settings))
+
+
+def _read_again(path: str, settings: dict[str, Any]) -> Any:
+    return read(path, **settings)

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: MIT
+"""What distance is computed in, and meshes."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import json
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from geotherm._arrays import AnyArray, given, no_array, view
+from geotherm._library import (
+    Handle,
+    InputError,
+    Progress,
+    Shape,
+    Watch,
+    call,
+    create,
+    path_bytes,
+)
+from geotherm._options import options_of
+
+TRIANGLES, POLYGONS, TETS, POINTS, GRID, LENGTHS = range(6)
+
+
+class Model:
+    """What distance is computed in; immutable. Mesh, Polygons, TetMesh, PointCloud and Grid make
+    one of arrays, read() one of a file."""
+
+    _handle: Handle
+    _recipe: tuple[Any, ...]
+
+    @classmethod
+    def _around(cls, handle: Handle, recipe: tuple[Any, ...]) -> Any:
+        self = cls.__new__(cls)
+        self._handle = handle
+        self._recipe = recipe
+        return self
+
+    @classmethod
+    def _moved(cls, earlier: Model, handle: Handle) -> Any:
+        """The model with its vertices elsewhere; pickled it is a mesh."""
+        moved = cls._around(handle, ())
+        moved._recipe = (_mesh_again, np.array(moved.vertices), np.array(moved.faces), None)
+        return moved
+
+    def _build(
+        self,
+        kind: int,
+        *,
+        positions: tuple[Any, str, int] | None = None,
+        cells: tuple[Any, str, int] | None = None,
+        values: tuple[Any, str, int] | None = None,
+        starts: Any = None,
+        grid: tuple[Sequence[int], Sequence[float], Sequence[float]] | None = None,
+        options: Handle | None = None,
+        progress: Progress = None,
+    ) -> None:
+        """Hands the arrays over; they are copied."""
+        kept = []
+
+        def take(what: tuple[Any, str, int] | None) -> Any:
+            if what is None:
+                return no_array()
+            array, keep = given(*what)
+            kept.append(keep)
+            return array
+
+        shape = Shape(
+            kind=kind,
+            positions=take(positions),
+            cells=take(cells),
+            values=take(values),
+            starts=take(None if starts is None else (starts, "starts", 1)),
+        )
+        if grid is not None:
+            size, spacing, origin = grid
+            shape.size = (ctypes.c_int64 * 3)(*size)
+            shape.spacing = (ctypes.c_double * 3)(*spacing)
+            shape.origin = (ctypes.c_double * 3)(*origin)
+        with Watch(progress) as watch:
+            asked = options.value if options else None
+            self._handle = create("model_build", ctypes.byref(shape), asked, watch.pointer)
+
+    @functools.cached_property
+    def _summary(self) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(self._handle.text("summary"))
+        return found
+
+    @property
+    def vertices(self) -> AnyArray:
+        """(V, 3) float64, model units; the library's own memory, read-only."""
+        return view(self._handle, "positions")
+
+    @property
+    def faces(self) -> AnyArray:
+        """(F, 3) int32: of what is drawn, which for a surface is itself; read-only."""
+        return view(self._handle, "faces")
+
+    @property
+    def n_vertices(self) -> int:
+        """V."""
+        return int(self._summary["vertices"])
+
+    @property
+    def n_faces(self) -> int:
+        """F."""
+        return int(self._summary["faces"])
+
+    @property
+    def domain(self) -> str:
+        """"triangles", "polygons", "tets", "points" or "grid"."""
+        return str(self._summary["domain"])
+
+    @property
+    def name(self) -> str:
+        """The file's name without folder and extension; "model" of arrays."""
+        return str(self._summary["name"])
+
+    def info(self) -> dict[str, Any]:
+        """What the model is and what is wrong with it, as `geotherm info --json` tells it."""
+        found: dict[str, Any] = json.loads(self._handle.text("json"))
+        return found
+
+    def report(self) -> str:
+        """The same as a table, as `geotherm info` prints it."""
+        return self._handle.text("table")
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes .ply, .obj, .off, .stl, of tets .mesh and .vtu: whole or not at all."""
+        call("write", self._handle.value, path_bytes(path, "path"))
+
+    def __repr__(self) -> str:
+        kind = type(self).__name__
+        return f"<geotherm.{kind} {self.name!r}: {self.n_vertices} vertices, {self._summary['size']}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        maker, *arguments = self._recipe
+        if maker is _not_again:
+            _not_again()
+        return maker, tuple(arguments)
+
+
+def attributes(thing: Any, *names: str) -> Any:
+    """The first of the attributes that it has, else None."""
+    for name in names:
+        if hasattr(thing, name):
+            return getattr(thing, name)
+    return None
+
+
+def blocks(thing: Any, kind: str) -> list[Any]:
+    """The cells of a kind of a meshio mesh."""
+    cells = getattr(thing, "cells", None)
+    if isinstance(cells, Mapping):
+        return [cells[kind]] if kind in cells else []
+    if not isinstance(cells, (list, tuple)):
+        return []
+    return [block.data for block in cells if getattr(block, "type", None) == kind]
+
+
+def _faces_of(thing: Any) -> Any:
+    """Triangles of a trimesh, pyvista or meshio object."""
+    triangles = blocks(thing, "triangle")
+    if triangles:
+        return np.concatenate(triangles)
+    if hasattr(thing, "regular_faces"):
+        return thing.regular_faces
+    faces = getattr(thing, "faces", None)
+    if faces is None:
+        return None
+    faces = np.asarray(faces)
+    if faces.ndim == 1 and faces.size % 4 == 0 and bool((faces[::4] == 3).all()):
+        return faces.reshape(-1, 4)[:, 1:]  # VTK: 3, a, b, c
+    return faces
+
+
+class Mesh(Model):
+    """A triangle mesh.
+
+    Args:
+        vertices: (V, 3) numbers of any type and strides, finite, model units; or an object with
+            vertices or points and with faces or cells, such as those of trimesh, pyvista, meshio.
+        faces: (F, 3) vertex numbers from 0. Nothing is asked of them: they may be of no area,
+            disagree in orientation, share an edge three times.
+        weld: vertices at most this far apart are one; 0: equal ones. All keep their numbers.
+
+    Raises: InputError, with the number of what is out of range or not finite.
+
+    >>> square = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+    >>> square.n_vertices
+    4
+    """
+
+    def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
+        if faces is None:
+            faces = _faces_of(vertices)
+            vertices = attributes(vertices, "vertices", "points")
+            if faces is None or vertices is None:
+                raise InputError(
+                    "faces is missing", hint="give vertices and faces, or an object with both"
+                )
+        options = None if weld is None else options_of({"weld": weld})
+        self._build(
+            TRIANGLES,
+            positions=(vertices, "vertices", 3),
+            cells=(faces, "faces", 3),
+            options=options,
+        )
+        # Faces of a welded mesh are others, by which it cannot be welded again.
+        welded = (_mesh_again, np.array(vertices), np.array(faces), weld)
+        self._recipe = () if weld is None else welded
+
+    @classmethod
+    def from_edge_lengths(cls, faces: Any, lengths: Any) -> Model:
+        """A surface of which only lengths are known: the heat method measures it.
+
+        Args:
+            faces: (F, 3) vertex numbers.
+            lengths: (F, 3): of the side opposite each corner (as igl.edge_lengths gives them), the
+                same for both faces of an edge.
+
+        Raises: InputError, with the face whose sides are no triangle or disagree with another's.
+
+        >>> geotherm.Mesh.from_edge_lengths([[0, 1, 2]], [[3, 4, 5]]).info()["model"]["area"]
+        6.0
+        """
+        model: Model = Model.__new__(Model)
+        model._build(LENGTHS, cells=(faces, "faces", 3), values=(lengths, "lengths", 3))
+        model._recipe = (_lengths_again, np.array(faces), np.array(lengths))
+        return model
+
+    @classmethod
+    def _moved(cls, earlier: Model, handle: Handle) -> Any:
+        return cls._around(handle, (_not_again,) if earlier._recipe else ())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._recipe:
+            return super().__reduce__()
+        return _mesh_again, (np.array(self.vertices), np.array(self.faces), None)
+
+
+def _not_again() -> Any:
+    raise InputError(
+        "a mesh with welded vertices that was moved cannot be pickled",
+        hint="pickle the mesh from before, and the vertices",
+    )
+
+
+def _lengths_again(faces: AnyArray, lengths: AnyArray) -> Model:
+    return Mesh.from_edge_lengths(faces, lengths)
+
+
+def _mesh_again(vertices: AnyArray, faces: AnyArray, weld: float | None) -> Mesh:
+    return Mesh(vertices, faces, weld=weld)

@@ -1,0 +1,321 @@
+# SPDX-License-Identifier: MIT
+"""Solvers."""
+
+from __future__ import annotations
+
+import ctypes
+import json
+import os
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from geotherm._answers import Line, Lines, Result, Samples
+from geotherm._arrays import AnyArray, described, given, output
+from geotherm._library import (
+    Handle,
+    InputError,
+    Progress,
+    Rows,
+    Watch,
+    call,
+    create,
+    path_bytes,
+    text_bytes,
+)
+from geotherm._models import Mesh, Model
+from geotherm._options import options_of
+from geotherm._sources import Taken
+
+
+class Solver:
+    """A model made ready for sources. Immutable; several threads may ask at once, and no call holds
+    the interpreter's lock.
+
+    Args:
+        model: Mesh and its like, or what Mesh() takes in their place.
+        method: "heat" (Crane, Weischedel, Wardetzky 2013), "wavefront", "wavefront-fine",
+            "fast-marching", "exact".
+        threads: None or 0: one a core.
+        check: what solve() holds its answers against: "on", "off", "auto", "wavefront-fine",
+            "exact".
+        progress: a callable(stage, share), or True.
+        The others are the command line's options (`geotherm solve --help`, features()).
+
+    Raises: InputError (an option's value), Error (the model has no area, memory, ...).
+
+    >>> solver = geotherm.Solver(geotherm.read("bunny"))
+    >>> d = solver.distance(17)
+    >>> float(d[17]), d.shape
+    (0.0, (2000,))
+    """
+
+    def __init__(
+        self,
+        model: Any,
+        *,
+        method: str | None = None,
+        backend: str | None = None,
+        time_step: str | None = None,
+        time_factor: float | None = None,
+        constraint: str | None = None,
+        heat: str | None = None,
+        boundary: str | None = None,
+        laplacian: str | None = None,
+        variant: str | None = None,
+        precision: str | None = None,
+        memory_limit: str | float | None = None,
+        strict: bool | None = None,
+        threads: int | None = None,
+        refine: int | None = None,
+        check: str | None = None,
+        progress: Progress = None,
+    ) -> None:
+        settings = {
+            "method": method,
+            "backend": backend,
+            "time_step": time_step,
+            "time_factor": time_factor,
+            "constraint": constraint,
+            "heat": heat,
+            "boundary": boundary,
+            "laplacian": laplacian,
+            "variant": variant,
+            "precision": precision,
+            "memory_limit": memory_limit,
+            "strict": strict,
+            "threads": threads,
+            "refine": refine,
+            "check": check,
+        }
+        # Mesh() says what is wrong with other things.
+        self.model: Model = model if isinstance(model, Model) else Mesh(model)
+        self._settings = {name: value for name, value in settings.items() if value is not None}
+        options = options_of(settings)
+        with Watch(progress) as watch:
+            self._handle = create(
+                "solver_new", self.model._handle.value, options.value, watch.pointer
+            )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _solver_again, (self.model, self._settings)
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Those that were given."""
+        return dict(self._settings)
+
+    def report(self) -> dict[str, Any]:
+        """Options at work, times in ms, memory in MB, warnings."""
+        found: dict[str, Any] = json.loads(self._handle.text("json"))
+        return found
+
+    def distance(
+        self,
+        sources: Any,
+        *,
+        out: AnyArray | None = None,
+        dtype: npt.DTypeLike | None = None,
+        progress: Progress = None,
+    ) -> AnyArray:
+        """Distances from all sources together: (V,), model units, infinite where unreached.
+
+        Args:
+            sources: a vertex number; several; (face, weights); a place [x, y, z], or places (n, 3),
+                of which the nearest point of the model is taken; text as on the command line, such
+                as "boundary", "curve:3,4,5", "random:5", "17@0.5"; or a list of all these.
+            out: (V,) float64 or float32 that is written to and returned.
+            dtype: of a new array; float64.
+
+        No check is made; solve() makes one. The numbers are those of `geotherm solve`.
+
+        >>> solver.distance([3, 99]).min()
+        0.0
+        """
+        taken = Taken(sources)
+        array = output(out, (self.model.n_vertices,), dtype)
+        with Watch(progress) as watch:
+            row = described(array)
+            call("distance", self._handle.value, taken.pointer, ctypes.byref(row), watch.pointer)
+        return array
+
+    def distances(
+        self,
+        sources: Any,
+        *,
+        targets: Any = None,
+        max_distance: float = float("inf"),
+        out: AnyArray | str | os.PathLike[str] | None = None,
+        dtype: npt.DTypeLike | None = None,
+        progress: Progress = None,
+    ) -> AnyArray:
+        """Distances from each source by itself: (K, V), or (K, targets).
+
+        Args:
+            sources: a list, an item a row; an item that is a list is one set. Of text each point is
+                a row: "random:500".
+            targets: vertex numbers whose distances are kept; all.
+            max_distance: farther is infinite. It saves no time.
+            out: an array (a memory map, too), or the path of a .npy file, which is there whole or
+                not at all and returned as a memory map. Memory stays flat however many rows there
+                are.
+            dtype: float64, or float32 for half the size.
+
+        >>> solver.distances([3, 99, 512], targets=[7, 8], dtype="f4").shape
+        (3, 2)
+        """
+        taken = Taken(sources, sets=True)
+        kept = None if targets is None else _vertices(targets, "targets")
+        if kept is not None and kept.size == 0:
+            raise InputError("targets is empty", hint="leave it out for all vertices")
+        rows = Rows(path=None, max_distance=max_distance)
+        if kept is not None:
+            rows.targets, rows.target_count = kept.ctypes.data, kept.size
+        columns = self.model.n_vertices if kept is None else kept.size
+        path: str | os.PathLike[str] | None = None
+        array: AnyArray | None = None
+        if isinstance(out, (str, os.PathLike)):
+            path = out
+            rows.array = described(output(None, (1, 1), dtype))
+            rows.path = path_bytes(path, "out")
+        else:
+            count = taken.set_count
+            if taken.has_text:  # what rows it stands for the library knows
+                call("distances", self._handle.value, taken.pointer, ctypes.byref(rows), None)
+                count = rows.array.rows
+            array = output(out, (count, columns), dtype)
+            rows.array = described(array)
+        with Watch(progress) as watch:
+            call(
+                "distances", self._handle.value, taken.pointer, ctypes.byref(rows), watch.pointer
+            )
+        if array is not None:
+            return array
+        assert path is not None
+        mapped: AnyArray = np.load(path, mmap_mode="r")
+        return mapped
+
+    def pairs(
+        self, vertices: Any, *, symmetric: bool = False, progress: Progress = None
+    ) -> AnyArray:
+        """Distances between each two of the vertices: (K, K), row i from vertex i.
+
+        By the heat method the two directions differ by its error; symmetric: both are their mean.
+        """
+        ids = _vertices(vertices, "vertices")
+        matrix = self.distances(ids, targets=ids, progress=progress)
+        return (matrix + matrix.T) / 2 if symmetric else matrix
+
+    def solve(
+        self,
+        sources: Any,
+        *,
+        labels: bool = False,
+        fields: bool = False,
+        check: str | None = None,
+        progress: Progress = None,
+    ) -> Result:
+        """Distances with all that there is to say: how wrong they are, times, warnings.
+
+        Args:
+            sources: as in distance().
+            labels: which source is the nearest (Result.nearest).
+            fields: the heat and what is made of it (Result.heat, Result.field()).
+            check: in place of the solver's own: "on", "off", "auto", "wavefront-fine", "exact".
+        """
+        wanted = ["labels"] * labels + ["fields"] * fields
+        if check is not None:
+            wanted.append(f"check={check}")
+        taken = Taken(sources)
+        with Watch(progress) as watch:
+            words = text_bytes(" ".join(wanted), "check")
+            return Result(
+                create("solve", self._handle.value, taken.pointer, words, watch.pointer)
+            )
+
+    def path(
+        self,
+        *through: Any,
+        field: str = "geodesic",
+        closed: bool = False,
+        progress: Progress = None,
+    ) -> Line:
+        """The shortest path through two points or more: vertices, (face, weights) or places.
+
+        Args:
+            field: "geodesic", or what is followed backwards: "distance", "heat".
+            closed: leads from the last to the first.
+
+        >>> solver.path(17, 99).length > 0
+        True
+        """
+        taken = Taken(list(through), "points", sets=True)
+        with Watch(progress) as watch:
+            handle = create(
+                "path",
+                self._handle.value,
+                taken.pointer,
+                text_bytes(field, "field"),
+                int(closed),
+                watch.pointer,
+            )
+        return Lines(handle, values=False)[0]
+
+    def farthest_points(
+        self, count: int, *, first: int | None = None, progress: Progress = None
+    ) -> Samples:
+        """Vertices each of which is farthest from those before it (Gonzalez 1985).
+
+        Args:
+            count: how many; one query each.
+            first: the vertex to begin with.
+        """
+        begin = -1 if first is None else int(first)
+        with Watch(progress) as watch:
+            return Samples(
+                create("samples", self._handle.value, int(count), begin, watch.pointer)
+            )
+
+    def update(self, vertices: Any, *, progress: Progress = None) -> Solver:
+        """The same faces and options with the vertices (V, 3) elsewhere, in half of the time of a
+        new solver. This one stays as it is."""
+        array, kept = given(vertices, "vertices", 3)
+        moved, model = Handle(), Handle()
+        with Watch(progress) as watch:
+            call(
+                "solver_move",
+                self._handle.value,
+                ctypes.byref(array),
+                watch.pointer,
+                ctypes.byref(moved.value),
+                ctypes.byref(model.value),
+            )
+        del kept
+        solver = Solver.__new__(Solver)
+        solver._handle = moved
+        solver._settings = dict(self._settings)
+        solver.model = type(self.model)._moved(self.model, model)
+        return solver
+
+    def __repr__(self) -> str:
+        method = self._settings.get("method", "heat")
+        return f"<geotherm.Solver by {method} on {self.model!r}>"
+
+
+def _solver_again(model: Model, settings: dict[str, Any]) -> Solver:
+    return Solver(model, **settings)
+
+
+def _vertices(values: Any, name: str) -> npt.NDArray[np.int64]:
+    """Vertex numbers. Errors: InputError."""
+    array = np.asarray(values)
+    if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
+        raise InputError(f"{name} is no list of vertex numbers")
+    return np.ascontiguousarray(array, dtype=np.int64)
+
+
+def farthest_points(model: Model | Solver, count: int, *, first: int | None = None) -> Samples:
+    """Solver.farthest_points(), by the heat method where a model is given."""
+    solver = model if isinstance(model, Solver) else Solver(model)
+    return solver.farthest_points(count, first=first)

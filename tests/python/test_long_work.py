@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+"""Progress, cancelling, threads, processes."""
+
+import concurrent.futures
+import multiprocessing
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import geotherm
+
+
+def test_progress_is_told_and_grows(bunny):
+    told = []
+    geotherm.Solver(bunny, progress=lambda stage, share: told.append((stage, share)))
+    assert told and all(stage and share <= 1 for stage, share in told)
+
+
+def test_false_cancels(bunny):
+    with pytest.raises(geotherm.Error) as caught:
+        geotherm.Solver(bunny, progress=lambda stage, share: False)
+    assert caught.value.code == "cancelled"
+
+
+def test_what_a_progress_raises_comes_out(bunny, solver):
+    def fail(stage, share):
+        raise LookupError(stage)
+
+    with pytest.raises(LookupError):
+        geotherm.Solver(bunny, progress=fail)
+    with pytest.raises(LookupError):
+        solver.distances("random:50", progress=fail)
+    assert solver.distance(17)[17] == 0
+
+
+def test_true_is_a_bar(bunny, capsys):
+    geotherm.Solver(bunny, progress=True)
+    assert capsys.readouterr().err
+
+
+LONG = """
+import geotherm, numpy, sys
+solver = geotherm.Solver(geotherm.read("bunny"), method="exact", threads=1)
+print("begun", flush=True)
+try:
+    solver.distances(numpy.arange(2000))
+except KeyboardInterrupt:
+    print("interrupted", solver.distance(17)[17], flush=True)
+"""
+
+
+def test_ctrl_c_ends_a_long_call_and_leaves_the_solver():
+    with subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True) as child:
+        assert child.stdout.readline() == "begun\n"
+        time.sleep(0.3)
+        begin = time.monotonic()
+        child.send_signal(signal.SIGINT)
+        assert child.stdout.readline() == "interrupted 0.0\n"
+        assert time.monotonic() - begin < 5
+        assert child.wait() == 0
+
+
+def test_the_interpreters_lock_is_free_during_a_call(bunny):
+    solver = geotherm.Solver(bunny, method="exact", threads=1)
+    worker = threading.Thread(target=solver.distances, args=(np.arange(60),))
+    worker.start()
+    turns = 0
+    while worker.is_alive():
+        turns += 1
+        time.sleep(0.001)
+    worker.join()
+    assert turns > 20
+
+
+def test_threads_share_a_solver(solver):
+    expected = solver.distances(np.arange(8))
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        rows = list(pool.map(solver.distance, range(8)))
+    assert np.allclose(rows, expected, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("way", ["fork", "spawn"])
+def test_processes_share_out_the_work(solver, way):
+    """Also of a process that has solved before it is copied."""
+    expected = [solver.distance(v) for v in range(4)]
+    context = multiprocessing.get_context(way)
+    with concurrent.futures.ProcessPoolExecutor(2, mp_context=context) as pool:
+        rows = list(pool.map(solver.distance, range(4)))
+    assert np.array_equal(rows, expected)
+
+
+def test_a_thread_that_is_not_the_main_one_solves(solver):
+    rows = []
+    thread = threading.Thread(target=lambda: rows.append(solver.distance(17)))
+    thread.start()
+    thread.join()
+    assert np.array_equal(rows[0], solver.distance(17))
+
+
+def test_importing_loads_nothing_large():
+    """The library is loaded when it is first needed."""
+    code = "import geotherm, sys; print('geotherm._library' in sys.modules, geotherm._library.library.cache_info().currsize)"
+    said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert said.stdout.split() == ["True", "0"]
+
+
+def test_a_library_that_is_missing_is_said():
+    code = "import geotherm; geotherm.features()"
+    environment = {**os.environ, "GEOTHERM_LIBRARY": "/no/such/file.so"}
+    said = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True
+    )
+    assert said.returncode == 1 and "/no/such/file.so" in said.stderr

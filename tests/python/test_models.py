@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Models of arrays, of files, and of other packages' objects."""
+
+import pickle
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import geotherm
+
+
+def grid_of(n):
+    """A square cut into triangles."""
+    x, y = np.meshgrid(np.arange(n), np.arange(n))
+    V = np.column_stack([x.ravel(), y.ravel(), np.zeros(n * n)]) / (n - 1)
+    i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+    quads = np.column_stack([i, i + 1, i + n + 1, i + n])
+    return V, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), quads
+
+
+def cube_of_tets(n):
+    """A cube cut into tets."""
+    at = np.stack(np.meshgrid(*[np.arange(n)] * 3, indexing="ij"), -1).reshape(-1, 3)
+    number = lambda p: (p[:, 0] * n + p[:, 1]) * n + p[:, 2]
+    low = at[(at < n - 1).all(axis=1)]
+    tets = []
+    for order in [(0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)]:
+        corners = [low]
+        for axis in order:
+            corners.append(corners[-1] + np.eye(3, dtype=int)[axis])
+        tets.append(np.column_stack([number(c) for c in corners]))
+    return at / (n - 1), np.concatenate(tets)
+
+
+def sphere_points(n):
+    k = np.arange(n) + 0.5
+    z, turn = 1 - 2 * k / n, np.pi * (1 + 5**0.5) * k
+    r = np.sqrt(1 - z * z)
+    return np.column_stack([r * np.cos(turn), r * np.sin(turn), z])
+
+
+def check(model, source, expected, within):
+    d = geotherm.Solver(model).distance(source)
+    assert abs(d - expected).max() < within * expected.max()
+    again = pickle.loads(pickle.dumps(model))
+    assert type(again) is type(model)
+    assert np.array_equal(geotherm.Solver(again).distance(source), d)
+
+
+def test_polygons():
+    V, _, quads = grid_of(20)
+    check(geotherm.Polygons(V, quads), 0, np.linalg.norm(V, axis=1), 0.04)
+
+
+def test_tets():
+    V, tets = cube_of_tets(9)
+    check(geotherm.TetMesh(V, tets), 0, np.linalg.norm(V, axis=1), 0.12)
+
+
+def test_points():
+    P = sphere_points(1500)
+    angle = np.arccos(np.clip(P @ P[0], -1, 1))
+    check(geotherm.PointCloud(P), 0, angle, 0.06)
+    check(geotherm.PointCloud(P, normals=P), 0, angle, 0.06)
+
+
+def test_grids():
+    speeds = np.full((31, 41), 2.0)
+    y, x = np.mgrid[:31, :41]
+    expected = np.hypot(x, y).ravel() * 0.5 / 2
+    check(geotherm.Grid(speeds, spacing=(0.5, 0.5)), 0, expected, 0.04)
+
+
+def test_edge_lengths(bunny):
+    V, F, _ = grid_of(30)
+    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F[:, [2, 0, 1]]], axis=2)
+    check(geotherm.Mesh.from_edge_lengths(F, sides), 0, np.linalg.norm(V, axis=1), 0.04)
+    V, F = bunny.vertices, bunny.faces
+    sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F[:, [2, 0, 1]]], axis=2)
+    solver = geotherm.Solver(geotherm.Mesh.from_edge_lengths(F, sides))
+    exact = geotherm.Solver(bunny, method="exact").distance(17)
+    assert abs(solver.distance(17) - exact).mean() < 0.03 * exact.mean()
+    assert solver.solve(17).error is None
+    for wrong, named in (
+        ([[1, 1, 3]], "no triangle"),
+        ([[1, 1, -1]], "length -1"),
+        ([[1, 1, float("nan")]], "length nan"),
+        ([[1, 1]], "lengths"),
+        ([[1, 1, 1]] * 2, "rows"),
+    ):
+        with pytest.raises(ValueError, match=named):
+            geotherm.Mesh.from_edge_lengths([[0, 1, 2]], wrong)
+    with pytest.raises(ValueError, match="another face"):
+        geotherm.Mesh.from_edge_lengths([[0, 1, 2], [1, 0, 3]], [[1, 1, 1], [1, 1, 1.1]])
+    with pytest.raises(geotherm.Error, match="heat method alone"):
+        geotherm.Solver(solver.model, method="exact")
+    with pytest.raises(geotherm.Error, match="nowhere"):
+        solver.distance([0.0, 0.0, 0.0])
+
+
+def test_models_of_other_packages_by_their_shape():
+    V, F, _ = grid_of(5)
+    vtk = np.column_stack([np.full(len(F), 3), F]).ravel()
+    block = SimpleNamespace(type="triangle", data=F)
+    for thing in (
+        SimpleNamespace(vertices=V, faces=F),  # trimesh
+        SimpleNamespace(points=V, faces=vtk),  # pyvista
+        SimpleNamespace(points=V, faces=vtk, regular_faces=F),
+        SimpleNamespace(points=V, cells=[block, SimpleNamespace(type="line", data=F[:, :2])]),
+    ):
+        assert np.array_equal(geotherm.Mesh(thing).faces, F)
+        assert np.array_equal(geotherm.Solver(thing).model.vertices, V)
+    assert geotherm.PointCloud(SimpleNamespace(points=V)).n_vertices == 25
+
+
+def test_meshio_objects():
+    meshio = pytest.importorskip("meshio")
+    V, F, _ = grid_of(5)
+    assert np.array_equal(geotherm.Mesh(meshio.Mesh(V, [("triangle", F)])).faces, F)
+    V, tets = cube_of_tets(3)
+    volume = geotherm.TetMesh(meshio.Mesh(V, [("tetra", tets)]))
+    assert volume.domain == "tets"
+    with pytest.raises(geotherm.Error, match="faces is missing"):
+        geotherm.Mesh(meshio.Mesh(V, [("tetra", tets)]))
+
+
+def test_welded_vertices_are_one():
+    V, F, _ = grid_of(6)
+    soup, loose = V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3)
+    cracked = geotherm.Solver(geotherm.Mesh(soup, loose)).distance(0)
+    mesh = geotherm.Mesh(soup, loose, weld=0)
+    welded = geotherm.Solver(mesh).distance(0)
+    assert np.isinf(cracked).any() and np.isfinite(welded).all()
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(geotherm.Solver(again).distance(0), welded)
+    moved = geotherm.Solver(mesh).update(soup * 2)
+    assert np.allclose(moved.distance(0), 2 * welded)
+    with pytest.raises(geotherm.Error, match="welded"):
+        pickle.dumps(moved)
+
+
+def test_files_are_read_and_written(bunny, tmp_path):
+    bunny.write(tmp_path / "again.obj")
+    again = geotherm.read(tmp_path / "again.obj")
+    assert np.array_equal(again.vertices, bunny.vertices) and again.name == "again"
+    bunny.write(tmp_path / "again.ply")
+    points = geotherm.read(tmp_path / "again.ply", domain="points")
+    assert points.domain == pickle.loads(pickle.dumps(points)).domain == "points"
+    assert np.array_equal(pickle.loads(pickle.dumps(again)).faces, bunny.faces)
+    with pytest.raises(geotherm.Error) as caught:
+        geotherm.read(tmp_path / "none.obj")
+    assert caught.value.code == "bad-file"
+
+
+def test_a_model_says_what_it_is(bunny):
+    assert bunny.info()["model"]["components"] == 1
+    assert "2,000 vertices" in bunny.report() or "vertices" in bunny.report()
+    assert repr(bunny) == "<geotherm.Mesh 'bunny': 2000 vertices, 3,996 faces>"
+
+
+def test_features_name_what_there_is():
+    features = geotherm.features()
+    assert features["version"] == geotherm.__version__
+    assert {"heat", "exact"} <= set(features["methods"])
+    assert "native" in features["backends"] and "bunny" in features["models"]
+    with pytest.raises(AttributeError):
+        geotherm.no_such_name

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""Answers are those of the program, and hold what they say."""
+
+import inspect
+import pickle
+
+import numpy as np
+import pytest
+
+import geotherm
+
+
+def test_a_distance_has_the_bits_of_the_command_line(solver, program, tmp_path):
+    for sources, words in [(17, ["-s", 17]), ([3, 99], ["-s", "3,99"]), ("boundary", None)]:
+        if words is None:
+            with pytest.raises(geotherm.Error, match="no boundary"):
+                solver.distance(sources)
+            continue
+        path = tmp_path / "d.npy"
+        program("solve", "bunny", *words, "--no-check", "-o", path)
+        assert np.array_equal(solver.distance(sources), np.load(path))
+
+
+def test_rows_have_the_bits_of_the_command_line(solver, program, tmp_path):
+    path = tmp_path / "rows.npy"
+    program("solve", "bunny", "-s", "random:50:1", "--each", "--float32", "--no-check", "-o", path)
+    rows = solver.distances("random:50:1", dtype="f4")
+    assert rows.dtype == np.float32 and np.array_equal(rows, np.load(path))
+
+
+@pytest.mark.parametrize(
+    "method", ["heat", "wavefront", "wavefront-fine", "fast-marching", "exact"]
+)
+def test_every_method_answers(bunny, solver, method):
+    exact = geotherm.Solver(bunny, method="exact").distance(17)
+    d = geotherm.Solver(bunny, method=method).distance(17)
+    assert d[17] == 0 and abs(d - exact).max() < 0.05 * exact.max()
+
+
+def test_sources_of_every_kind(bunny, solver):
+    corner = bunny.vertices[17]
+    assert np.array_equal(solver.distance(corner), solver.distance(17))
+    assert np.array_equal(solver.distance(list(corner)), solver.distance(17))
+    face = int(np.flatnonzero((bunny.faces == 17).any(axis=1))[0])
+    weights = (bunny.faces[face] == 17).astype(float)
+    assert np.array_equal(solver.distance((face, weights)), solver.distance(17))
+    assert np.array_equal(solver.distance("17"), solver.distance(17))
+    many = [17, (face, [0.2, 0.3, 0.5]), corner, "99", np.array([3, 4])]
+    exact = geotherm.Solver(bunny, method="exact")
+    single = exact.distances([17, (face, [0.2, 0.3, 0.5]), 99, 3, 4])
+    assert np.allclose(exact.distance(many), single.min(axis=0), rtol=0, atol=1e-9)
+
+
+def test_sets_are_rows(solver):
+    rows = solver.distances([17, [17, 99], np.array([3, 4])])
+    expected = [solver.distance(17), solver.distance([17, 99]), solver.distance([3, 4])]
+    assert np.allclose(rows, expected, rtol=0, atol=1e-12)
+
+
+def test_an_answer_says_how_right_it_is(solver):
+    answer = solver.solve([17, 99], labels=True, fields=True)
+    assert 0 < answer.error["mean_relative"] < 0.03
+    assert set(answer.nearest) == {0, 1} and answer.nearest[99] == 1
+    assert answer.field("error").shape == (2000,)
+    assert answer.field("gradient-angle").shape == (3996,)
+    assert answer.heat.max() == 1
+    assert "bunny" in str(answer) and "error" in repr(answer)
+    assert answer.warnings == answer.report["warnings"]
+    assert np.array_equal(answer.distances, solver.distance([17, 99]))
+    assert solver.solve(17, check="off").error is None
+    with pytest.raises(geotherm.Error, match="there is no array 'no'.*distances"):
+        answer.field("no")
+
+
+def test_an_answer_is_written(solver, tmp_path):
+    solver.solve(17).write(tmp_path / "d.npy")
+    assert np.array_equal(np.load(tmp_path / "d.npy"), solver.distance(17))
+    with pytest.raises(geotherm.Error, match="obj"):
+        solver.solve(17).write(tmp_path / "d.obj")
+
+
+def test_a_path_is_as_long_as_the_distance(bunny, solver):
+    path = solver.path(17, 900)
+    exact = geotherm.Solver(bunny, method="exact")
+    assert path.length == pytest.approx(exact.distance(17)[900], rel=1e-6)
+    assert np.array_equal(path.points[[0, -1]], bunny.vertices[[17, 900]])
+    steps = np.linalg.norm(np.diff(path.points, axis=0), axis=1)
+    assert steps.sum() == pytest.approx(path.length)
+    corners = bunny.vertices[bunny.faces[path.faces]]
+    assert np.allclose(np.einsum("nk,nkd->nd", path.weights, corners), path.points)
+    assert solver.path(17, 900, field="distance").length >= path.length
+    assert solver.path(17, 900, 400, closed=True).closed
+
+
+def test_isolines_lie_at_their_levels(bunny, solver, tmp_path):
+    d = solver.distance(17)
+    lines = geotherm.isolines(bunny, d, spacing=0.5)
+    assert {line.value for line in lines} == {0.5, 1.0, 1.5, 2.0, 2.5}
+    line = lines[0]
+    at = np.einsum("nk,nk->n", line.weights, d[bunny.faces[line.faces]])
+    assert np.allclose(at, 0.5)
+    lines.write(tmp_path / "lines.csv")
+    assert (tmp_path / "lines.csv").stat().st_size > 0
+    assert len(lines[:2]) == 2 and lines[-1].value == 2.5
+
+
+def test_samples_cover(solver):
+    samples = solver.farthest_points(20, first=17)
+    assert samples.vertices[0] == 17 and len(set(samples.vertices)) == 20
+    assert (np.diff(samples.radius[1:]) <= 0).all()
+    assert samples.distances.max() == pytest.approx(samples.radius[-1])
+    assert (samples.nearest[samples.vertices] == np.arange(20)).all()
+
+
+def test_pairs_are_rows_at_their_vertices(solver):
+    ids = [3, 99, 512]
+    assert np.array_equal(solver.pairs(ids), solver.distances(ids)[:, ids])
+    symmetric = solver.pairs(ids, symmetric=True)
+    assert np.array_equal(symmetric, symmetric.T)
+
+
+def test_an_update_is_a_new_solver_on_the_moved_mesh(bunny, solver):
+    moved = bunny.vertices * [1, 2, 1]
+    later = solver.update(moved)
+    fresh = geotherm.Solver(geotherm.Mesh(moved, bunny.faces))
+    assert np.allclose(later.distance(17), fresh.distance(17), atol=1e-6)
+    assert np.array_equal(later.model.vertices, moved)
+    assert np.array_equal(solver.model.vertices, bunny.vertices)
+    assert np.array_equal(pickle.loads(pickle.dumps(later)).model.vertices, moved)
+
+
+def test_a_pickled_solver_gives_the_same_bits(bunny):
+    solver = geotherm.Solver(bunny, time_factor=2.0, threads=1)
+    again = pickle.loads(pickle.dumps(solver))
+    assert again.options == solver.options == {"time_factor": 2.0, "threads": 1}
+    assert np.array_equal(again.distance(17), solver.distance(17))
+
+
+def test_options_are_those_of_the_table():
+    of_python = set(inspect.signature(geotherm.Solver).parameters) - {"model", "progress"}
+    table = geotherm.features()["settings"]
+    of_table = {s["name"].replace("-", "_") for s in table if s["group"] in ("method", "check")}
+    assert of_python == of_table
+    of_reading = set(inspect.signature(geotherm.read).parameters) - {"path", "progress"}
+    assert of_reading == {s["name"] for s in table if s["group"] == "model"}
+    for setting in table:
+        for value in setting["values"]:
+            if setting["group"] != "model":
+                assert str(value) is not None and setting["help"]
+
+
+def test_a_solver_tells_what_it_took(solver):
+    report = solver.report()
+    assert report["timing_ms"]["setup"] > 0 and report["options"]["method"] == "heat"
+    assert "Solver by heat" in repr(solver)
