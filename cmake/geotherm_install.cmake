@@ -35,7 +35,8 @@ if(GEOTHERM_WITH_CHOLMOD)
 endif()
 file(RELATIVE_PATH to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 configure_file(cmake/geotherm-solver.pc.in "${PROJECT_BINARY_DIR}/geotherm-solver.pc" @ONLY)
-install(FILES "${PROJECT_BINARY_DIR}/geotherm-solver.pc"
+configure_file(cmake/geotherm.pc.in "${PROJECT_BINARY_DIR}/geotherm.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/geotherm-solver.pc" "${PROJECT_BINARY_DIR}/geotherm.pc"
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
 install(FILES LICENSE README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Debian packages, made by cpack (scripts/package.sh): `geotherm`, the program with what a desktop and
-# shells know of it, and `libgeotherm-dev`, the C++ library. Parts that are not built are left out.
+# shells know of it, `libgeotherm0`, the C interface, `python3-geotherm`, and `libgeotherm-dev` to
+# compile with both interfaces. Parts that are not built are left out.
 include(GNUInstallDirs)
 
 set(share "${CMAKE_INSTALL_DATADIR}")
@@ -46,7 +47,8 @@ function(geotherm_package component package section description)
   set(CPACK_DEBIAN_${key}_PACKAGE_SECTION "${section}" PARENT_SCOPE)
   # What Debian asks of every package: its licence, and what changed.
   set(place "${share}/doc/${package}")
-  install(FILES assets/desktop/copyright DESTINATION "${place}" COMPONENT ${component})
+  install(FILES assets/desktop/copyright DESTINATION "${place}" COMPONENT ${component}
+          EXCLUDE_FROM_ALL)
   install(CODE "
     set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\")
     file(MAKE_DIRECTORY \"\${root}/${place}\")
@@ -57,7 +59,7 @@ function(geotherm_package component package section description)
       execute_process(COMMAND gzip -9nc \"${PROJECT_SOURCE_DIR}/\${from}\"
         OUTPUT_FILE \"\${root}/${place}/\${to}.gz\" COMMAND_ERROR_IS_FATAL ANY)
     endforeach()"
-    COMPONENT ${component})
+    COMPONENT ${component} EXCLUDE_FROM_ALL)
 endfunction()
 
 if(TARGET geotherm)
@@ -71,13 +73,35 @@ has a window to explore models in.")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
 endif()
+if(TARGET geotherm_c)
+  list(APPEND CPACK_COMPONENTS_ALL library python)
+  geotherm_package(library libgeotherm0 libs
+"The shared library of the C interface, which computes geodesic distance on
+triangle meshes, point clouds, tetrahedra, polygons and grids.")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "geotherm")
+  set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
+      "${PROJECT_SOURCE_DIR}/assets/desktop/shlibs;${PROJECT_SOURCE_DIR}/assets/desktop/triggers")
+  geotherm_package(python python3-geotherm python
+"The Python package: distances, paths and isolines in NumPy arrays, rows of
+many sources, moving surfaces.")
+  install(DIRECTORY app/python/geotherm DESTINATION lib/python3/dist-packages COMPONENT python
+          EXCLUDE_FROM_ALL PATTERN __pycache__ EXCLUDE)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS OFF)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "python3 (>= 3.9), python3-numpy, libgeotherm0 (= ${PROJECT_VERSION}-1)")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "geotherm")
+endif()
 geotherm_package(development libgeotherm-dev libdevel
-"Headers, static library, CMake package and pkg-config file of the C++
-library, which computes geodesic distance on triangle meshes, point clouds,
+"Headers, CMake package and pkg-config files of the C and the C++ library,
+which compute geodesic distance on triangle meshes, point clouds,
 tetrahedra, polygons and grids.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, zlib1g-dev, libpng-dev")
 if(GEOTHERM_WITH_CHOLMOD)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libsuitesparse-dev, libopenblas-dev")
+endif()
+if(TARGET geotherm_c)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libgeotherm0 (= ${PROJECT_VERSION}-1)")
 endif()
 include(CPack)

@@ -13,7 +13,7 @@
 namespace geotherm::app {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
 /// Whether `whole` is `part` with further points, or the same.
 bool goes_on(const Stroke& part, const Stroke& whole) {
@@ -33,7 +33,7 @@ Sculptor::Sculptor(std::shared_ptr<const TriangleMesh> mesh)
     : mesh_(std::move(mesh)),
       corners_(mesh_->vertex_count(), mesh_->faces()),
       positions_(mesh_->positions().begin(), mesh_->positions().end()),
-      way_(positions_.size(), kFar),
+      way_(positions_.size(), kUnreached),
       moved_in_(positions_.size(), 0) {}
 
 Result<void> Sculptor::follow(const Sculpture& wanted) {
@@ -104,7 +104,7 @@ std::vector<Sculptor::Moved> Sculptor::patch(const FacePoint& point, double radi
   std::vector<Index> reached;
   const auto reach = [&](Index v, double way) {
     if (!(way < std::numbers::sqrt2 * radius) || way >= way_[v]) return;
-    if (way_[v] == kFar) reached.push_back(v);
+    if (way_[v] == kUnreached) reached.push_back(v);
     way_[v] = way;
     waiting.emplace(way, v);
   };
@@ -129,7 +129,7 @@ std::vector<Sculptor::Moved> Sculptor::patch(const FacePoint& point, double radi
     const double straight = (positions_[v] - middle).norm();
     const double share = std::max(straight, way_[v] / std::numbers::sqrt2) / radius;
     if (share < 1) moved.push_back({v, (1 - share * share) * (1 - share * share)});
-    way_[v] = kFar;
+    way_[v] = kUnreached;
   }
   return moved;
 }

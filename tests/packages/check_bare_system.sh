@@ -28,18 +28,26 @@ mmdebstrap --quiet --variant=apt --mode=root "$VERSION_CODENAME" "$bare" >"$fold
 mount --bind /proc "$bare/proc" 2>/dev/null || skip "this root may not mount"
 mounted=yes
 for file in /etc/resolv.conf /etc/apt/apt.conf.d/*; do cp "$file" "$bare$file" 2>/dev/null || true; done
-cp "$folder"/made/*.deb "$bare/tmp"
+for package in geotherm libgeotherm0 python3-geotherm; do
+  cp "$folder"/made/"$package"_*.deb "$bare/tmp/$package.deb"
+done
 inside() { chroot "$bare" env DEBIAN_FRONTEND=noninteractive "$@"; }
 
 inside apt-get update -qq
 inside apt-get install -y -qq --no-install-recommends libvulkan1 mesa-vulkan-drivers \
-  "$(cd "$bare" && echo ./tmp/geotherm_*.deb)" >"$folder/install.log" 2>&1 || {
+  /tmp/geotherm.deb /tmp/libgeotherm0.deb /tmp/python3-geotherm.deb >"$folder/install.log" 2>&1 || {
   cat "$folder/install.log"
   exit 1
 }
 test "$(inside geotherm solve bunny -s 17 -o - --no-check | wc -l)" -gt 1000
 inside geotherm render bunny -s 17 --no-check -o /tmp/bunny.png
 test "$(head -c 4 "$bare/tmp/bunny.png" | tail -c 3)" = PNG
-inside apt-get purge -y -qq geotherm >"$folder/purge.log" 2>&1
+inside python3 -c '
+import geotherm
+solver = geotherm.Solver(geotherm.read("bunny"))
+distance = solver.distance(17)
+assert distance[17] == 0 and distance.max() > 1, distance
+'
+inside apt-get purge -y -qq geotherm libgeotherm0 python3-geotherm >"$folder/purge.log" 2>&1
 left=$(find "$bare" -xdev -name '*geotherm*' -not -path "$bare/tmp/*" -not -path "$bare/var/log/*")
 test -z "$left" || { echo "left behind: $left"; exit 1; }

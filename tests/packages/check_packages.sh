@@ -31,5 +31,7 @@ grep -q 'model/x-ply' "$folder/mime/globs2"
     test ! -s "$folder/said" || { cat "$folder/said"; exit 1; }
     grep -q "geotherm $command" "$folder/page" || { echo "no page of $command"; exit 1; }
   done
-PKG_CONFIG_PATH=$folder/root/usr/lib/pkgconfig:$folder/root/usr/lib/$(gcc -print-multiarch)/pkgconfig \
-  pkg-config --define-prefix --cflags --libs geotherm-solver | grep -q -- -lgeotherm_solver
+for library in geotherm geotherm-solver; do
+  PKG_CONFIG_PATH=$folder/root/usr/lib/pkgconfig \
+    pkg-config --define-prefix --libs "$library" | grep -q -- "-l${library/-/_}"
+done
