@@ -179,7 +179,7 @@ def isolines(
     Args:
         model: where they are.
         values: (V,) numbers at its vertices; faces with one that is not finite have no lines.
-        spacing: levels at its multiples; or `count` levels up to the largest value; or the `levels`.
+        spacing: levels at its multiples; or `count` levels up to the largest value; or `levels`.
 
     >>> mesh = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> geotherm.isolines(mesh, [0, 1, 1], levels=[0.5])
