@@ -36,7 +36,8 @@ _LIBRARY = "libgeotherm.so.0"
 
 
 def _version() -> str:
-    found = re.search(r"project\(geotherm VERSION ([0-9.]+)", (_ROOT / "CMakeLists.txt").read_text())
+    text = (_ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    found = re.search(r"project\(geotherm VERSION ([0-9.]+)", text)
     assert found, "CMakeLists.txt names no version"
     return found[1]
 

@@ -18,7 +18,7 @@ namespace geotherm::app {
 namespace {
 
 /// A point farther from the surface than this share of the model's size is worth a word.
-constexpr double kFar = 0.01;
+constexpr double kFarAway = 0.01;
 
 /// splitmix64 (Steele, Lea, Flood 2014).
 class Random {
@@ -192,7 +192,7 @@ class Resolver {
   }
 
   void note_distance(const std::string& of, double distance) {
-    if (!(distance > kFar * model_size())) return;
+    if (!(distance > kFarAway * model_size())) return;
     warnings_.push_back({where_ + ": the closest point of the " + of + " is " +
                          significant(distance) + " away (the model's size is " +
                          significant(model_size()) + ")"});

@@ -14,7 +14,10 @@ import geotherm
 ROOT = Path(__file__).resolve().parents[2]
 
 
-@pytest.mark.parametrize("module", ["", "._answers", "._domains", "._models", "._options", "._solver"])
+MODULES = ["", "._answers", "._domains", "._models", "._options", "._solver"]
+
+
+@pytest.mark.parametrize("module", MODULES)
 def test_docstrings(module, solver):
     known = {"geotherm": geotherm, "numpy": numpy, "solver": solver}
     tested = importlib.import_module("geotherm" + module)

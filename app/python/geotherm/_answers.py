@@ -8,7 +8,8 @@ import functools
 import json
 import os
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
@@ -16,13 +17,19 @@ from geotherm._arrays import AnyArray, given, view
 from geotherm._library import Handle, InputError, call, create, path_bytes
 from geotherm._models import Model
 
+if TYPE_CHECKING:
+    from geotherm._pictures import Picture
+
 
 class Result:
     """Distances from one source set and all that there is to say about them. Prints like the
     report of `geotherm solve`."""
 
-    def __init__(self, handle: Handle) -> None:
+    def __init__(
+        self, handle: Handle, model: Model, sources: list[str], settings: dict[str, Any]
+    ) -> None:
         self._handle = handle
+        self._drawn_from = (model, sources, settings)
 
     @property
     def distances(self) -> AnyArray:
@@ -65,6 +72,36 @@ class Result:
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes .csv, .npy, .ply or .vtp, of tets .vtu, of grids .vti: whole or not at all."""
         call("write", self._handle.value, path_bytes(path, "path"))
+
+    def plot(
+        self,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (900, 700),
+        **options: Any,
+    ) -> Picture:
+        """A picture by the program geotherm, which must be installed; notebooks show it.
+
+        Args:
+            path: of a .png file that is written, too.
+            size: pixels.
+            options: those of `geotherm render`, with _ in place of -: view="smooth", bar=False.
+
+        Raises: Error ("not-available", "no-device").
+        """
+        from geotherm._pictures import Picture, drawn  # it imports much
+
+        model, sources, settings = self._drawn_from
+        settings = {**settings, "size": f"{size[0]}x{size[1]}", **options}
+        picture = Picture(drawn(model, sources, settings, ".png"))
+        if path is not None:
+            Path(path).write_bytes(picture)
+        return picture
+
+    def _repr_html_(self) -> str:
+        from geotherm._pictures import as_html
+
+        return as_html(*self._drawn_from, str(self))
 
     def __str__(self) -> str:
         return self._handle.text("table")
@@ -179,7 +216,7 @@ def isolines(
     Args:
         model: where they are.
         values: (V,) numbers at its vertices; faces with one that is not finite have no lines.
-        spacing: levels at its multiples; or `count` levels up to the largest value; or the `levels`.
+        spacing: levels at its multiples; or `count` levels up to the largest value; or `levels`.
 
     >>> mesh = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> geotherm.isolines(mesh, [0, 1, 1], levels=[0.5])

@@ -270,7 +270,8 @@ class Watch:
             self._tell = progress
         elif progress is not None and progress is not False:
             raise InputError(
-                f"progress is {type(progress).__name__}", hint="give a callable(stage, share) or True"
+                f"progress is {type(progress).__name__}",
+                hint="give a callable(stage, share) or True",
             )
 
     def _begin_bar(self) -> Callable[[str, float], Any]:

@@ -114,7 +114,7 @@ class Model:
 
     @property
     def domain(self) -> str:
-        """"triangles", "polygons", "tets", "points" or "grid"."""
+        """"triangles", "polygons", "tets", "points", "grid" or "lengths"."""
         return str(self._summary["domain"])
 
     @property
@@ -137,7 +137,8 @@ class Model:
 
     def __repr__(self) -> str:
         kind = type(self).__name__
-        return f"<geotherm.{kind} {self.name!r}: {self.n_vertices} vertices, {self._summary['size']}>"
+        size = self._summary["size"]
+        return f"<geotherm.{kind} {self.name!r}: {self.n_vertices} vertices, {size}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         maker, *arguments = self._recipe
@@ -227,8 +228,8 @@ class Mesh(Model):
 
         Raises: InputError, with the face whose sides are no triangle or disagree with another's.
 
-        >>> geotherm.Mesh.from_edge_lengths([[0, 1, 2]], [[3, 4, 5]]).info()["model"]["area"]
-        6.0
+        >>> geotherm.Mesh.from_edge_lengths([[0, 1, 2]], [[3, 4, 5]]).domain
+        'lengths'
         """
         model: Model = Model.__new__(Model)
         model._build(LENGTHS, cells=(faces, "faces", 3), values=(lengths, "lengths", 3))

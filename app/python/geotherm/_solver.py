@@ -230,9 +230,8 @@ class Solver:
         taken = Taken(sources)
         with Watch(progress) as watch:
             words = text_bytes(" ".join(wanted), "check")
-            return Result(
-                create("solve", self._handle.value, taken.pointer, words, watch.pointer)
-            )
+            handle = create("solve", self._handle.value, taken.pointer, words, watch.pointer)
+        return Result(handle, self.model, taken.texts(), self._settings)
 
     def path(
         self,

@@ -60,6 +60,15 @@ class Taken:
         self.set_count = len(starts) - 1
         self.has_text = bool(text)
 
+    def texts(self) -> list[str]:
+        """The sources as the command line writes them."""
+        out = []
+        for record in self.points:
+            at = ":".join(repr(float(x)) for x in record["at"])
+            forms = {_VERTEX: str(record["id"]), _FACE: f"face:{record['id']}:{at}"}
+            out.append(forms.get(int(record["kind"]), f"xyz:{at}"))
+        return out + self._texts
+
     def _wrong(self, what: str, hint: str = "") -> InputError:
         return InputError(f"{self._name} {what}", hint=hint)
 

@@ -43,7 +43,9 @@ _MISSING = {
 
 def __getattr__(name: str) -> Any:
     if name in _MISSING:
-        raise NotImplementedError(f"geotherm.compat.potpourri3d has no {name}; geotherm computes distances and paths")
+        raise NotImplementedError(
+            f"geotherm.compat.potpourri3d has no {name}; geotherm computes distances and paths"
+        )
     raise AttributeError(f"module 'geotherm.compat.potpourri3d' has no attribute {name!r}")
 
 
