@@ -30,7 +30,7 @@ class ModelInput {
   /// the path has no extension, what the first bytes look like. Errors: kNotAvailable (no such
   /// format); kBadFile (cannot be opened, empty, a directory, packed bytes that are damaged, cut
   /// off or unpack to more than a hundred times their size and 256 MiB), kOutOfMemory (what is held
-  /// may be at most half of what is free); each "PATH: cause". Waits ten seconds for the writer of
+  /// may be at most half of what is free); each "PATH: cause". Waits two seconds for the writer of
   /// a named pipe.
   static Result<ModelInput> open(const std::string& path, std::string_view format = {});
 

@@ -5,7 +5,8 @@
 
 namespace geotherm::io {
 
-RawMesh read_scene(std::string_view /*bytes*/, std::string_view format) {
+RawMesh read_scene(std::string_view /*bytes*/, std::string_view format,
+                   const std::string& /*folder*/) {
   throw ReadFailure{
       "." + std::string(format) + " is read by Assimp, without which this program was built",
       0,
@@ -13,6 +14,6 @@ RawMesh read_scene(std::string_view /*bytes*/, std::string_view format) {
       {"install libassimp-dev and build it again, or save the model as .obj or .ply"}};
 }
 
-RawMesh read_scene(const InputFile& file) { return read_scene({}, file.extension().substr(1)); }
+RawMesh read_scene(const InputFile& file) { return read_scene({}, file.extension().substr(1), {}); }
 
 }  // namespace geotherm::io

@@ -110,8 +110,8 @@ RawMesh read_stl(std::string_view bytes);
 
 /// What Assimp reads: glTF, 3MF, Collada. Files that a .gltf names are read from its folder alone.
 RawMesh read_scene(const InputFile& file);
-/// The same of bytes that stand in no folder. `format`: "glb", ...
-RawMesh read_scene(std::string_view bytes, std::string_view format);
+/// The same of bytes; `folder` as of read_scene_here(), `format`: "glb", ...
+RawMesh read_scene(std::string_view bytes, std::string_view format, const std::string& folder);
 
 /// A file by its format, with its polygons as fans. Errors: those of read_mesh(), which throws
 /// nothing either.

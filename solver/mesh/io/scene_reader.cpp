@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // glTF, 3MF and Collada by way of Assimp, whose importers are asked one by one: no other of them is
 // reached, and no step of its post-processing runs. It keeps coordinates in 32 bits.
+#include "solver/mesh/io/scene_reader.h"
+
 #include <assimp/BaseImporter.h>
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
@@ -22,7 +24,6 @@
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
-#include "solver/mesh/io/raw_mesh.h"
 #include "solver/mesh/io/vertex_welder.h"
 
 namespace geotherm::io {
@@ -224,7 +225,10 @@ int collada_up_axis(std::string_view text, int otherwise) {
   return axis >= 'X' && axis <= 'Z' ? axis - 'X' : otherwise;
 }
 
-RawMesh read_scene_in(std::string_view bytes, std::string_view format, const std::string& folder) {
+}  // namespace
+
+RawMesh read_scene_here(std::string_view bytes, std::string_view format,
+                        const std::string& folder) {
   const auto* const known = std::ranges::find(kSceneFormats, format, &SceneFormat::name);
   const std::string name = folder + "model." + std::string(format);
   FolderFiles files(name, bytes, folder);
@@ -244,21 +248,6 @@ RawMesh read_scene_in(std::string_view bytes, std::string_view format, const std
   RawMesh raw = SceneMesh(*scene).read(known->keeps_root);
   raw.up_axis = format == "dae" ? collada_up_axis(bytes, known->up_axis) : known->up_axis;
   return raw;
-}
-
-}  // namespace
-
-RawMesh read_scene(const InputFile& file) {
-  const std::string& path = file.path();
-  const std::size_t slash = path.rfind('/');
-  const std::string folder = path.empty()         ? ""
-                             : slash == path.npos ? "./"
-                                                  : path.substr(0, slash + 1);
-  return read_scene_in(FileBytes(file).bytes(), file.extension().substr(1), folder);
-}
-
-RawMesh read_scene(std::string_view bytes, std::string_view format) {
-  return read_scene_in(bytes, format, {});
 }
 
 }  // namespace geotherm::io
