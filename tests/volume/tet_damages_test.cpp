@@ -161,8 +161,8 @@ std::vector<TetDamage> other_damages() {
        "line 1: there are to be 100 vertices, but only 15 bytes follow in the first line"},
       {"empty", "a.mesh", "", "the file is empty (0 bytes)"},
       {"extension", "a.tet", "x",
-       "unknown extension \".tet\" of tets; there are .mesh .meshb .msh .vtk "
-       ".vtu .node .ele"},
+       "unknown extension \".tet\" of tets; there are .vtk .vtu .msh .mesh .meshb "
+       ".node .ele"},
   };
 }
 
