@@ -87,15 +87,25 @@ Result<TetFile> read_tetgen(const io::InputFile& file) {
                      ": one of TetGen's two files is read with the other beside it, "
                      "named .node and .ele"};
   }
-  const auto beside = io::InputFile::open(partner_of(file.path(), of_nodes ? ".ele" : ".node"));
-  if (!beside) return beside.error();
-  auto nodes = read_bytes_of(of_nodes ? file : *beside, io::read_node);
+  const auto beside = [&] {
+    return io::InputFile::open(partner_of(file.path(), of_nodes ? ".ele" : ".node"));
+  };
+  const auto read_nodes = [&]() -> Result<io::TetgenNodes> {
+    if (of_nodes) return read_bytes_of(file, io::read_node);
+    const auto node_file = beside();
+    return node_file ? read_bytes_of(*node_file, io::read_node) : node_file.error();
+  };
+  const auto read_elements = [](const io::InputFile& elements,
+                                io::TetgenNodes nodes) -> Result<TetFile> {
+    auto raw = read_bytes_of(
+        elements, [&nodes](std::string_view text) { return io::read_ele(text, std::move(nodes)); });
+    return raw ? finish_tets(elements.shown(), *std::move(raw)) : raw.error();
+  };
+  auto nodes = read_nodes();
   if (!nodes) return nodes.error();
-  const io::InputFile& elements = of_nodes ? *beside : file;
-  auto raw = read_bytes_of(
-      elements, [&nodes](std::string_view text) { return io::read_ele(text, *std::move(nodes)); });
-  if (!raw) return raw.error();
-  return finish_tets(elements.shown(), *std::move(raw));
+  if (!of_nodes) return read_elements(file, *std::move(nodes));
+  const auto ele_file = beside();
+  return ele_file ? read_elements(*ele_file, *std::move(nodes)) : ele_file.error();
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ constexpr ModelFormat kModelFormats[] = {
     {"nrrd", kGrid},          {"nhdr", kGrid},
 };
 
+constexpr std::string_view kBlanks = " \t\r\n";
+
 struct FileBeginning {
   std::string_view bytes, name;
 };
@@ -74,18 +76,28 @@ std::string_view format_of_xml(std::string_view start) {
   return start.find("ImageData") != start.npos ? "vti" : "vtu";
 }
 
-/// By the first word behind blank lines and comments.
+/// By the first word.
 bool is_obj(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
   constexpr std::string_view kWords[] = {"v", "vn", "vt",     "f",      "o",
                                          "g", "s",  "mtllib", "usemtl", "vp"};
-  for (;;) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-    if (!text.starts_with('#')) break;
-    text.remove_prefix(std::min(text.find('\n'), text.size()));
-  }
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   return word.size() < text.size() && std::ranges::find(kWords, word) != std::end(kWords);
+}
+
+std::string_view format_beginning_as(std::string_view text) {
+  for (const FileBeginning& beginning : kBeginnings) {
+    if (text.starts_with(beginning.bytes)) return beginning.name;
+  }
+  return {};
+}
+
+/// What is behind blank lines and comments.
+std::string_view without_comments(std::string_view text) {
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    if (!text.starts_with('#')) return text;
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  }
 }
 
 }  // namespace
@@ -108,16 +120,15 @@ std::string extensions_holding(unsigned what) {
 
 std::string_view format_by_content(std::string_view start, std::size_t size) {
   if (is_binary_stl(start, size)) return "stl";
-  for (const FileBeginning& beginning : kBeginnings) {
-    if (start.starts_with(beginning.bytes)) return beginning.name;
-  }
+  const std::string_view exact = format_beginning_as(start);
+  if (!exact.empty()) return exact;
   if (is_meshb(start)) return "meshb";
   if (start.starts_with("\xef\xbb\xbf")) start.remove_prefix(3);  // the mark of UTF-8
-  if (is_obj(start)) return "obj";
-  const std::size_t first = start.find_first_not_of(" \t\r\n");
-  if (first == start.npos) return {};
-  if (start[first] == '<') return format_of_xml(start);
-  return start[first] == '{' ? "gltf" : std::string_view();
+  start = without_comments(start);
+  if (start.empty()) return {};
+  if (start.front() == '<') return format_of_xml(start);
+  if (start.front() == '{') return "gltf";
+  return is_obj(start) ? "obj" : format_beginning_as(start);
 }
 
 std::string model_extension(std::string_view path) {
