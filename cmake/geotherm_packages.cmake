@@ -80,4 +80,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, zlib1g-dev, libpng-
 if(GEOTHERM_WITH_CHOLMOD)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libsuitesparse-dev, libopenblas-dev")
 endif()
+if(GEOTHERM_WITH_ASSIMP AND ASSIMP_LIBRARY)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libassimp-dev")
+endif()
 include(CPack)
