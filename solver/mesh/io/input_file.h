@@ -60,6 +60,7 @@ class InputFile {
   ~InputFile();
 
   std::size_t size() const { return held_ ? held_->size() - kPadding : before_.size; }
+  bool is_stream() const { return descriptor_ < 0; }
   const std::string& path() const { return path_; }    ///< empty for a stream
   const std::string& shown() const { return shown_; }  ///< the path or the name, for messages
   /// ".ply": of the named format; without one that of the path, less .gz; where that has none, what

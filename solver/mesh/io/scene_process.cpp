@@ -201,7 +201,7 @@ RawMesh read_scene(std::string_view bytes, std::string_view format, const std::s
 RawMesh read_scene(const InputFile& file) {
   const std::string& path = file.path();
   const std::size_t slash = path.rfind('/');
-  const std::string folder = path.empty()         ? ""
+  const std::string folder = file.is_stream()     ? ""
                              : slash == path.npos ? "./"
                                                   : path.substr(0, slash + 1);
   return read_scene(FileBytes(file).bytes(), file.extension().substr(1), folder);
