@@ -40,7 +40,7 @@ struct SceneHeader {
 };
 
 std::chrono::seconds longest_time(std::size_t bytes) {
-  return std::chrono::seconds(20 + 2 * (bytes >> 20));
+  return std::chrono::seconds(10 + 2 * (bytes >> 20));
 }
 
 /// What the process may take beyond what it has: scenes that are packed become much larger.
