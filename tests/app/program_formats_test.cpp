@@ -69,7 +69,8 @@ TEST_F(Formats, OfVolumesAndPointsAreReadFromStandardInput) {
 
 TEST_F(Formats, ThatNothingTellsAskForTheirName) {
   folder.write("model", "1 2 3\n");
-  expect_refused({"info", "model"}, "--format");
+  expect_refused({"info", "model"}, "neither its name nor its first bytes say what it is");
+  expect_refused({"info", "model"}, "say its format with --format");
   expect_refused({"info", "model", "--format", "blend"}, "there are auto, obj, ply");
 }
 
