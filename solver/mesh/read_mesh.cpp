@@ -102,9 +102,9 @@ Result<File> read_file(Result<File> (*finish)(const std::string&, io::RawMesh),
   const auto* const reader =
       std::ranges::find(kMeshReaders, file.extension(), &MeshReader::extension);
   if (reader == std::end(kMeshReaders)) {
-    const std::string cause =
-        file.extension().empty() ? "neither its name nor its first bytes say what it is"
-                                 : "unknown extension \"" + io::printable(file.extension()) + "\"";
+    const std::string cause = file.extension().empty()
+                                  ? "neither its name nor its first bytes say what it is"
+                                  : "unknown extension \"" + io::printable(file.extension()) + "\"";
     return Error{ErrorCode::kNotAvailable,
                  file.shown() + ": " + cause,
                  {"there are " + io::extensions_holding(io::kFaces)}};
