@@ -26,6 +26,7 @@ packages=(g++ cmake ninja-build
   libvulkan-dev libglm-dev libstb-dev fonts-dejavu-core glslang-tools spirv-tools  # the renderer
   libvulkan1 mesa-vulkan-drivers)                   # drawing, without a GPU as well
 others=(libsuitesparse-dev libopenblas-dev          # the backend cholmod
+  libassimp-dev                                     # glTF, 3MF, Collada
   libglfw3-dev libimgui-dev                         # the viewer
   libgtest-dev libtinyobjloader-dev)                # tests, benchmark
 for argument in "$@"; do

@@ -53,7 +53,7 @@ void draw_hint(Frame& frame) {
   draw_centred("Drop a model here");
   if (big_font()) ImGui::PopFont();
   ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
-  draw_centred(".obj  .ply  .off  .stl");
+  draw_centred(".obj  .ply  .off  .stl  .glb  and others");
   ImGui::PopStyleColor();
   ImGui::Dummy({0, frame.px(4)});
   const float room = ImGui::GetContentRegionAvail().x;

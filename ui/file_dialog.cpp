@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/session/model.h"
 #include "ui/frame.h"
 
 namespace geotherm::ui {
@@ -29,8 +30,15 @@ bool comes_first(const FolderEntry& a, const FolderEntry& b) {
 }  // namespace
 
 bool has_extension(const fs::path& file, std::span<const std::string_view> extensions) {
+  constexpr std::string_view kPacked = ".gz";
   const std::string extension = in_small_letters(file.extension().string());
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  const auto is_known = [&](std::string_view text) {
+    return std::find(extensions.begin(), extensions.end(), text) != extensions.end();
+  };
+  if (extension == kPacked && is_known(kPacked)) {
+    return is_known(in_small_letters(file.stem().extension().string()));
+  }
+  return is_known(extension);
 }
 
 FolderListing list_folder(const fs::path& folder, std::span<const std::string_view> extensions) {
@@ -66,9 +74,6 @@ fs::path typed_path(const std::string& text, const fs::path& folder) {
 
 namespace {
 
-constexpr std::string_view kModels[] = {".obj",  ".ply",   ".off", ".stl",  ".xyz", ".pts",  ".pcd",
-                                        ".mesh", ".meshb", ".msh", ".vtk",  ".vtu", ".node", ".ele",
-                                        ".npy",  ".png",   ".vti", ".nrrd", ".nhdr"};
 constexpr std::string_view kPictures[] = {".png"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp", ".vtu", ".vti"};
 constexpr std::string_view kSessions[] = {kSessionExtension};
@@ -77,21 +82,20 @@ constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
 constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd"};
 constexpr std::string_view kFigures[] = {".json"};
 
-constexpr FileTask kTasks[] = {
-    {FilePurpose::kOpenModel, "Open a model", "Open", false, kModels},
-    {FilePurpose::kOpenSession, "Open a session", "Open", false, kScripts},
-    {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
-    {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
-    {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
-    {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
-    {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
-    {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
-    {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
-};
-
 }  // namespace
 
 const FileTask& file_task(FilePurpose purpose) {
+  static const FileTask kTasks[] = {
+      {FilePurpose::kOpenModel, "Open a model", "Open", false, app::model_extensions()},
+      {FilePurpose::kOpenSession, "Open a session", "Open", false, kScripts},
+      {FilePurpose::kSavePicture, "Save the picture", "Save", true, kPictures},
+      {FilePurpose::kSaveDistances, "Save the distances", "Save", true, kDistances},
+      {FilePurpose::kSaveSession, "Save the session", "Save", true, kSessions},
+      {FilePurpose::kSaveLog, "Save the log of commands", "Save", true, kSessions},
+      {FilePurpose::kSaveFigures, "Save the figures", "Save", true, kFigures},
+      {FilePurpose::kSaveMesh, "Save the mesh", "Save", true, kMeshes},
+      {FilePurpose::kOpenSequence, "Open a sequence", "Open", false, kSequences},
+  };
   return kTasks[static_cast<std::size_t>(purpose)];  // in the order of the enumeration
 }
 

@@ -29,7 +29,7 @@ struct FolderListing {
 FolderListing list_folder(const std::filesystem::path& folder,
                           std::span<const std::string_view> extensions);
 
-/// Whether a file name ends in one of the extensions.
+/// Whether a file name ends in one of the extensions; with .gz among them, in another and .gz.
 bool has_extension(const std::filesystem::path& file, std::span<const std::string_view> extensions);
 
 /// What was typed as a path: `~` is the user's folder, what is relative starts at `folder`.

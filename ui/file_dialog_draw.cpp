@@ -117,7 +117,7 @@ void FileDialog::draw_formats(Frame& frame) {
   if (draw_checkbox(frame, "all files", "list all files", all_files_)) list();
   if (task.saves) return;
   ImGui::SameLine(0, frame.px(16));
-  ImGui::TextUnformatted(app::joined(task.extensions, " ").c_str());
+  ImGui::TextWrapped("%s", app::joined(task.extensions, " ").c_str());
 }
 
 void FileDialog::draw_picture_options(Frame& frame) {

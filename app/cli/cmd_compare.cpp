@@ -157,7 +157,7 @@ void add_compare_options(CLI::App& command, CompareArguments& arguments) {
   };
   command
       .add_option("MODEL", arguments.models,
-                  "files (.obj .ply .off .stl), bundled models (geotherm models), - is standard "
+                  "files (as of solve), bundled models (geotherm models), - is standard "
                   "input")
       ->required()
       ->type_name("");

@@ -221,8 +221,9 @@ Result<CommandOutput> run_view(const ViewArguments& arguments, Drawing& drawing,
   // A window that opens to say that there is no such file helps nobody.
   if (is_bundled(arguments.model)) {
     if (const auto file = bundled_file(arguments.model); !file) return file.error();
-  } else if (!arguments.model.empty()) {
-    if (const auto file = io::InputFile::open(arguments.model); !file) return file.error();
+  } else if (std::error_code unknown;
+             !arguments.model.empty() && !std::filesystem::is_fifo(arguments.model, unknown)) {
+    if (const auto file = io::InputFile::open_as_is(arguments.model); !file) return file.error();
   }
   ViewerStart start;
   start.commands = *std::move(commands);

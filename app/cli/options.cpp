@@ -17,11 +17,8 @@ CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArgu
   add_setting_options(command, settings, names_of(SettingGroup::kModel));
   return command
       .add_option("MODEL", model,
-                  "a file (.obj .ply .off .stl; points: .xyz .pts .pcd .ply; tets: .mesh .meshb "
-                  ".msh .vtk .vtu .node .ele; grids: .png .npy .vti .nrrd .nhdr), a bundled model "
-                  "(geotherm models), or "
-                  "- for standard input with "
-                  "--format")
+                  "a file or a pipe (" + model_extensions_text() +
+                      "), a bundled model (geotherm models), or - for standard input")
       ->type_name("");
 }
 

@@ -299,7 +299,7 @@ std::vector<Setting> method_settings() {
        .set = [](State& s, const Text& t) { return store(parse_format(t), s.reading.format); },
        .values =
            [] {
-             Names names = mesh_formats();
+             Names names = model_formats();
              names.insert(names.begin(), "auto");
              return names;
            }},

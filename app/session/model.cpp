@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/session/model.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/session/grid_space.h"
 #include "app/session/progress.h"
+#include "app/session/read_model.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "geotherm/domains.h"
 #include "geotherm/io.h"
 #include "geotherm/mesh.h"
 #include "solver/core/stopwatch.h"
@@ -25,7 +24,7 @@ namespace geotherm::app {
 
 Result<std::string> parse_format(const std::string& text) {
   if (text.empty() || text == "auto") return std::string();
-  const auto known = check_mesh_format(text);
+  const auto known = check_model_format(text);
   if (!known) return known.error();
   return text;
 }
@@ -39,154 +38,6 @@ Result<std::optional<double>> parse_weld(const std::string& text) {
 }
 
 namespace {
-
-void note_polygons_and_welding(const MeshFile& file, std::vector<Warning>& notes) {
-  if (file.polygons > 0) {
-    notes.push_back({counted(file.polygons, "polygon was", "polygons were") + " triangulated"});
-  }
-  if (file.welded > 0) {
-    notes.push_back({"the file shares no vertices between faces: " +
-                     counted(file.welded, "equal corner was", "equal corners were") +
-                     " welded, and vertices are numbered by first appearance"});
-  }
-}
-
-Model model_of(MeshFile file, std::string name, const std::string& path, double load_ms) {
-  Model model{std::move(name), path, nullptr, load_ms, {}};
-  note_polygons_and_welding(file, model.notes);
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
-  return model;
-}
-
-/// The border of a volume has all its vertices, so that their numbers stay.
-Result<Model> model_of_volume(TetFile file, std::string name, const std::string& path) {
-  auto space = TetSpace::build(std::move(file.mesh));
-  if (!space) return space.error();
-  const auto positions = (*space)->tets()->positions();
-  auto mesh = TriangleMesh::build({positions.begin(), positions.end()}, (*space)->border().faces);
-  if (!mesh) return mesh.error();
-  Model model{std::move(name), path, std::make_shared<const TriangleMesh>(*std::move(mesh)), 0, {}};
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  model.space = *std::move(space);
-  return model;
-}
-
-Result<Model> model_of_polygons(const std::string& path, const std::string& format,
-                                std::string name) {
-  std::vector<std::string> notes;
-  auto polygons = read_polygons(path, format, &notes);
-  if (!polygons) return polygons.error();
-  auto space = PolygonSpace::build(*std::move(polygons));
-  if (!space) return about(one_line(path), space.error());
-  Model model{std::move(name), path, (*space)->triangles(), 0, {}};
-  for (std::string& note : notes) model.notes.push_back({std::move(note)});
-  model.space = *std::move(space);
-  return model;
-}
-
-Result<Model> model_of_points(PointFile file, std::string name, const std::string& path,
-                              const Progress& progress) {
-  auto surface = surface_of(file.points, {}, progress);
-  if (!surface) return surface.error();
-  Model model{std::move(name), path, nullptr, 0, {}};
-  for (auto* notes : {&file.notes, &surface->notes}) {
-    for (std::string& note : *notes) model.notes.push_back({std::move(note)});
-  }
-  for (Warning& warning : surface->warnings) model.notes.push_back(std::move(warning));
-  model.mesh = std::make_shared<const TriangleMesh>(std::move(surface->mesh));
-  model.from_points = true;
-  return model;
-}
-
-Result<Model> model_of_grid(GridFile file, std::string name, const std::string& path) try {
-  Model model{std::move(name), path, nullptr, 0, {}};
-  for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
-  auto space = std::make_shared<const GridSpace>(std::move(file));
-  auto mesh = space->drawn();
-  if (!mesh) return mesh.error();
-  model.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
-  model.space = std::move(space);
-  return model;
-} catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory, "the memory ended while cells were made of a grid"};
-}
-
-/// What a file holds.
-ModelDomain find_domain(const std::string& path, const ModelReading& reading) {
-  if (!reading.format.empty()) return ModelDomain::kTriangles;
-  if (holds_tets(path)) return ModelDomain::kTets;
-  if (holds_grid(path)) return ModelDomain::kGrid;
-  const auto points = is_point_file(path);
-  return points && *points ? ModelDomain::kPoints : ModelDomain::kTriangles;
-}
-
-/// The options that only files of some domains have.
-Result<void> check_reading(const ModelReading& reading, ModelDomain domain, ModelDomain holds) {
-  const auto refused = [&](const char* option, const std::string& is_of) {
-    return Error{ErrorCode::kBadInput,
-                 is_of + ", and the model is read as " + to_text(domain),
-                 {"leave ", SettingHint{option}, " out"}};
-  };
-  const bool of_faces = domain == ModelDomain::kTriangles || domain == ModelDomain::kPolygons;
-  if (!reading.format.empty() && !of_faces) {
-    return refused("format", "the format " + reading.format + " is of faces");
-  }
-  if (reading.grid != GridValues::kAuto && domain != ModelDomain::kGrid &&
-      holds != ModelDomain::kGrid) {
-    return refused("grid", "what values mean is asked of grids");
-  }
-  return {};
-}
-
-/// The model of a file by what it holds, or is taken for.
-Result<Model> read_model(const std::string& path, const std::string& name,
-                         const ModelReading& reading, const Progress& progress) {
-  const ModelDomain holds = find_domain(path, reading);
-  const ModelDomain domain = reading.domain == ModelDomain::kAuto ? holds : reading.domain;
-  if (auto fits = check_reading(reading, domain, holds); !fits) return fits.error();
-  const auto with = [&](auto file, auto make) -> Result<Model> {
-    if (!file) return file.error();
-    Result<Model> model = make(*std::move(file), name, path);
-    if (!model) return about(one_line(path), model.error());
-    return model;
-  };
-  switch (domain) {
-    case ModelDomain::kTets:
-      return with(read_tets(path), model_of_volume);
-    case ModelDomain::kGrid:
-      return with(read_grid(path, reading.grid), model_of_grid);
-    case ModelDomain::kPoints:
-      return with(read_points(path),
-                  [&progress](PointFile file, const std::string& stem, const std::string& of) {
-                    return model_of_points(std::move(file), stem, of, progress);
-                  });
-    case ModelDomain::kPolygons:
-      return model_of_polygons(path, reading.format, name);
-    case ModelDomain::kAuto:
-    case ModelDomain::kTriangles:
-      break;
-  }
-  if (holds == ModelDomain::kTets || holds == ModelDomain::kGrid) {
-    auto model = holds == ModelDomain::kTets ? with(read_tets(path), model_of_volume)
-                                             : with(read_grid(path, reading.grid), model_of_grid);
-    if (model) model->space = nullptr;  // what is drawn of it is the surface
-    return model;
-  }
-  auto file = reading.format.empty() ? read_mesh(path) : read_mesh(path, reading.format);
-  if (file) return model_of(*std::move(file), name, path, 0);
-  if (file.error().code != ErrorCode::kNotAvailable || !reading.format.empty()) return file.error();
-  // One of tets after all, or the reader of these says what else it holds.
-  auto tets = read_tets(path);
-  if (tets || tets.error().code != ErrorCode::kNotAvailable) {
-    return with(std::move(tets), model_of_volume);
-  }
-  return Error{
-      ErrorCode::kNotAvailable,
-      file.error().message,
-      {"there are " + joined(mesh_formats(), " ") + ", for points " + joined(point_formats(), " ") +
-       ", for tets " + joined(tet_formats(), " ") + ", for grids " + joined(grid_formats(), " ")}};
-}
 
 Result<Model> from_file(const std::string& text, const ModelReading& reading,
                         const Progress& progress) {
@@ -203,7 +54,7 @@ Result<Model> from_file(const std::string& text, const ModelReading& reading,
   }
   if (!report(progress, "reading " + path.filename().string(), -1)) return cancelled_error();
   const Stopwatch watch;
-  auto model = read_model(text, path.stem().string(), reading, progress);
+  auto model = read_model(text, reading, progress);
   if (!model) {
     Error error = model.error();
     if (error.code == ErrorCode::kCancelled) return error;
@@ -233,31 +84,15 @@ Result<Model> bundled(const std::string& name, const ModelReading& reading,
 }
 
 Result<Model> from_standard_input(const ModelReading& reading, const Progress& progress) {
-  const std::string name = "standard input";
-  if (auto fits = check_reading(reading, ModelDomain::kTriangles, ModelDomain::kTriangles); !fits)
-    return fits.error();
-  if (reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles) {
-    return Error{ErrorCode::kBadInput,
-                 "standard input holds triangles alone",
-                 {"leave ", SettingHint{"domain"}, " out"}};
-  }
-  if (reading.format.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "the model - is standard input, which has no extension",
-                 {"add ", SettingHint{"format"}, " with obj, ply, off or stl"}};
-  }
-  if (reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles) {
-    return Error{ErrorCode::kBadInput,
-                 "standard input is read as triangles, not as " + geotherm::to_text(reading.domain),
-                 {"write it to a file"}};
-  }
-  if (!report(progress, "reading " + name, -1)) return cancelled_error();
+  if (!report(progress, "reading standard input", -1)) return cancelled_error();
   const Stopwatch watch;
-  auto file = read_mesh(STDIN_FILENO, reading.format, name);
-  if (!file) {
-    return with_hint(file.error(), {"check what writes it, and that it is " + reading.format});
+  auto model = read_model(std::string(kStandardInput), reading, progress);
+  if (!model) {
+    return with_hint(model.error(), {"check what writes it, and that it is " +
+                                     (reading.format.empty() ? "a model" : reading.format)});
   }
-  return model_of(*std::move(file), name, std::string(kStandardInput), watch.milliseconds());
+  model->load_ms = watch.milliseconds();
+  return model;
 }
 
 std::string weld_note(Index merged, double distance) {
@@ -318,6 +153,26 @@ std::vector<std::filesystem::path> folders() {
 
 std::string_view domain_name(const Model& model) {
   return model.space ? model.space->words().domain : model.from_points ? "points" : "triangles";
+}
+
+std::span<const std::string_view> model_extensions() {
+  static const std::vector<std::string> kAll = [] {
+    std::vector<std::string> all = model_formats();
+    all.emplace_back("gz");
+    for (std::string& name : all) name.insert(0, ".");
+    return all;
+  }();
+  static const std::vector<std::string_view> kViews(kAll.begin(), kAll.end());
+  return kViews;
+}
+
+std::string model_extensions_text() {
+  const auto listed = [](const std::vector<std::string>& names) {
+    return "." + joined(names, " .");
+  };
+  return listed(mesh_formats()) + "; points: " + listed(point_formats()) +
+         "; tets: " + listed(tet_formats()) + "; grids: " + listed(grid_formats()) +
+         "; any of them packed, as .gz";
 }
 
 std::string size_in_words(const Model& model) {

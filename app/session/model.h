@@ -41,7 +41,7 @@ inline NamedValues<ModelDomain> named_values(ModelDomain) {
 
 struct ModelReading {
   ModelDomain domain = ModelDomain::kAuto;
-  std::string format;          ///< obj, ply, off or stl; empty: what the extension says
+  std::string format;          ///< one of model_formats(); empty: what name or bytes say
   std::optional<double> weld;  ///< vertices this near are one, model units; none: as in the file
   GridValues grid = GridValues::kAuto;
 
@@ -68,6 +68,8 @@ struct Model {
   /// What distance is computed in, where that is not `mesh` itself.
   std::shared_ptr<const Space> space = {};
   bool from_points = false;  ///< `mesh` was made of points without faces
+  /// The axis that is up (0: x, 1: y, 2: z) where the file says so.
+  std::optional<int> up_axis = {};
 
   /// Whether the file holds the faces of `mesh`.
   bool is_mesh() const { return !space && !from_points; }
@@ -94,6 +96,12 @@ struct BundledModel {
 
 /// "triangles", "points" or what its space is called: what a model's file holds.
 std::string_view domain_name(const Model& model);
+
+/// The extensions of all models, with their points, and ".gz" for those that are packed.
+std::span<const std::string_view> model_extensions();
+
+/// What help says of them: ".obj .ply ...; points: ...; tets: ...; grids: ...; any as .gz".
+std::string model_extensions_text();
 
 /// What it consists of: "4,000 faces", "2,500 tets", "800 points".
 std::string size_in_words(const Model& model);

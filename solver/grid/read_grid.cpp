@@ -10,6 +10,7 @@
 #include "solver/geometry/grid_mesh.h"
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/byte_order.h"
+#include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::io {
@@ -163,7 +164,7 @@ Result<io::RawGrid> read_nrrd(const std::string& path, std::string_view bytes) {
     return io::read_nrrd_data(header, bytes.substr(header.data_begins));
   }
   const std::string data_name = data_path(path, header.data_file);
-  const auto data = io::InputFile::open(data_name);
+  const auto data = io::InputFile::open_as_is(data_name);  // its header says how it is packed
   if (!data) return data.error();
   try {
     io::RawGrid raw = io::read_nrrd_data(header, io::FileBytes(*data).bytes());
@@ -183,35 +184,39 @@ NamedValues<GridValues> named_values(GridValues) {
       {{GridValues::kAuto, "auto"}, {GridValues::kMask, "mask"}, {GridValues::kSpeeds, "speeds"}}};
 }
 
-std::vector<std::string> grid_formats() {
-  std::vector<std::string> names;
-  for (const GridFormat& format : kGridFormats) names.emplace_back(format.extension.substr(1));
-  return names;
+std::vector<std::string> grid_formats() { return io::formats_holding(io::kGrid); }
+
+bool holds_grid(const ModelInput& input) {
+  return grid_format_of(input.file().extension()) != nullptr;
 }
 
 bool holds_grid(const std::string& path) {
-  return grid_format_of(io::file_extension(path)) != nullptr;
+  return grid_format_of(io::model_extension(path)) != nullptr;
+}
+
+Result<GridFile> read_grid(const ModelInput& input, GridValues values) {
+  const io::InputFile& file = input.file();
+  const GridFormat* const format = grid_format_of(file.extension());
+  if (format == nullptr) {
+    return Error{
+        ErrorCode::kNotAvailable,
+        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of grids",
+        {"there are " + io::extensions_holding(io::kGrid)}};
+  }
+  return io::guarded_read(file.shown(), "grid", file.size(), [&]() -> Result<GridFile> {
+    const io::FileBytes bytes(file);
+    auto raw = format->read != nullptr ? format->read(bytes.bytes())
+                                       : read_nrrd(file.path(), bytes.bytes());
+    if (!raw) return raw.error();
+    auto made = finish_grid(*std::move(raw), values);
+    if (auto same = file.check_unchanged(); !same) return same.error();
+    return made;
+  });
 }
 
 Result<GridFile> read_grid(const std::string& path, GridValues values) {
-  const std::string name = io::printable(path), extension = io::file_extension(path);
-  const auto file = io::InputFile::open(path);
-  if (!file) return file.error();
-  const GridFormat* const format = grid_format_of(extension);
-  if (format == nullptr) {
-    return Error{ErrorCode::kNotAvailable,
-                 name + ": unknown extension \"" + io::printable(extension) + "\" of grids",
-                 {"there are .npy .png .vti .nrrd .nhdr"}};
-  }
-  return io::guarded_read(name, "grid", file->size(), [&]() -> Result<GridFile> {
-    const io::FileBytes bytes(*file);
-    auto raw =
-        format->read != nullptr ? format->read(bytes.bytes()) : read_nrrd(path, bytes.bytes());
-    if (!raw) return raw.error();
-    auto made = finish_grid(*std::move(raw), values);
-    if (auto same = file->check_unchanged(); !same) return same.error();
-    return made;
-  });
+  const auto input = ModelInput::open(path);
+  return input ? read_grid(*input, values) : input.error();
 }
 
 }  // namespace geotherm

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/core/text.h"
+#include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/frame_array.h"
 #include "solver/mesh/io/raw_mesh.h"
 
@@ -203,7 +204,7 @@ namespace {
 /// The header of an array for a mesh. Errors: those of Frames::open().
 Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& path,
                                  const TriangleMesh& mesh) try {
-  const io::FrameArray array = io::read_frame_array(file, io::file_extension(path));
+  const io::FrameArray array = io::read_frame_array(file, file.extension());
   if (array.vertices == mesh.vertex_count()) return array;
   return other_mesh(io::printable(path) + ": its frames have " + std::to_string(array.vertices) +
                     " vertices, and the model " + std::to_string(mesh.vertex_count()));
@@ -214,7 +215,7 @@ Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& p
 }  // namespace
 
 Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const TriangleMesh> mesh) {
-  if (io::is_frame_array(io::file_extension(path))) {
+  if (io::is_frame_array(io::model_extension(path))) {
     auto file = io::InputFile::open(path);
     if (!file) return file.error();
     const auto array = array_for(*file, path, *mesh);

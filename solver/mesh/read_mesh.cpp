@@ -7,8 +7,9 @@
 #include <utility>
 
 #include "solver/core/text.h"
+#include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
-#include "solver/mesh/io/raw_mesh.h"
+#include "solver/mesh/io/raw_elements.h"
 
 namespace geotherm {
 namespace {
@@ -19,16 +20,32 @@ io::RawMesh read_whole(const io::InputFile& file) {
   return Read(io::FileBytes(file).bytes());
 }
 
-struct Format {
+template <io::RawElements (*Read)(std::string_view)>
+io::RawMesh read_faces(const io::InputFile& file) {
+  return io::faces_of(Read(io::FileBytes(file).bytes()));
+}
+
+struct MeshReader {
   std::string_view extension;
-  io::RawMesh (*read)(std::string_view bytes);
-  io::RawMesh (*read_file)(const io::InputFile& file);
+  io::RawMesh (*read)(const io::InputFile& file);
 };
 
-constexpr Format kFormats[] = {{".obj", io::read_obj, io::read_obj},
-                               {".ply", io::read_ply, read_whole<io::read_ply>},
-                               {".off", io::read_off, read_whole<io::read_off>},
-                               {".stl", io::read_stl, read_whole<io::read_stl>}};
+constexpr MeshReader kMeshReaders[] = {
+    {".obj", io::read_obj},
+    {".ply", read_whole<io::read_ply>},
+    {".off", read_whole<io::read_off>},
+    {".stl", read_whole<io::read_stl>},
+    {".gltf", io::read_scene},
+    {".glb", io::read_scene},
+    {".3mf", io::read_scene},
+    {".dae", io::read_scene},
+    {".vtp", read_faces<io::read_vtp>},
+    {".vtk", read_faces<io::read_vtk>},
+    {".vtu", read_faces<io::read_vtu>},
+    {".msh", read_faces<io::read_gmsh>},
+    {".mesh", read_faces<io::read_medit>},
+    {".meshb", read_faces<io::read_meshb>},
+};
 
 /// The triangles of a mesh whose polygons are fans. Errors: kBadInput.
 Result<TriangleMesh> triangles_of(io::RawMesh raw) {
@@ -49,11 +66,12 @@ Result<TriangleMesh> triangles_of(io::RawMesh raw) {
 Result<MeshFile> mesh_file(const std::string& name, io::RawMesh raw) {
   const auto polygons = static_cast<Index>(raw.polygons.size());
   const auto welded = static_cast<Index>(raw.welded);
+  const std::optional<int> up_axis = raw.up_axis;
   std::vector<std::string> notes = std::move(raw.notes);
   Result<TriangleMesh> mesh = triangles_of(std::move(raw));
   if (!mesh)
     return Error{ErrorCode::kBadFile, name + ": " + mesh.error().message, mesh.error().hint};
-  return MeshFile{*std::move(mesh), polygons, welded, std::move(notes)};
+  return MeshFile{*std::move(mesh), polygons, welded, std::move(notes), up_axis};
 }
 
 struct PolygonFile {
@@ -77,93 +95,95 @@ Result<PolygonFile> polygon_file(const std::string& name, io::RawMesh raw) {
   return PolygonFile{std::move(mesh), std::move(raw.notes)};
 }
 
-/// `read` gives a RawMesh, of which `finish` makes the answer; `size`: bytes of the file.
-template <class File, class Read>
-Result<File> guarded(Result<File> (*finish)(const std::string&, io::RawMesh),
-                     const std::string& name, std::size_t size, const Read& read) {
-  return io::guarded_read(name, "mesh", size, [&] { return finish(name, read()); });
-}
-
+/// `finish` makes the answer of what the reader of the file's format gives.
 template <class File>
 Result<File> read_file(Result<File> (*finish)(const std::string&, io::RawMesh),
-                       const std::string& path, const Format& format) {
-  const auto file = io::InputFile::open(path);
-  if (!file) return file.error();
-  auto mesh =
-      guarded(finish, io::printable(path), file->size(), [&] { return format.read_file(*file); });
+                       const io::InputFile& file) {
+  const auto* const reader =
+      std::ranges::find(kMeshReaders, file.extension(), &MeshReader::extension);
+  if (reader == std::end(kMeshReaders)) {
+    const std::string cause = file.extension().empty()
+                                  ? "neither its name nor its first bytes say what it is"
+                                  : "unknown extension \"" + io::printable(file.extension()) + "\"";
+    return Error{ErrorCode::kNotAvailable,
+                 file.shown() + ": " + cause,
+                 {"there are " + io::extensions_holding(io::kFaces)}};
+  }
+  auto mesh = io::guarded_read(file.shown(), "mesh", file.size(),
+                               [&] { return finish(file.shown(), reader->read(file)); });
   // Before what was wrong in it: it may have been half of what it is to be.
-  if (auto same = file->check_unchanged(); !same) return same.error();
+  if (auto same = file.check_unchanged(); !same) return same.error();
   return mesh;
 }
 
-const Format* format_of(std::string_view extension) {
-  const auto found = std::ranges::find(kFormats, extension, &Format::extension);
-  return found == std::end(kFormats) ? nullptr : found;
-}
+}  // namespace
 
-Result<const Format*> format_named(std::string_view name) {
-  const Format* const format = format_of("." + std::string(name));
-  if (format) return format;
+Result<void> check_model_format(std::string_view name) {
   std::string known;
-  for (const std::string& each : mesh_formats()) known += (known.empty() ? "" : ", ") + each;
+  for (const std::string& each : model_formats()) {
+    if (each == name) return {};
+    known += (known.empty() ? "" : ", ") + each;
+  }
   return Error{ErrorCode::kNotAvailable,
                "'" + io::printable(name) + "' is no format of models",
                {"there are " + known}};
 }
 
-/// `name`: empty for what the extension says.
-Result<const Format*> format_of_file(const std::string& path, std::string_view name) {
-  if (!name.empty()) return format_named(name);
-  const std::string extension = io::file_extension(path);
-  if (const Format* const format = format_of(extension)) return format;
-  if (auto there = io::InputFile::open(path); !there) return there.error();
-  return Error{ErrorCode::kNotAvailable,
-               io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\"",
-               {"there are .obj .ply .off .stl"}};
+Result<ModelInput> ModelInput::open(const std::string& path, std::string_view format) {
+  if (!format.empty()) {
+    if (auto known = check_model_format(format); !known) return known.error();
+  }
+  auto file = io::InputFile::open(path, format);
+  if (!file) return file.error();
+  return ModelInput(std::make_shared<const io::InputFile>(*std::move(file)));
 }
 
-}  // namespace
-
-std::vector<std::string> mesh_formats() {
-  std::vector<std::string> names;
-  for (const Format& format : kFormats) names.emplace_back(format.extension.substr(1));
-  return names;
+Result<ModelInput> ModelInput::stream(int descriptor, const std::string& name,
+                                      std::string_view format) {
+  if (!format.empty()) {
+    if (auto known = check_model_format(format); !known) return known.error();
+  }
+  auto file = io::InputFile::of_stream(descriptor, name, format);
+  if (!file) return file.error();
+  return ModelInput(std::make_shared<const io::InputFile>(*std::move(file)));
 }
 
-Result<void> check_mesh_format(std::string_view name) {
-  const auto known = format_named(name);
-  if (!known) return known.error();
-  return {};
+std::string ModelInput::format() const {
+  const std::string& extension = file_->extension();
+  return extension.empty() ? extension : extension.substr(1);
 }
 
 Result<io::RawMesh> io::read_raw_mesh(const std::string& path) {
-  const auto known = format_of_file(path, {});
-  if (!known) return known.error();
+  const auto file = InputFile::open(path);
+  if (!file) return file.error();
   return read_file<io::RawMesh>(
-      [](const std::string&, io::RawMesh raw) { return Result<io::RawMesh>(std::move(raw)); }, path,
-      **known);
+      [](const std::string&, io::RawMesh raw) { return Result<io::RawMesh>(std::move(raw)); },
+      *file);
 }
 
-Result<MeshFile> read_mesh(const std::string& path) {
-  const auto known = format_of_file(path, {});
-  if (!known) return known.error();
-  return read_file(mesh_file, path, **known);
-}
+Result<MeshFile> read_mesh(const ModelInput& input) { return read_file(mesh_file, input.file()); }
 
 Result<MeshFile> read_mesh(const std::string& path, std::string_view format) {
-  const auto known = format_named(format);
-  if (!known) return known.error();
-  return read_file(mesh_file, path, **known);
+  const auto input = ModelInput::open(path, format);
+  return input ? read_mesh(*input) : input.error();
+}
+
+Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name) {
+  const auto input = ModelInput::stream(descriptor, name, format);
+  return input ? read_mesh(*input) : input.error();
+}
+
+Result<PolygonMesh> read_polygons(const ModelInput& input, std::vector<std::string>* notes) {
+  auto file = read_file(polygon_file, input.file());
+  if (!file) return file.error();
+  if (notes != nullptr) *notes = std::move(file->notes);
+  return std::move(file->mesh);
 }
 
 Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format,
                                   std::vector<std::string>* notes) {
-  const auto known = format_of_file(path, format);
-  if (!known) return known.error();
-  auto file = read_file(polygon_file, path, **known);
-  if (!file) return file.error();
-  if (notes != nullptr) *notes = std::move(file->notes);
-  return std::move(file->mesh);
+  const auto input = ModelInput::open(path, format);
+  return input ? read_polygons(*input, notes) : input.error();
 }
 
 Result<TriangleMesh> triangulated(const PolygonMesh& mesh) try {
@@ -185,15 +205,6 @@ Result<TriangleMesh> triangulated(const PolygonMesh& mesh) try {
   return triangles_of(std::move(raw));
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory, "the memory ended while polygons were cut into triangles"};
-}
-
-Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name) {
-  const auto known = format_named(format);
-  if (!known) return known.error();
-  const auto stream = io::StreamBytes::read(descriptor, name);
-  if (!stream) return stream.error();
-  return guarded(mesh_file, name, stream->bytes().size(),
-                 [&] { return (*known)->read(stream->bytes()); });
 }
 
 }  // namespace geotherm

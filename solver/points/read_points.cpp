@@ -8,6 +8,7 @@
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/ply_header.h"
 #include "solver/points/io/raw_points.h"
@@ -64,41 +65,45 @@ bool has_no_faces(const io::InputFile& file) {
 
 }  // namespace
 
-std::vector<std::string> point_formats() {
-  std::vector<std::string> names;
-  for (const PointFormat& format : kPointFormats) names.emplace_back(format.extension.substr(1));
-  return names;
-}
+std::vector<std::string> point_formats() { return io::formats_holding(io::kPoints); }
 
-Result<PointFile> read_points(const std::string& path) {
-  const std::string extension = io::file_extension(path), shown = io::printable(path);
-  const auto file = io::InputFile::open(path);
-  if (!file) return file.error();
-  const PointFormat* const format = point_format_of(extension);
+Result<PointFile> read_points(const ModelInput& input) {
+  const io::InputFile& file = input.file();
+  const PointFormat* const format = point_format_of(file.extension());
   if (format == nullptr) {
-    return Error{ErrorCode::kNotAvailable,
-                 shown + ": unknown extension \"" + io::printable(extension) + "\" of points",
-                 {"there are .ply .xyz .pts .pcd"}};
+    return Error{
+        ErrorCode::kNotAvailable,
+        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of points",
+        {"there are " + io::extensions_holding(io::kPoints)}};
   }
-  auto points = parse_points(shown, *file, *format);
+  auto points = parse_points(file.shown(), file, *format);
   // Before what was wrong in it: it may have been half of what it is to be.
-  if (auto same = file->check_unchanged(); !same) return same.error();
+  if (auto same = file.check_unchanged(); !same) return same.error();
   return points;
 }
 
-Result<bool> is_point_file(const std::string& path) {
-  const std::string extension = io::file_extension(path);
-  if (extension != kPly) return point_format_of(extension) != nullptr;
-  const auto file = io::InputFile::open(path);
-  if (!file) return file.error();
+Result<PointFile> read_points(const std::string& path) {
+  const auto input = ModelInput::open(path);
+  return input ? read_points(*input) : input.error();
+}
+
+Result<bool> is_point_file(const ModelInput& input) {
+  const io::InputFile& file = input.file();
+  if (file.extension() != kPly) return point_format_of(file.extension()) != nullptr;
   try {
-    return has_no_faces(*file);
+    return has_no_faces(file);
   } catch (const io::ReadFailure&) {
     return false;
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory,
-                 io::printable(path) + ": not enough memory to read its header"};
+    return Error{ErrorCode::kOutOfMemory, file.shown() + ": not enough memory to read its header"};
   }
+}
+
+Result<bool> is_point_file(const std::string& path) {
+  const std::string extension = io::model_extension(path);
+  if (extension != kPly && !extension.empty()) return point_format_of(extension) != nullptr;
+  const auto input = ModelInput::open(path);
+  return input ? is_point_file(*input) : input.error();
 }
 
 }  // namespace geotherm

@@ -6,15 +6,16 @@
 
 #include "geotherm/domains.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/input_file.h"
-#include "solver/volume/io/raw_tets.h"
+#include "solver/volume/io/tetgen_reader.h"
 
 namespace geotherm {
 namespace {
 
 struct TetFormat {
   std::string_view extension;
-  io::RawTets (*read)(std::string_view bytes);  ///< null: TetGen's pair of files
+  io::RawElements (*read)(std::string_view bytes);  ///< null: TetGen's pair of files
   std::string_view begins;  ///< what a file with elements has near its start; empty: anything
 };
 constexpr TetFormat kTetFormats[] = {
@@ -32,10 +33,11 @@ const TetFormat* tet_format_of(std::string_view extension) {
   return found == std::end(kTetFormats) ? nullptr : found;
 }
 
-Result<TetFile> finish_tets(const std::string& name, io::RawTets raw) {
+Result<TetFile> finish_tets(const std::string& name, io::RawElements raw) {
   const std::string others = text_of_others(raw);
   if (raw.tets.empty()) {
-    return Error{ErrorCode::kBadFile,
+    // Where there are faces, it is a surface.
+    return Error{raw.faces.empty() ? ErrorCode::kBadFile : ErrorCode::kNotAvailable,
                  name + ": the file has no tetrahedra with 4 corners, but " +
                      std::to_string(raw.positions.size()) + " vertices" +
                      (others.empty() ? "" : " and " + others),
@@ -53,74 +55,90 @@ Result<TetFile> finish_tets(const std::string& name, io::RawTets raw) {
 
 /// The bytes of a file are given to `read`; what they hold, or the file itself changed.
 template <class Read>
-auto read_bytes_of(const std::string& path, const Read& read)
+auto read_bytes_of(const io::InputFile& file, const Read& read)
     -> Result<decltype(read(std::string_view()))> {
-  const auto file = io::InputFile::open(path);
-  if (!file) return file.error();
   using Made = Result<decltype(read(std::string_view()))>;
-  auto made = io::guarded_read(io::printable(path), "volume", file->size(),
-                               [&]() -> Made { return read(io::FileBytes(*file).bytes()); });
-  if (auto same = file->check_unchanged(); !same) return same.error();
+  auto made = io::guarded_read(file.shown(), "volume", file.size(),
+                               [&]() -> Made { return read(io::FileBytes(file).bytes()); });
+  if (auto same = file.check_unchanged(); !same) return same.error();
   return made;
 }
 
-/// The same path with the extension that the partner has, in capitals where this one is.
+/// The same path with the extension that the partner has, in capitals where this one is, and as
+/// much packed.
 std::string partner_of(const std::string& path, std::string_view extension) {
-  const std::size_t point = path.rfind('.');
-  std::string partner = path.substr(0, point) + std::string(extension);
+  const std::string own = io::model_extension(path);
+  const std::size_t behind = path.size() - (io::file_extension(path) == own ? 0 : 3);
+  const std::size_t point = behind - own.size();
+  std::string partner(extension);
   if (path[point + 1] >= 'A' && path[point + 1] <= 'Z') {
-    for (std::size_t i = point; i < partner.size(); ++i) {
-      if (partner[i] >= 'a' && partner[i] <= 'z') partner[i] = static_cast<char>(partner[i] - 32);
+    for (char& c : partner) {
+      if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
     }
   }
-  return partner;
+  return path.substr(0, point) + partner + path.substr(behind);
 }
 
-Result<TetFile> read_tetgen(const std::string& path, std::string_view extension) {
-  const std::string node_path = extension == ".node" ? path : partner_of(path, ".node");
-  const std::string ele_path = extension == ".ele" ? path : partner_of(path, ".ele");
-  auto nodes = read_bytes_of(node_path, io::read_node);
+Result<TetFile> read_tetgen(const io::InputFile& file) {
+  const bool of_nodes = file.extension() == ".node";
+  if (io::model_extension(file.path()) != file.extension()) {
+    return Error{ErrorCode::kBadFile,
+                 file.shown() +
+                     ": one of TetGen's two files is read with the other beside it, "
+                     "named .node and .ele"};
+  }
+  const auto beside = [&] {
+    return io::InputFile::open(partner_of(file.path(), of_nodes ? ".ele" : ".node"));
+  };
+  const auto read_nodes = [&]() -> Result<io::TetgenNodes> {
+    if (of_nodes) return read_bytes_of(file, io::read_node);
+    const auto node_file = beside();
+    return node_file ? read_bytes_of(*node_file, io::read_node) : node_file.error();
+  };
+  const auto read_elements = [](const io::InputFile& elements,
+                                io::TetgenNodes nodes) -> Result<TetFile> {
+    auto raw = read_bytes_of(
+        elements, [&nodes](std::string_view text) { return io::read_ele(text, std::move(nodes)); });
+    return raw ? finish_tets(elements.shown(), *std::move(raw)) : raw.error();
+  };
+  auto nodes = read_nodes();
   if (!nodes) return nodes.error();
-  auto raw = read_bytes_of(
-      ele_path, [&nodes](std::string_view text) { return io::read_ele(text, *std::move(nodes)); });
-  if (!raw) return raw.error();
-  return finish_tets(io::printable(ele_path), *std::move(raw));
+  if (!of_nodes) return read_elements(file, *std::move(nodes));
+  const auto ele_file = beside();
+  return ele_file ? read_elements(*ele_file, *std::move(nodes)) : ele_file.error();
 }
 
 }  // namespace
 
-std::vector<std::string> tet_formats() {
-  std::vector<std::string> names;
-  for (const TetFormat& format : kTetFormats) names.emplace_back(format.extension.substr(1));
-  return names;
+std::vector<std::string> tet_formats() { return io::formats_holding(io::kTets); }
+
+Result<TetFile> read_tets(const ModelInput& input) {
+  const io::InputFile& file = input.file();
+  const TetFormat* const format = tet_format_of(file.extension());
+  if (format == nullptr) {
+    return Error{
+        ErrorCode::kNotAvailable,
+        file.shown() + ": unknown extension \"" + io::printable(file.extension()) + "\" of tets",
+        {"there are " + io::extensions_holding(io::kTets)}};
+  }
+  if (format->read == nullptr) return read_tetgen(file);
+  auto raw = read_bytes_of(file, format->read);
+  if (!raw) return raw.error();
+  return finish_tets(file.shown(), *std::move(raw));
 }
 
 Result<TetFile> read_tets(const std::string& path) {
-  const std::string extension = io::file_extension(path);
-  const TetFormat* const format = tet_format_of(extension);
-  if (format == nullptr) {
-    if (auto there = io::InputFile::open(path); !there) return there.error();
-    return Error{
-        ErrorCode::kNotAvailable,
-        io::printable(path) + ": unknown extension \"" + io::printable(extension) + "\" of tets",
-        {"there are .mesh .meshb .msh .vtk .vtu .node .ele"}};
-  }
-  if (format->read == nullptr) return read_tetgen(path, extension);
-  auto raw = read_bytes_of(path, format->read);
-  if (!raw) return raw.error();
-  return finish_tets(io::printable(path), *std::move(raw));
+  const auto input = ModelInput::open(path);
+  return input ? read_tets(*input) : input.error();
 }
 
-bool holds_tets(const std::string& path) {
+bool holds_tets(const ModelInput& input) {
   constexpr std::size_t kLooked = 4096;
-  const TetFormat* const format = tet_format_of(io::file_extension(path));
-  if (format == nullptr) return false;
-  const auto file = io::InputFile::open(path);
-  if (!file) return false;
-  if (format->begins.empty()) return true;
+  const io::InputFile& file = input.file();
+  const TetFormat* const format = tet_format_of(file.extension());
+  if (format == nullptr || format->begins.empty()) return format != nullptr;
   try {
-    std::string start(std::min(kLooked, file->size()), '\0');
-    file->read(start.data(), start.size(), 0);
+    std::string start = file.start(kLooked);
     for (char& c : start) {
       if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
@@ -129,6 +147,11 @@ bool holds_tets(const std::string& path) {
   } catch (const std::bad_alloc&) {
   }
   return false;
+}
+
+bool holds_tets(const std::string& path) {
+  const auto input = ModelInput::open(path);
+  return input && holds_tets(*input);
 }
 
 }  // namespace geotherm

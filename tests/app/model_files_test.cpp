@@ -22,7 +22,7 @@ constexpr unsigned kHang = 20;
 
 /// The files in a folder and below it that the program should read, sorted.
 std::vector<std::string> model_files(const std::string& folder) {
-  constexpr std::array kFormats = {".obj", ".ply", ".off", ".stl"};
+  constexpr std::array kFormats = {".obj", ".ply", ".off", ".stl", ".glb", ".gltf", ".3mf", ".dae"};
   std::vector<std::string> out;
   std::error_code error;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, error)) {

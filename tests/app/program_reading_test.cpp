@@ -89,8 +89,8 @@ TEST_F(Reading, SaysWhatDoesNotGoWithTheModel) {
     std::string says;
   };
   for (const Case& c :
-       std::vector<Case>{{{"info", "-"}, 2, "add --format"},
-                         {{"info", "-", "--format", "xyz"}, 2, "obj, ply, off, stl"},
+       std::vector<Case>{{{"info", "-"}, 1, "nothing to read"},
+                         {{"info", "-", "--format", "blend"}, 2, "obj, ply, off, stl"},
                          {{"info", "-", "--format", "obj"}, 1, "nothing to read"},
                          {{"info", "bunny", "--format", "obj"}, 2, "bundled"},
                          {{"view", "-", "--headless"}, 2, "standard input"},

@@ -17,6 +17,26 @@ std::string fuzz_obj(Bytes bytes);
 std::string fuzz_ply(Bytes bytes);
 std::string fuzz_off(Bytes bytes);
 std::string fuzz_stl(Bytes bytes);
+std::string fuzz_vtk(Bytes bytes);
+std::string fuzz_vtu(Bytes bytes);
+std::string fuzz_vtp(Bytes bytes);
+std::string fuzz_msh(Bytes bytes);
+std::string fuzz_mesh(Bytes bytes);
+std::string fuzz_meshb(Bytes bytes);
+/// Of TetGen's pair: a .node file, a zero byte, an .ele file.
+std::string fuzz_node(Bytes bytes);
+std::string fuzz_npy(Bytes bytes);
+std::string fuzz_png(Bytes bytes);
+std::string fuzz_nrrd(Bytes bytes);
+std::string fuzz_vti(Bytes bytes);
+
+/// What gzip packed.
+std::string fuzz_gz(Bytes bytes);
+
+// Scenes, through Assimp in its process.
+std::string fuzz_glb(Bytes bytes);
+std::string fuzz_dae(Bytes bytes);
+std::string fuzz_threemf(Bytes bytes);
 
 /// A script: parsed, applied to the state of a viewer and written again. Each line is read as a
 /// source and as the value of an option, too.

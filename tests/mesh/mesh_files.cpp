@@ -176,7 +176,7 @@ std::vector<Sample> pyramid_samples() {
                                 "200 0 0 0\n9 0 2 0\n9 2 2 0\n9 2 0 0\n9 1 1 1.5\n"
                                 "2 -1 7\n1 5\n"
                                 "0.5 3 0 1 4\n0 3 1 2 4\n0 3 2 3 4\nnan 3 3 0 4\n0 4 3 2 1 0\n";
-  return {
+  std::vector<Sample> all = {
       {"obj", "a.obj", obj},
       {"obj_with_crlf", "a.OBJ", with_crlf(obj)},
       {"obj_without_last_newline", "a.obj", obj.substr(0, obj.size() - 1)},
@@ -220,7 +220,11 @@ std::vector<Sample> pyramid_samples() {
       {"stl_ascii_with_crlf", "a.stl", with_crlf(stl_ascii())},
       {"stl_binary", "a.stl", stl_binary("made by hand")},
       {"stl_binary_that_starts_with_solid", "a.stl", stl_binary("solid but not text")},
+      {"ply_packed", "a.ply.gz", gzipped(ply_ascii)},
   };
+  const std::vector<Sample> others = surface_samples();
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
 }
 
 }  // namespace geotherm::test

@@ -46,6 +46,12 @@ struct Sample {
 };
 std::vector<Sample> pyramid_samples();
 
+/// Those of them in formats that hold other elements, too, or that are packed.
+std::vector<Sample> surface_samples();
+
+/// As gzip packs it.
+std::string gzipped(const std::string& bytes);
+
 /// Its vertices, and its faces with the quad as two triangles.
 std::vector<Vec3> pyramid_positions();
 std::vector<Face> pyramid_faces();

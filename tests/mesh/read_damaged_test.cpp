@@ -148,8 +148,9 @@ std::vector<Damage> ply_damages() {
        replaced(kPlyHeader, "element face 1", "element edge 1") + kOffBody,
        "line 9: the file has no faces (no element \"face\"): a point cloud has no surface"},
       {"ply_triangle_strips", "a.ply",
-       replaced(kPlyHeader, "element face 1", "element tristrips 1") + kOffBody,
-       "line 9: the file has triangle strips, which are not supported; save it with faces"},
+       replaced(kPlyHeader, "element face 1", "element tristrips 1") + "0 0 0\n1 0 0\n0 1 0\n" +
+           "4 0 1 -1 3\n",
+       "line 13: vertex 3 is used, but the file has 3 vertices (0 to 2) in row 1 of 1"},
       {"ply_no_faces", "a.ply", replaced(kPlyHeader, "face 1", "face 0") + "0 0 0\n1 0 0\n0 1 0\n",
        "the mesh has no faces (3 vertices); distances need a surface of triangles"},
       {"ply_many_vertices", "a.ply",
@@ -278,10 +279,15 @@ TEST(UnreadableFile, that_is_a_directory_is_called_one) {
   expect_message(directory.path("a.obj"), "is a directory; give a mesh file in it");
 }
 
-TEST(UnreadableFile, that_is_a_pipe_does_not_block) {
+TEST(UnreadableFile, that_is_a_pipe_without_a_writer_does_not_block) {
   const TemporaryDirectory directory;
   ASSERT_EQ(::mkfifo(directory.path("a.obj").c_str(), 0666), 0);
-  expect_message(directory.path("a.obj"), "is not a regular file");
+  expect_message(directory.path("a.obj"), "there was nothing to read");
+}
+
+TEST(UnreadableFile, that_is_a_device_says_so) {
+  EXPECT_EQ(sentence(read_mesh("/dev/zero", "obj").error()),
+            "/dev/zero: is neither a regular file nor a pipe");
 }
 
 TEST(UnreadableFile, without_permission_says_so) {
@@ -295,7 +301,10 @@ TEST(UnreadableFile, without_permission_says_so) {
 TEST(UnreadableFile, of_an_unknown_extension_is_told_which_there_are) {
   const TemporaryDirectory directory;
   const std::string path = directory.write("a.blend", "BLENDER");
-  expect_message(path, "unknown extension \".blend\"; there are .obj .ply .off .stl");
+  expect_message(
+      path,
+      "unknown extension \".blend\"; there are .obj .ply .off .stl .gltf .glb .3mf .dae .vtp "
+      ".vtk .vtu .msh .mesh .meshb");
   EXPECT_EQ(read_mesh(path).error().code, ErrorCode::kNotAvailable);
 }
 

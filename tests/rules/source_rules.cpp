@@ -59,7 +59,7 @@ const std::vector<Permission>& permissions() {
   static const std::vector<Permission> kPermissions = {
       {"solver/include", {"geotherm"}, {"std", "eigen"}, {}},
       {"solver/core", base, {"std", "eigen"}, {"posix"}},
-      {"solver/mesh", mesh, {"std", "eigen"}, {"posix"}},
+      {"solver/mesh", mesh, {"std", "eigen"}, {"posix", "zlib", "assimp"}},
       {"solver/linear", linear, {"std", "eigen"}, {"posix", "algebra"}},
       {"solver/geometry", geometry, {"std", "eigen"}, {}},
       {"solver/method", method, {"std", "eigen"}, {}},
@@ -69,7 +69,7 @@ const std::vector<Permission>& permissions() {
        {"nanoflann"}},
       {"solver/path", path, {"std", "eigen"}, {}},
       {"solver/polyhedral", polyhedral, {"std", "eigen"}, {}},
-      {"solver/volume", volume, {"std", "eigen"}, {"zlib"}},
+      {"solver/volume", volume, {"std", "eigen"}, {}},
       {"solver/grid", grid, {"std", "eigen"}, {"zlib", "png"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
       {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
@@ -165,6 +165,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"nlohmann/", "json"},
     {"png.h", "png"},
     {"zlib.h", "zlib"},
+    {"assimp/", "assimp"},
     {"stb_", "stb"},
     {"stb/", "stb"},
     {"embedded/", "embedded"},  // made while building, from files that travel in the program

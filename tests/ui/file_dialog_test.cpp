@@ -22,6 +22,9 @@ class FileDialogTest : public UiTest {
     fs::create_directories(folder() / "sub");
     touch(folder() / "a.OBJ");
     touch(folder() / "b.txt");
+    touch(folder() / "d.ply.gz");
+    touch(folder() / "e.tar.gz");
+    touch(folder() / "f.glb");
     touch(folder() / "sub" / "c.ply");
   }
   void control(int letter, bool shift = false) {
@@ -43,7 +46,10 @@ TEST_F(FileDialogTest, ListsFoldersAndTheFilesOfItsKind) {
   EXPECT_TRUE(is_drawn("Files/sub"));
   EXPECT_TRUE(is_drawn("Files/a.OBJ"));
   EXPECT_TRUE(is_drawn("Files/square.obj"));
+  EXPECT_TRUE(is_drawn("Files/d.ply.gz"));
+  EXPECT_TRUE(is_drawn("Files/f.glb"));
   EXPECT_FALSE(is_drawn("Files/b.txt"));
+  EXPECT_FALSE(is_drawn("Files/e.tar.gz"));
   click_item("Files/all files");
   frame();
   EXPECT_TRUE(is_drawn("Files/b.txt"));

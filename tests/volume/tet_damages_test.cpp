@@ -113,9 +113,10 @@ std::vector<TetDamage> vtk_damages() {
   return {
       {"vtk_other", "a.vtk", "hello\n",
        "line 1: a file of VTK starts with \"# vtk DataFile Version\""},
-      {"vtk_surface", "a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\n",
-       "line 4: the dataset \"polydata\" is no unstructured grid in the header; a volume of "
-       "tetrahedra is an unstructured grid"},
+      {"vtk_surface", "a.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET FIELD\n",
+       "line 4: the dataset \"field\" is no unstructured grid or poly data in the header; a "
+       "surface "
+       "is poly data, a volume of tetrahedra an unstructured grid"},
       {"vtk_no_points", "a.vtk", kVtk, "line 4: the grid has no POINTS in the header"},
       {"vtk_many_points", "a.vtk", kVtk + "POINTS 100 float\n0 0 0\n",
        "line 5: there are to be 100 points, but only 7 bytes follow in the list of keywords"},
@@ -161,8 +162,8 @@ std::vector<TetDamage> other_damages() {
        "line 1: there are to be 100 vertices, but only 15 bytes follow in the first line"},
       {"empty", "a.mesh", "", "the file is empty (0 bytes)"},
       {"extension", "a.tet", "x",
-       "unknown extension \".tet\" of tets; there are .mesh .meshb .msh .vtk "
-       ".vtu .node .ele"},
+       "unknown extension \".tet\" of tets; there are .vtk .vtu .msh .mesh .meshb "
+       ".node .ele"},
   };
 }
 

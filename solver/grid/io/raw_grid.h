@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "geotherm/types.h"
-#include "solver/volume/io/vtk_cells.h"
+#include "solver/mesh/io/vtk_cells.h"
 
 namespace geotherm::io {
 

@@ -8,7 +8,7 @@
 #include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/text_scanner.h"
-#include "solver/volume/io/vtk_xml.h"
+#include "solver/mesh/io/vtk_xml.h"
 
 namespace geotherm::io {
 namespace {

@@ -150,12 +150,14 @@ struct GridFile {
 /// path and cause (kBadFile), a negative speed with its place among them; an unknown extension
 /// (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held against its size
 /// before memory is asked for. Cost: the file and 8 bytes a sample in memory.
+Result<GridFile> read_grid(const ModelInput& input, GridValues values = GridValues::kAuto);
 Result<GridFile> read_grid(const std::string& path, GridValues values = GridValues::kAuto);
 
 /// The extensions without their point: npy, png, vti, nrrd, nhdr.
 std::vector<std::string> grid_formats();
 
-/// Whether the extension is one of those.
+/// Whether the format is one of those.
+bool holds_grid(const ModelInput& input);
 bool holds_grid(const std::string& path);
 
 /// True when write_distances() of a grid knows the extension; otherwise the error (kNotAvailable)
@@ -248,12 +250,13 @@ Result<CellComplex> cells_of(const TetMesh& mesh);
 /// Reads the tetrahedra with four corners of Medit `.mesh` and `.meshb`, Gmsh `.msh` (2.x and 4.1,
 /// text and binary), VTK `.vtk` (unstructured grid, text and binary) and `.vtu` (text, base64 and
 /// appended, also compressed by zlib), TetGen `.node` with `.ele` (either is named, the other lies
-/// beside it); the extension decides, in any case. Vertices are numbered from 0 in the order of the
-/// file, whatever numbers it gives them. Elements that are no tets are left out with a note.
+/// beside it), as ModelInput::open() tells them apart. Vertices are numbered from 0 in the order of
+/// the file, whatever numbers it gives them. Elements that are no tets are left out with a note.
 /// Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause (kBadFile); an
-/// unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file announces is held
-/// against its size before memory is asked for. Independent of the locale. Cost: a copy of the file
-/// in memory, and one pass over it.
+/// unknown extension, or faces and no tets (kNotAvailable); kOutOfMemory. Never throws. What a file
+/// announces is held against its size before memory is asked for. Independent of the locale. Cost:
+/// a copy of the file in memory, and one pass over it.
+Result<TetFile> read_tets(const ModelInput& input);
 Result<TetFile> read_tets(const std::string& path);
 
 /// The extensions without their point: mesh, meshb, msh, vtk, vtu, node, ele.
@@ -263,6 +266,7 @@ std::vector<std::string> tet_formats();
 /// `.vtu`, which also hold other things, the file begins as one with elements does (Gmsh; an
 /// unstructured grid). Whether there are tets among these only reading tells. False for a file that
 /// cannot be read. Cost: the first 4 KiB.
+bool holds_tets(const ModelInput& input);
 bool holds_tets(const std::string& path);
 
 /// True when write_tets() knows the extension of `path`; otherwise the error (kNotAvailable) says
@@ -378,6 +382,7 @@ struct PointFile {
 /// against its size before memory is asked for. A file that others change while it is read is an
 /// error (kBadFile). Independent of the locale. Cost: a copy of the file in memory, and one pass
 /// over it.
+Result<PointFile> read_points(const ModelInput& input);
 Result<PointFile> read_points(const std::string& path);
 
 /// The names of the formats: ply, xyz, pts, pcd.
@@ -386,6 +391,7 @@ std::vector<std::string> point_formats();
 /// Whether the file holds points without faces: by its extension, of a `.ply` by its header. A
 /// `.ply` whose header cannot be read is none. Errors (kBadFile): a `.ply` that cannot be opened.
 /// Cost: the header.
+Result<bool> is_point_file(const ModelInput& input);
 Result<bool> is_point_file(const std::string& path);
 
 }  // namespace geotherm

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -15,43 +17,87 @@
 // Models from files, and distances, meshes and arrays to files.
 namespace geotherm {
 
+namespace io {
+class InputFile;
+}
+
+/// A file, a pipe or another stream that is open for reading, and in which format it is. A stream
+/// can be read but once: held here, it can be asked for what it holds and read after that. Files
+/// that gzip packed (`.ply.gz`, known by their first bytes) are unpacked. Copies share it.
+class ModelInput {
+ public:
+  /// `format`: one of model_formats(); empty: that of the extension, less .gz, in any case; where
+  /// the path has no extension, what the first bytes look like. Errors: kNotAvailable (no such
+  /// format); kBadFile (cannot be opened, empty, a directory, packed bytes that are damaged, cut
+  /// off or unpack to more than a hundred times their size and 256 MiB), kOutOfMemory (what is held
+  /// may be at most half of what is free); each "PATH: cause". Waits two seconds for the writer of
+  /// a named pipe.
+  static Result<ModelInput> open(const std::string& path, std::string_view format = {});
+
+  /// From an open descriptor, such as standard input (0), to its end. `name`: in place of the path,
+  /// in messages. Errors: the same.
+  static Result<ModelInput> stream(int descriptor, const std::string& name,
+                                   std::string_view format = {});
+
+  /// One of model_formats(), or what else stands behind the point; empty: it has not been found.
+  std::string format() const;
+
+  const io::InputFile& file() const { return *file_; }
+
+ private:
+  explicit ModelInput(std::shared_ptr<const io::InputFile> file) : file_(std::move(file)) {}
+  std::shared_ptr<const io::InputFile> file_;
+};
+
+/// All formats that models are read from, whatever they hold: extensions without their point.
+std::vector<std::string> model_formats();
+
+/// Those of triangle meshes: obj, ply, off, stl, gltf, glb, 3mf, dae, vtp, vtk, vtu, msh, mesh,
+/// meshb.
+std::vector<std::string> mesh_formats();
+
+/// Errors: kNotAvailable (none of model_formats()), with those that there are.
+Result<void> check_model_format(std::string_view name);
+
 /// A model as read from a file: the mesh and what the reader had to do to get it.
 struct MeshFile {
   TriangleMesh mesh;
   Index polygons = 0;              ///< faces with more than three corners that were triangulated
   Index welded = 0;                ///< STL: corners that were merged into shared vertices
   std::vector<std::string> notes;  ///< one sentence each, for people
+  /// The axis that is up (0: x, 1: y, 2: z) where the format says so: glTF, Collada, 3MF.
+  std::optional<int> up_axis = {};
 };
 
-/// Reads `.obj`, `.ply` (ASCII, little and big endian), `.off`, `.stl` (ASCII, binary); the
-/// extension decides, in any case. Vertex numbers are 0-based and in the order of the file;
-/// an STL has none: equal corners are welded, numbered by first appearance.
+/// Reads the faces of a model; vertex numbers are 0-based and in the order of the file.
+///
+/// `.obj`, `.ply` (ASCII, little and big endian; also triangle strips), `.off`, `.stl` (ASCII,
+/// binary), `.vtp` and `.vtu` (VTK XML), `.vtk` (VTK legacy), Gmsh `.msh` (2.x, 4.1), Medit `.mesh`
+/// and `.meshb`: of what holds other elements, too, the triangles, quads and polygons. An STL has
+/// no numbers: equal corners are welded, numbered by first appearance. `.gltf`, `.glb`, `.3mf` and
+/// `.dae` (read by Assimp, where the library was built with it): all meshes of the scene with their
+/// transforms, as often as they are placed; vertices with the same position are one, numbered by
+/// first appearance, for these formats split vertices where normals or textures differ.
+///
 /// Coordinates are the doubles nearest to what is written. A face of more than three corners
 /// becomes a fan from its first corner, or, where that would fold over, triangles that cover it
 /// once. Errors: one sentence, "PATH: line N: ..." or "PATH: byte N: ..." with the cause
-/// (kBadFile); an unknown extension (kNotAvailable); kOutOfMemory. Never throws. What a file
-/// announces is held against its size before memory is asked for. A file that others change while
-/// it is read is an error (kBadFile). Independent of the locale. Cost: a copy of the file in
+/// (kBadFile); a format that holds no faces (kNotAvailable); kOutOfMemory. Never throws. What a
+/// file announces is held against its size before memory is asked for. A file that others change
+/// while it is read is an error (kBadFile). Independent of the locale. Cost: a copy of the file in
 /// memory, and one pass over it; OBJ on all cores.
-Result<MeshFile> read_mesh(const std::string& path);
+Result<MeshFile> read_mesh(const ModelInput& input);
 
-/// The names of the formats: obj, ply, off, stl.
-std::vector<std::string> mesh_formats();
+/// Of a path, as ModelInput::open() takes it. Errors: those of both.
+Result<MeshFile> read_mesh(const std::string& path, std::string_view format = {});
 
-/// Errors: kNotAvailable (no such format), with those that there are.
-Result<void> check_mesh_format(std::string_view name);
-
-/// The same in a format that is named, whatever the extension. Errors: those and those of
-/// check_mesh_format().
-Result<MeshFile> read_mesh(const std::string& path, std::string_view format);
-
-/// From an open stream, such as standard input (0), to its end. `name`: in place of the path. The
-/// bytes are held in memory while they are parsed: at most half of what is free. Errors: the same.
+/// From an open stream, as ModelInput::stream() takes it. Errors: those of both.
 Result<MeshFile> read_mesh(int descriptor, std::string_view format, const std::string& name);
 
-/// Reads the faces of `.obj`, `.ply` or `.off` as they are; otherwise as read_mesh(). `format`: one
-/// of mesh_formats(), empty: the extension's. `notes` gets one sentence each, for people. Errors:
-/// those of read_mesh().
+/// Reads the faces as they are; otherwise as read_mesh(), of formats that keep polygons. `notes`
+/// gets one sentence each, for people. Errors: those of read_mesh().
+Result<PolygonMesh> read_polygons(const ModelInput& input,
+                                  std::vector<std::string>* notes = nullptr);
 Result<PolygonMesh> read_polygons(const std::string& path, std::string_view format = {},
                                   std::vector<std::string>* notes = nullptr);
 

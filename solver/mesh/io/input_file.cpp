@@ -2,6 +2,7 @@
 #include "solver/mesh/io/input_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -17,6 +18,8 @@
 
 #include "solver/core/memory.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/formats.h"
+#include "solver/mesh/io/gzip.h"
 #include "solver/mesh/io/parallel.h"
 
 namespace geotherm::io {
@@ -61,24 +64,46 @@ std::string open_cause(int code) {
   }
 }
 
+/// Bytes that may be held: while a buffer grows the old one is there as well.
+std::size_t most_bytes() {
+  const auto free = free_memory();
+  if (!free) return std::numeric_limits<std::size_t>::max() / 4;
+  return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
+}
+
+/// Of a pipe that was opened without waiting: until something can be read or a writer has been
+/// there, but no longer than a person waits who has forgotten it.
+void wait_for_writer(int descriptor) {
+  constexpr int kMostMs = 2000;
+  pollfd pipe{descriptor, POLLIN, 0};
+  ::poll(&pipe, 1, kMostMs);
+  ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+}
+
 }  // namespace
 
-InputFile::InputFile(std::string shown, int descriptor)
-    : shown_(std::move(shown)), descriptor_(descriptor) {}
+InputFile::InputFile(std::string path, std::string shown, int descriptor)
+    : path_(std::move(path)), shown_(std::move(shown)), descriptor_(descriptor) {}
 
 InputFile::Version InputFile::version_in(const struct stat& status) {
   return {static_cast<std::size_t>(status.st_size), status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
 InputFile::InputFile(InputFile&& other) noexcept
-    : shown_(std::move(other.shown_)),
+    : path_(std::move(other.path_)),
+      shown_(std::move(other.shown_)),
+      extension_(std::move(other.extension_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      before_(other.before_) {}
+      before_(other.before_),
+      held_(std::move(other.held_)) {}
 
 InputFile& InputFile::operator=(InputFile&& other) noexcept {
+  std::swap(path_, other.path_);
   std::swap(shown_, other.shown_);
+  std::swap(extension_, other.extension_);
   std::swap(descriptor_, other.descriptor_);
   std::swap(before_, other.before_);
+  std::swap(held_, other.held_);
   return *this;
 }
 
@@ -86,25 +111,115 @@ InputFile::~InputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-Result<InputFile> InputFile::open(const std::string& path) {
+Result<InputFile> InputFile::open_as_is(const std::string& path) {
   const std::string shown = printable(path);
   const auto failure = [&shown](const std::string& cause, Hint hint = {}) {
     return Error{ErrorCode::kBadFile, shown + ": " + cause, std::move(hint)};
   };
   // O_NONBLOCK: opening a pipe must not wait for its writer.
-  InputFile file(shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  InputFile file(path, shown, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (file.descriptor_ < 0 || ::fstat(file.descriptor_, &status) != 0) {
     return failure(open_cause(errno));
   }
   if (S_ISDIR(status.st_mode)) return failure("is a directory", {"give a mesh file in it"});
-  if (!S_ISREG(status.st_mode)) return failure("is not a regular file");
+  if (S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode)) {
+    wait_for_writer(file.descriptor_);
+    if (auto held = file.hold_stream(); !held) return held.error();
+    return file;
+  }
+  if (!S_ISREG(status.st_mode)) return failure("is neither a regular file nor a pipe");
   if (status.st_size == 0) return failure("the file is empty (0 bytes)");
   file.before_ = version_in(status);
   return file;
 }
 
+Result<InputFile> InputFile::open(const std::string& path, std::string_view format) {
+  auto file = open_as_is(path);
+  if (!file) return file;
+  if (auto ready = file->prepare(format); !ready) return ready.error();
+  return file;
+}
+
+Result<InputFile> InputFile::of_stream(int descriptor, const std::string& name,
+                                       std::string_view format) {
+  InputFile file({}, name, ::dup(descriptor));
+  if (auto held = file.hold_stream(); !held) return held.error();
+  if (auto ready = file.prepare(format); !ready) return ready.error();
+  return file;
+}
+
+Result<void> InputFile::prepare(std::string_view format) {
+  return guarded_read(shown_, "model", size(), [&]() -> Result<void> {
+    if (is_gzip(start(2))) {
+      held_ = std::make_shared<const RawVector<char>>(
+          unpack_gzip(FileBytes(*this).bytes(), most_bytes(), kPadding));
+      if (size() == 0) throw ReadFailure{"nothing is packed in it (0 bytes)"};
+    }
+    constexpr std::size_t kLooked = 4096;
+    extension_ = format.empty() ? model_extension(path_) : "." + std::string(format);
+    if (extension_.empty()) {
+      const std::string_view found = format_by_content(start(kLooked), size());
+      if (!found.empty()) extension_ = "." + std::string(found);
+    }
+    return {};
+  });
+}
+
+Result<void> InputFile::hold_stream() {
+  constexpr std::size_t kStep = std::size_t{1} << 20;
+  std::size_t size = 0;
+  const auto fail = [&](ErrorCode code, const std::string& cause, Hint hint = {}) {
+    return Error{code, shown_ + ": " + cause, std::move(hint)};
+  };
+  try {
+    const std::size_t most = most_bytes();
+    RawVector<char> bytes;
+    for (;;) {
+      if (bytes.size() <= size + kPadding) {
+        if (size >= most) {
+          return fail(ErrorCode::kOutOfMemory,
+                      "a model from a stream may have at most " + std::to_string(most) +
+                          " bytes, half of the memory that is free",
+                      {"write it to a file and name that"});
+        }
+        bytes.resize(size + std::min(std::max(kStep, size / 2), most - size) + kPadding);
+      }
+      const ssize_t got = ::read(descriptor_, bytes.data() + size, bytes.size() - kPadding - size);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) {
+        return fail(ErrorCode::kBadFile,
+                    "cannot be read: " + std::generic_category().message(errno));
+      }
+      if (got == 0) break;
+      size += static_cast<std::size_t>(got);
+    }
+    if (size == 0) return fail(ErrorCode::kBadFile, "there was nothing to read");
+    bytes.resize(size + kPadding);
+    std::memset(bytes.data() + size, 0, kPadding);
+    held_ = std::make_shared<const RawVector<char>>(std::move(bytes));
+  } catch (const std::bad_alloc&) {
+    return fail(
+        ErrorCode::kOutOfMemory,
+        "the memory ended after " + std::to_string(size) + " bytes of a model from a stream",
+        {"write it to a file and name that"});
+  }
+  ::close(std::exchange(descriptor_, -1));
+  return {};
+}
+
+std::string InputFile::start(std::size_t most) const {
+  std::string bytes(std::min(most, size()), '\0');
+  read(bytes.data(), bytes.size(), 0);
+  return bytes;
+}
+
 void InputFile::read(char* to, std::size_t count, std::size_t place) const {
+  if (held_) {
+    if (place > size() || count > size() - place) throw ReadFailure{"the file ends"};
+    std::memcpy(to, held_->data() + place, count);
+    return;
+  }
   while (count > 0) {
     const ssize_t got = ::pread(descriptor_, to, count, static_cast<off_t>(place));
     if (got < 0 && errno == EINTR) continue;
@@ -123,9 +238,10 @@ void InputFile::read(char* to, std::size_t count, std::size_t place) const {
 
 Result<void> InputFile::check_unchanged() const {
   struct stat now {};
+  if (descriptor_ < 0) return {};  // of a stream all is held
   if (::fstat(descriptor_, &now) == 0 && version_in(now) == before_) return {};
   return Error{ErrorCode::kBadFile,
-               shown_ + ": was changed while it was read (it had " + std::to_string(size()) +
+               shown_ + ": was changed while it was read (it had " + std::to_string(before_.size) +
                    " bytes and now has " + std::to_string(now.st_size) + ")",
                {"read it again once it is complete"}};
 }
@@ -140,7 +256,9 @@ LargeBuffer room_for(std::size_t bytes) {
 
 }  // namespace
 
-FileBytes::FileBytes(const InputFile& file) : buffer_(room_for(file.size() + kPadding)) {
+FileBytes::FileBytes(const InputFile& file)
+    : held_(file.held_), buffer_(held_ ? LargeBuffer() : room_for(file.size() + kPadding)) {
+  if (held_) return;
   constexpr std::size_t kPiece = std::size_t{4} << 20;
   char* const bytes = reinterpret_cast<char*>(buffer_.data());
   const std::size_t size = file.size();
@@ -163,63 +281,6 @@ Result<FileBytes> FileBytes::read(const std::string& path) {
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::kOutOfMemory, printable(path) + ": not enough memory to read it"};
   }
-}
-
-namespace {
-
-constexpr std::size_t kStep = std::size_t{1} << 20;
-
-/// Bytes that may be taken: while a buffer grows the old one is there as well.
-std::size_t most_bytes() {
-  const auto free = free_memory();
-  if (!free) return std::numeric_limits<std::size_t>::max() / 4;
-  return static_cast<std::size_t>(std::max<std::int64_t>(*free, 0)) / 2;
-}
-
-Error too_large(const std::string& name, std::size_t most) {
-  return {ErrorCode::kOutOfMemory,
-          name + ": a model from a stream may have at most " + std::to_string(most) +
-              " bytes, half of the memory that is free",
-          {"write it to a file and name that"}};
-}
-
-Error ended(const std::string& name, std::size_t size) {
-  return {
-      ErrorCode::kOutOfMemory,
-      name + ": the memory ended after " + std::to_string(size) + " bytes of a model from a stream",
-      {"write it to a file and name that"}};
-}
-
-}  // namespace
-
-Result<StreamBytes> StreamBytes::read(int descriptor, const std::string& name) {
-  StreamBytes out;
-  try {
-    const std::size_t most = most_bytes();
-    for (;;) {
-      if (out.buffer_.size() <= out.size_ + FileBytes::kPadding) {
-        if (out.size_ >= most) return too_large(name, most);
-        const std::size_t step = std::min(std::max(kStep, out.size_ / 2), most - out.size_);
-        out.buffer_.resize(out.size_ + step + FileBytes::kPadding);
-      }
-      const std::size_t room = out.buffer_.size() - FileBytes::kPadding - out.size_;
-      const ssize_t got = ::read(descriptor, out.buffer_.data() + out.size_, room);
-      if (got < 0 && errno == EINTR) continue;
-      if (got < 0) {
-        return Error{ErrorCode::kBadFile,
-                     name + ": cannot be read: " + std::generic_category().message(errno)};
-      }
-      if (got == 0) break;
-      out.size_ += static_cast<std::size_t>(got);
-    }
-  } catch (const std::bad_alloc&) {
-    return ended(name, out.size_);
-  } catch (const std::length_error&) {
-    return ended(name, out.size_);
-  }
-  if (out.size_ == 0) return Error{ErrorCode::kBadFile, name + ": there was nothing to read"};
-  std::fill(out.buffer_.begin() + static_cast<std::ptrdiff_t>(out.size_), out.buffer_.end(), '\0');
-  return out;
 }
 
 }  // namespace geotherm::io

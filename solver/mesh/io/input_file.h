@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "geotherm/error.h"
 #include "solver/core/memory.h"
@@ -35,13 +35,23 @@ struct ReadFailure {
 /// The word at `where` in quotes, shortened, only printable characters: fit for a message.
 std::string quoted(std::string_view text, const char* where);
 
-/// A regular file that is open for reading, by copies of its bytes: a mapping of a file that others
-/// shorten would end the program with a signal.
+/// A file or a stream that is open for reading, by copies of its bytes: a mapping of a file that
+/// others shorten would end the program with a signal. Pipes are read to their end, and what gzip
+/// packed is unpacked, when they are opened; either is held in memory then.
 class InputFile {
  public:
-  /// Errors (kBadFile): no such file, no permission, a directory or another thing that is not a
-  /// regular file, an empty file; each "PATH: cause".
-  static Result<InputFile> open(const std::string& path);
+  /// `format`: what it is read as, whatever its name; empty: what the name says. Errors (kBadFile):
+  /// no such file, no permission, a directory or another thing that is neither a regular file nor a
+  /// pipe, an empty file, damaged gzip; kOutOfMemory (a pipe holds more than half of the memory
+  /// that is free, for the mesh needs as much again); each "PATH: cause".
+  static Result<InputFile> open(const std::string& path, std::string_view format = {});
+
+  /// The bytes of a file as they are, packed or not. Errors: the same.
+  static Result<InputFile> open_as_is(const std::string& path);
+
+  /// Of an open descriptor, which stays open. `name`: of the stream, in messages. Errors: the same.
+  static Result<InputFile> of_stream(int descriptor, const std::string& name,
+                                     std::string_view format = {});
 
   InputFile(InputFile&& other) noexcept;
   InputFile& operator=(InputFile&& other) noexcept;
@@ -49,16 +59,30 @@ class InputFile {
   InputFile& operator=(const InputFile&) = delete;
   ~InputFile();
 
-  std::size_t size() const { return before_.size; }
+  std::size_t size() const { return held_ ? held_->size() - kPadding : before_.size; }
+  bool is_stream() const { return descriptor_ < 0; }
+  const std::string& path() const { return path_; }    ///< empty for a stream
+  const std::string& shown() const { return shown_; }  ///< the path or the name, for messages
+  /// ".ply": of the named format; without one that of the path, less .gz; where that has none, what
+  /// the bytes begin like. Empty: nothing that is known.
+  const std::string& extension() const { return extension_; }
 
   /// Copies `count` bytes from `place` on; from any number of threads. Throws ReadFailure where the
   /// file ends before that or cannot be read.
   void read(char* to, std::size_t count, std::size_t place) const;
 
+  /// The first bytes, at most so many. Throws as read() does.
+  std::string start(std::size_t most) const;
+
   /// Errors (kBadFile): size or time of the file are others than when it was opened.
   Result<void> check_unchanged() const;
 
+  /// Zero bytes that can be read behind those of FileBytes.
+  static constexpr std::size_t kPadding = 64;
+
  private:
+  friend class FileBytes;
+
   /// What tells one state of a file from another.
   struct Version {
     std::size_t size = 0;
@@ -66,12 +90,17 @@ class InputFile {
     bool operator==(const Version&) const = default;
   };
 
-  InputFile(std::string shown, int descriptor);
+  InputFile(std::string path, std::string shown, int descriptor);
   static Version version_in(const struct ::stat& status);
+  /// Holds what the stream gives, and closes it. Errors: those of open().
+  Result<void> hold_stream();
+  /// Unpacks what is packed, and finds the extension. Errors: those of open().
+  Result<void> prepare(std::string_view format);
 
-  std::string shown_;  ///< the path, for messages
-  int descriptor_ = -1;
+  std::string path_, shown_, extension_;
+  int descriptor_ = -1;  ///< of a regular file; of a stream -1
   Version before_;
+  std::shared_ptr<const RawVector<char>> held_;  ///< with the padding; null: the file has the bytes
 };
 
 /// A file as a whole in memory.
@@ -80,20 +109,22 @@ class InputFile {
 /// inside a number or a word.
 class FileBytes {
  public:
-  static constexpr std::size_t kPadding = 64;
+  static constexpr std::size_t kPadding = InputFile::kPadding;
 
-  /// A copy, made by all cores. Throws ReadFailure and std::bad_alloc, the latter also where the
-  /// file is larger than what is free.
+  /// A copy, made by all cores; shared with a file that holds its bytes. Throws ReadFailure and
+  /// std::bad_alloc, the latter also where the file is larger than what is free.
   explicit FileBytes(const InputFile& file);
 
   /// The same of a small file that is opened for it. Errors: those of InputFile, kOutOfMemory.
   static Result<FileBytes> read(const std::string& path);
 
   std::string_view bytes() const {
+    if (held_) return {held_->data(), held_->size() - kPadding};
     return {reinterpret_cast<const char*>(buffer_.data()), buffer_.size() - kPadding};
   }
 
  private:
+  std::shared_ptr<const RawVector<char>> held_;
   LargeBuffer buffer_;  ///< with the padding
 };
 
@@ -112,20 +143,5 @@ auto guarded_read(const std::string& name, const char* what, std::size_t size, c
   return Error{ErrorCode::kOutOfMemory, name + ": not enough memory for the " + what + " in its " +
                                             std::to_string(size) + " bytes"};
 }
-
-/// All that a stream (a pipe, a terminal, a file) held, with the padding that FileBytes has.
-class StreamBytes {
- public:
-  /// Reads the open descriptor to its end; it stays open. `name`: of the stream, in messages.
-  /// Errors: kBadFile (it cannot be read, it holds nothing), kOutOfMemory (it holds more than half
-  /// of the memory that is free, for the mesh needs as much again), each "NAME: cause".
-  static Result<StreamBytes> read(int descriptor, const std::string& name);
-
-  std::string_view bytes() const { return {buffer_.data(), size_}; }
-
- private:
-  std::vector<char> buffer_;  ///< with the padding
-  std::size_t size_ = 0;
-};
 
 }  // namespace geotherm::io

@@ -13,6 +13,15 @@
 namespace geotherm::io {
 namespace {
 
+constexpr const char* kStrips = "tristrips";
+
+/// The property with the corners of a face or a strip; one more than there are where none has them.
+std::size_t corners_of(const PlyElement& element) {
+  int corners = element.find("vertex_indices", true);
+  if (corners < 0) corners = element.find("vertex_index", true);
+  return corners < 0 ? element.properties.size() : static_cast<std::size_t>(corners);
+}
+
 template <class Body>
 void read_vertices(Body& body, const PlyElement& element, RawMesh& mesh) {
   std::vector<int> axis_of(element.properties.size(), -1);
@@ -36,16 +45,20 @@ void read_vertices(Body& body, const PlyElement& element, RawMesh& mesh) {
 }
 
 template <class Body>
+Index checked_corner(Body& body, std::int64_t corner, std::int64_t vertex_count) {
+  if (corner < 0 || corner >= vertex_count) {
+    body.fail("vertex " + std::to_string(corner) + " is used, but the file has " +
+              std::to_string(vertex_count) + " vertices (0 to " + std::to_string(vertex_count - 1) +
+              ")");
+  }
+  return static_cast<Index>(corner);
+}
+
+template <class Body>
 void read_corners(Body& body, const PlyProperty& list, std::int64_t vertex_count, FanBuilder& fan) {
   const std::int64_t corner_count = list_length(body, list);
   for (std::int64_t k = 0; k < corner_count; ++k) {
-    const std::int64_t corner = body.integer(list.type);
-    if (corner < 0 || corner >= vertex_count) {
-      body.fail("vertex " + std::to_string(corner) + " is used, but the file has " +
-                std::to_string(vertex_count) + " vertices (0 to " +
-                std::to_string(vertex_count - 1) + ")");
-    }
-    fan.add(static_cast<Index>(corner));
+    fan.add(checked_corner(body, body.integer(list.type), vertex_count));
   }
 }
 
@@ -73,10 +86,38 @@ void read_faces(Body& body, const PlyElement& element, std::size_t corners,
   }
 }
 
-/// What the file must have to be a mesh; returns the property with the corners of a face.
-std::size_t check_elements(std::string_view bytes, const PlyHeader& header) {
-  const auto fail = [&](const std::string& cause, Hint hint = {}) {
-    fail_at_line(bytes, header.body - 1, cause, std::move(hint));  // at the header's end
+/// Strips of triangles, which -1 separates, in the lists of some rows: as VCG and Stanford's
+/// programs write them.
+template <class Body>
+void read_strips(Body& body, const PlyElement& element, std::int64_t vertex_count, RawMesh& mesh) {
+  constexpr std::int64_t kSeparator = -1;
+  const std::size_t corners = corners_of(element);
+  std::vector<Index> strip;
+  for (std::int64_t row = 0; row < element.count; ++row) {
+    body.now_reading(element, row);
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (k != corners) {
+        skip(body, property);
+        continue;
+      }
+      for (std::int64_t left = list_length(body, property); left > 0; --left) {
+        const std::int64_t corner = body.integer(property.type);
+        if (corner != kSeparator) {
+          strip.push_back(checked_corner(body, corner, vertex_count));
+          if (left > 1) continue;
+        }
+        add_strip(strip, mesh.faces);
+        strip.clear();
+      }
+    }
+  }
+}
+
+/// Throws where the file cannot be a mesh.
+void check_elements(std::string_view bytes, const PlyHeader& header) {
+  const auto fail = [&](const std::string& cause) {
+    fail_at_line(bytes, header.body - 1, cause);  // at the header's end
   };
   const PlyElement* const vertex = header.find("vertex");
   if (vertex == nullptr) fail("the header has no element \"vertex\"");
@@ -85,27 +126,27 @@ std::size_t check_elements(std::string_view bytes, const PlyHeader& header) {
       fail(std::string("the element \"vertex\" has no property \"") + axis + "\"");
     }
   }
-  const PlyElement* const face = header.find("face");
-  if (face == nullptr && header.find("tristrips") != nullptr) {
-    fail("the file has triangle strips, which are not supported", {"save it with faces"});
-  }
-  if (face == nullptr) {
+  if (header.find("face") == nullptr && header.find(kStrips) == nullptr) {
     fail("the file has no faces (no element \"face\"): a point cloud has no surface");
   }
-  int corners = face->find("vertex_indices", true);
-  if (corners < 0) corners = face->find("vertex_index", true);
-  if (corners < 0) fail("the element \"face\" has no list \"vertex_indices\" or \"vertex_index\"");
-  return static_cast<std::size_t>(corners);
+  for (const char* const name : {"face", kStrips}) {
+    const PlyElement* const element = header.find(name);
+    if (element == nullptr || corners_of(*element) < element->properties.size()) continue;
+    fail(std::string("the element \"") + name +
+         "\" has no list \"vertex_indices\" or \"vertex_index\"");
+  }
 }
 
 template <class Body>
-RawMesh read_body(Body body, const PlyHeader& header, std::size_t corners) {
+RawMesh read_body(Body body, const PlyHeader& header) {
   RawMesh mesh;
   for (const PlyElement& element : header.elements) {
     if (element.name == "vertex") {
       read_vertices(body, element, mesh);
     } else if (element.name == "face") {
-      read_faces(body, element, corners, header.find("vertex")->count, mesh);
+      read_faces(body, element, corners_of(element), header.find("vertex")->count, mesh);
+    } else if (element.name == kStrips) {
+      read_strips(body, element, header.find("vertex")->count, mesh);
     } else {
       skip_rows(body, element);
     }
@@ -121,9 +162,9 @@ RawMesh read_body(Body body, const PlyHeader& header, std::size_t corners) {
 
 RawMesh read_ply(std::string_view bytes) {
   const PlyHeader header = read_ply_header(bytes);
-  const std::size_t corners = check_elements(bytes, header);
+  check_elements(bytes, header);
   return with_ply_body(bytes, header,
-                       [&](auto body) { return read_body(std::move(body), header, corners); });
+                       [&](auto body) { return read_body(std::move(body), header); });
 }
 
 }  // namespace geotherm::io

@@ -5,9 +5,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geotherm/error.h"
@@ -28,6 +30,7 @@ struct RawMesh {
   std::vector<Face> faces;
   std::vector<Polygon> polygons;
   std::size_t welded = 0;
+  std::optional<int> up_axis = {};  ///< 0 to 2, where the format says which axis is up
   std::vector<std::string> notes;
 };
 
@@ -60,6 +63,17 @@ class FanBuilder {
   Index last_ = kNoIndex;
   std::size_t count_ = 0;
 };
+
+/// The triangles of a strip, every other one of which turns the other way round. Those that repeat
+/// a corner only join parts of it and are left out.
+inline void add_strip(std::span<const Index> corners, std::vector<Face>& faces) {
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    Face face = {corners[k - 2], corners[k - 1], corners[k]};
+    if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+    if (k % 2 == 1) std::swap(face[0], face[1]);
+    faces.push_back(face);
+  }
+}
 
 /// Replaces fans of polygons by other triangles where the fan folds over itself: ears are cut off,
 /// in the plane of the polygon. A convex polygon keeps its fan, and so does one that crosses
@@ -94,7 +108,12 @@ RawMesh read_off(std::string_view text);
 RawMesh read_ply(std::string_view bytes);
 RawMesh read_stl(std::string_view bytes);
 
-/// A file by its extension, with its polygons as fans. Errors: those of read_mesh(), which throws
+/// What Assimp reads: glTF, 3MF, Collada. Files that a .gltf names are read from its folder alone.
+RawMesh read_scene(const InputFile& file);
+/// The same of bytes; `folder` as of read_scene_here(), `format`: "glb", ...
+RawMesh read_scene(std::string_view bytes, std::string_view format, const std::string& folder);
+
+/// A file by its format, with its polygons as fans. Errors: those of read_mesh(), which throws
 /// nothing either.
 Result<RawMesh> read_raw_mesh(const std::string& path);
 

@@ -256,7 +256,9 @@ bool PolygonCutter::triangulate(std::span<const Vec3> positions, std::span<Face>
   for (const Face& f : fan) normal += cross(f);
   const bool folded =
       std::ranges::any_of(fan, [&](const Face& f) { return !(cross(f).dot(normal) > 0); });
-  if (!folded || !(normal.norm() > 0)) return true;
+  // Beyond the range of doubles no place in the plane is known: the fan stays.
+  const double area = normal.norm();
+  if (!folded || !(area > 0) || !std::isfinite(area)) return true;
   if (tests_ < 0) return false;
 
   std::vector<Index> corners = {fan[0][0], fan[0][1]};

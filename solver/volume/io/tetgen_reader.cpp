@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // TetGen's .node and .ele (Si 2015): a line of counts, then a line for each vertex or tet. The
 // first vertex has the number 0 or 1, and the corners count from there.
+#include "solver/volume/io/tetgen_reader.h"
+
 #include <string>
 #include <utility>
 
 #include "solver/mesh/io/text_scanner.h"
-#include "solver/volume/io/raw_tets.h"
 
 namespace geotherm::io {
 namespace {
@@ -47,7 +48,7 @@ TetgenNodes read_node(std::string_view text) {
   return nodes;
 }
 
-RawTets read_ele(std::string_view text, TetgenNodes nodes) {
+RawElements read_ele(std::string_view text, TetgenNodes nodes) {
   TextScanner scanner(text, '#');
   const std::int64_t count = tetgen_count(scanner, "tetrahedra");
   const std::int64_t corners = scanner.integer();
@@ -56,14 +57,14 @@ RawTets read_ele(std::string_view text, TetgenNodes nodes) {
                  {"let TetGen write linear elements"});
   }
   scanner.skip_line();
-  RawTets raw;
+  RawElements raw;
   raw.positions = std::move(nodes.positions);
   raw.tets.reserve(static_cast<std::size_t>(count));
   const auto vertices = static_cast<std::int64_t>(raw.positions.size());
   for (std::int64_t t = 0; t < count; ++t) {
     scanner.now_reading("tetrahedron", t + 1, count);
     scanner.integer();  // its number
-    Tet tet;
+    std::array<Index, 4> tet;
     for (Index& corner : tet) {
       const std::int64_t number = scanner.integer();
       if (number < nodes.first || number >= nodes.first + vertices) {

@@ -2,13 +2,14 @@
 // Gmsh's .msh, versions 2.x and 4.1, text and binary (Gmsh reference manual, "File formats"). Nodes
 // and elements have tags of any size in any order; here a vertex is numbered by its place.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <string>
 #include <unordered_map>
 
-#include "solver/volume/io/mixed_scanner.h"
-#include "solver/volume/io/raw_tets.h"
+#include "solver/mesh/io/mixed_scanner.h"
+#include "solver/mesh/io/raw_elements.h"
 
 namespace geotherm::io {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// Kinds of elements: the corners of each, by the number of the kind; 0: unknown.
 constexpr int kGmshCorners[] = {0, 2,  3,  4,  4, 8,  6,  5,  3,  6,  9, 10, 27, 18, 14, 1,
                                 8, 20, 15, 13, 9, 10, 12, 15, 15, 21, 4, 5,  6,  20, 35, 56};
-constexpr std::int64_t kGmshTet = 4;
+constexpr std::int64_t kGmshTriangle = 2, kGmshQuad = 3, kGmshTet = 4;
 
 int gmsh_corners(std::int64_t kind) {
   return kind > 0 && kind < static_cast<std::int64_t>(std::size(kGmshCorners)) ? kGmshCorners[kind]
@@ -70,7 +71,7 @@ class GmshFile {
  public:
   explicit GmshFile(std::string_view bytes) : scanner_(bytes, '\0') {}
 
-  RawTets read() {
+  RawElements read() {
     bool has_nodes = false, has_elements = false;
     read_format();
     while (!scanner_.words().at_end()) {
@@ -202,16 +203,21 @@ class GmshFile {
 
   template <class Tag>
   void read_tet() {
-    Tet tet;
+    std::array<Index, 4> tet;
     for (Index& corner : tet) corner = tags_.place(scanner_.integer<Tag>(), scanner_);
     raw_.tets.push_back(tet);
   }
 
-  /// An element behind its tags: of one that is no tet the corners are passed over.
+  /// An element behind its tags: of one that is no tet or face the corners are passed over.
   template <class Tag>
   void read_element(std::int64_t kind) {
     if (kind == kGmshTet) return read_tet<Tag>();
     const int corners = gmsh_corners(kind);
+    if (kind == kGmshTriangle || kind == kGmshQuad) {
+      ++raw_.others[gmsh_name(kind)];
+      for (int k = 0; k < corners; ++k) fan_.add(tags_.place(scanner_.integer<Tag>(), scanner_));
+      return fan_.end(raw_.polygons);
+    }
     if (scanner_.is_binary()) {
       if (corners == 0) scanner_.fail("the type " + std::to_string(kind) + " is unknown");
       scanner_.skip<Tag>(corners);
@@ -285,11 +291,12 @@ class GmshFile {
   MixedScanner scanner_;
   bool is_4_ = false;
   NodeTags tags_;
-  RawTets raw_;
+  RawElements raw_;
+  FanBuilder fan_{raw_.faces};
 };
 
 }  // namespace
 
-RawTets read_gmsh(std::string_view bytes) { return GmshFile(bytes).read(); }
+RawElements read_gmsh(std::string_view bytes) { return GmshFile(bytes).read(); }
 
 }  // namespace geotherm::io

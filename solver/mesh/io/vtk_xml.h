@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "geotherm/error.h"
-#include "solver/volume/io/vtu_arrays.h"
+#include "solver/mesh/io/vtu_arrays.h"
 
 // The tags that the formats of VTK in XML share ("VTK XML formats", Kitware).
 namespace geotherm::io {

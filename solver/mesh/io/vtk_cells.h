@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/volume/io/raw_tets.h"
+#include "solver/mesh/io/raw_elements.h"
 
 namespace geotherm::io {
 
@@ -34,9 +34,12 @@ struct VtkCells {
   std::vector<std::int64_t> types;
 };
 
-/// Adds the tets among the cells, whose corners count from the vertex `first` on. Throws
-/// ReadFailure with the cell's number, counted from 0, where offsets do not rise, a tet has not
-/// four corners, or a corner is no vertex.
-void add_vtk_tets(const VtkCells& cells, std::int64_t first, RawTets& raw);
+/// VTK's numbers of kinds of cells.
+inline constexpr std::int64_t kVtkStrip = 6, kVtkPolygon = 7;
+
+/// Adds the tets and faces among the cells, whose corners count from the vertex `first` on; of
+/// strips each triangle. Throws ReadFailure with the cell's number, counted from 0, where offsets
+/// do not rise, a cell has not the corners that its kind has, or a corner is no vertex.
+void add_vtk_cells(const VtkCells& cells, std::int64_t first, RawElements& raw);
 
 }  // namespace geotherm::io

@@ -1,27 +1,32 @@
 // SPDX-License-Identifier: MIT
 // Medit's .mesh (text) and .meshb (binary): keywords, each with a count and rows (Frey 2001).
+#include <array>
 #include <bit>
 #include <cmath>
 #include <string>
 
 #include "solver/mesh/io/byte_order.h"
 #include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/raw_elements.h"
 #include "solver/mesh/io/text_scanner.h"
-#include "solver/volume/io/raw_tets.h"
 
 namespace geotherm::io {
 namespace {
 
-/// Elements that are counted and left out, by their keyword in text and their number in binary.
+/// Elements that are no tets, by their keyword in text and their number in binary.
 struct MeditKind {
   std::string_view keyword;
   std::int32_t code;
   const char* name;
+  std::size_t face_corners = 0;  ///< of faces
 };
 constexpr MeditKind kMeditKinds[] = {
-    {"Edges", 5, "edges"},          {"Triangles", 6, "triangles"},
-    {"Quadrilaterals", 7, "quads"}, {"TetrahedraP2", 30, "tetrahedra with 10 corners"},
-    {"Prisms", 9, "prisms"},        {"Hexahedra", 10, "hexahedra"},
+    {"Edges", 5, "edges"},
+    {"Triangles", 6, "triangles", 3},
+    {"Quadrilaterals", 7, "quads", 4},
+    {"TetrahedraP2", 30, "tetrahedra with 10 corners"},
+    {"Prisms", 9, "prisms"},
+    {"Hexahedra", 10, "hexahedra"},
     {"Pyramids", 49, "pyramids"},
 };
 
@@ -40,7 +45,7 @@ std::int64_t medit_count(TextScanner& scanner, const char* things, std::size_t b
   return count;
 }
 
-void read_medit_vertices(TextScanner& scanner, RawTets& raw) {
+void read_medit_vertices(TextScanner& scanner, RawElements& raw) {
   const std::int64_t count = medit_count(scanner, "vertices", 8);  // "0 0 0 0\n"
   raw.positions.resize(static_cast<std::size_t>(count));
   for (std::int64_t v = 0; v < count; ++v) {
@@ -53,7 +58,7 @@ void read_medit_vertices(TextScanner& scanner, RawTets& raw) {
 }
 
 template <class Fail>
-Index medit_corner(std::int64_t number, const RawTets& raw, const Fail& fail) {
+Index medit_corner(std::int64_t number, const RawElements& raw, const Fail& fail) {
   if (number < 1 || static_cast<std::uint64_t>(number) > raw.positions.size()) {
     fail("vertex " + std::to_string(number) + " is used, but the file has " +
          std::to_string(raw.positions.size()) + " vertices, counted from 1, before it");
@@ -61,18 +66,34 @@ Index medit_corner(std::int64_t number, const RawTets& raw, const Fail& fail) {
   return static_cast<Index>(number - 1);
 }
 
-void read_medit_tets(TextScanner& scanner, RawTets& raw) {
+void read_medit_tets(TextScanner& scanner, RawElements& raw) {
   const std::int64_t count = medit_count(scanner, "tetrahedra", 10);  // "1 2 3 4 0\n"
   raw.tets.reserve(static_cast<std::size_t>(count));
   for (std::int64_t t = 0; t < count; ++t) {
     scanner.now_reading("tetrahedron", t + 1, count);
-    Tet tet;
+    std::array<Index, 4> tet;
     for (Index& corner : tet) {
       corner = medit_corner(scanner.integer(), raw,
                             [&scanner](const std::string& cause) { scanner.fail(cause); });
     }
     scanner.number();  // its region
     raw.tets.push_back(tet);
+  }
+}
+
+/// Corners are one after the other: those of all elements of one kind, and their region.
+void read_medit_faces(TextScanner& scanner, const MeditKind& kind, RawElements& raw) {
+  const std::int64_t count = medit_count(scanner, kind.name, 2 * (kind.face_corners + 1));
+  raw.others[kind.name] += count;
+  FanBuilder fan(raw.faces);
+  for (std::int64_t f = 0; f < count; ++f) {
+    scanner.now_reading("face", f + 1, count);
+    for (std::size_t k = 0; k < kind.face_corners; ++k) {
+      fan.add(medit_corner(scanner.integer(), raw,
+                           [&scanner](const std::string& cause) { scanner.fail(cause); }));
+    }
+    fan.end(raw.polygons);
+    scanner.number();  // its region
   }
 }
 
@@ -83,22 +104,14 @@ void check_once(bool empty, const char* keyword, TextScanner& scanner) {
 
 }  // namespace
 
-std::string text_of_others(const RawTets& raw) {
-  std::string text;
-  for (const auto& [kind, count] : raw.others) {
-    text += (text.empty() ? "" : ", ") + kind + " (" + std::to_string(count) + ")";
-  }
-  return text;
-}
-
-RawTets read_medit(std::string_view text) {
+RawElements read_medit(std::string_view text) {
   TextScanner scanner(text, '#');
   scanner.now_reading("the header");
   if (scanner.word() != "MeshVersionFormatted") {
     scanner.fail("a Medit file starts with the word MeshVersionFormatted");
   }
   scanner.integer();
-  RawTets raw;
+  RawElements raw;
   while (!scanner.at_end()) {
     scanner.now_reading("the list of keywords");
     const std::string keyword(scanner.word());
@@ -116,7 +129,12 @@ RawTets read_medit(std::string_view text) {
       read_medit_tets(scanner, raw);
     } else {
       for (const MeditKind& kind : kMeditKinds) {
-        if (keyword == kind.keyword) raw.others[kind.name] += medit_count(scanner, kind.name, 2);
+        if (keyword != kind.keyword) continue;
+        if (kind.face_corners > 0) {
+          read_medit_faces(scanner, kind, raw);
+        } else {
+          raw.others[kind.name] += medit_count(scanner, kind.name, 2);
+        }
       }
       while (!scanner.at_end() && !starts_keyword(scanner.peek())) scanner.word();
     }
@@ -192,7 +210,7 @@ class MeshbScanner {
   std::int32_t version_ = 1;
 };
 
-void read_meshb_vertices(MeshbScanner& scanner, RawTets& raw) {
+void read_meshb_vertices(MeshbScanner& scanner, RawElements& raw) {
   raw.positions.resize(static_cast<std::size_t>(scanner.count("vertices", 4)));
   for (Vec3& p : raw.positions) {
     for (int axis = 0; axis < 3; ++axis) p[axis] = scanner.coordinate();
@@ -200,9 +218,9 @@ void read_meshb_vertices(MeshbScanner& scanner, RawTets& raw) {
   }
 }
 
-void read_meshb_tets(MeshbScanner& scanner, RawTets& raw) {
+void read_meshb_tets(MeshbScanner& scanner, RawElements& raw) {
   raw.tets.resize(static_cast<std::size_t>(scanner.count("tetrahedra", 5)));
-  for (Tet& tet : raw.tets) {
+  for (auto& tet : raw.tets) {
     for (Index& corner : tet) {
       corner = medit_corner(scanner.integer(), raw,
                             [&scanner](const std::string& cause) { scanner.fail(cause); });
@@ -211,12 +229,26 @@ void read_meshb_tets(MeshbScanner& scanner, RawTets& raw) {
   }
 }
 
+void read_meshb_faces(MeshbScanner& scanner, const MeditKind& kind, RawElements& raw) {
+  const std::int64_t count = scanner.count(kind.name, kind.face_corners + 1);
+  raw.others[kind.name] += count;
+  FanBuilder fan(raw.faces);
+  for (std::int64_t f = 0; f < count; ++f) {
+    for (std::size_t k = 0; k < kind.face_corners; ++k) {
+      fan.add(medit_corner(scanner.integer(), raw,
+                           [&scanner](const std::string& cause) { scanner.fail(cause); }));
+    }
+    fan.end(raw.polygons);
+    scanner.integer();
+  }
+}
+
 }  // namespace
 
-RawTets read_meshb(std::string_view bytes) {
+RawElements read_meshb(std::string_view bytes) {
   constexpr std::int32_t kDimension = 3, kVertices = 4, kTetrahedra = 8, kEnd = 54;
   MeshbScanner scanner(bytes);
-  RawTets raw;
+  RawElements raw;
   while (scanner.bytes_left() > 0) {
     const std::int32_t keyword = scanner.keyword();
     if (keyword == kEnd) break;
@@ -230,7 +262,12 @@ RawTets read_meshb(std::string_view bytes) {
       keyword == kVertices ? read_meshb_vertices(scanner, raw) : read_meshb_tets(scanner, raw);
     } else {
       for (const MeditKind& kind : kMeditKinds) {
-        if (keyword == kind.code) raw.others[kind.name] += scanner.count(kind.name, 2);
+        if (keyword != kind.code) continue;
+        if (kind.face_corners > 0) {
+          read_meshb_faces(scanner, kind, raw);
+        } else {
+          raw.others[kind.name] += scanner.count(kind.name, 2);
+        }
       }
     }
     if (next == 0) break;  // the last one

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// VTK's legacy format: unstructured grids, text and binary (big endian), versions up to 5.1, whose
-// cells are stored as offsets and connectivity ("VTK file formats", Kitware).
+// VTK's legacy format: unstructured grids and poly data, text and binary (big endian), versions up
+// to 5.1, whose cells are stored as offsets and connectivity ("VTK file formats", Kitware).
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "solver/volume/io/mixed_scanner.h"
-#include "solver/volume/io/raw_tets.h"
-#include "solver/volume/io/vtk_cells.h"
+#include "solver/mesh/io/mixed_scanner.h"
+#include "solver/mesh/io/raw_elements.h"
+#include "solver/mesh/io/vtk_cells.h"
 
 namespace geotherm::io {
 namespace {
@@ -15,6 +17,7 @@ struct LegacyType {
   std::string_view name;
   VtkType type;
 };
+constexpr std::int64_t kVtkVertices = 2, kVtkLines = 4;
 constexpr LegacyType kLegacyTypes[] = {
     {"char", VtkType::kInt8},
     {"signed_char", VtkType::kInt8},
@@ -45,7 +48,7 @@ class LegacyVtk {
   LegacyVtk(std::string_view bytes, std::size_t behind_title, bool has_offsets)
       : scanner_(bytes, '\0', behind_title), has_offsets_(has_offsets) {}
 
-  RawTets read() {
+  RawElements read() {
     read_header();
     bool data = false;
     while (!data && !scanner_.words().at_end()) {
@@ -53,10 +56,15 @@ class LegacyVtk {
       const std::string keyword = lower_case(scanner_.words().word());
       if (keyword == "points") {
         read_points();
-      } else if (keyword == "cells") {
-        read_cells();
+      } else if (keyword == "cells" && !is_poly_data_) {
+        be_first(has_cells_, "CELLS");
+        read_cells(cells_);
       } else if (keyword == "cell_types") {
         read_types();
+      } else if (is_poly_data_ && (keyword == "polygons" || keyword == "triangle_strips")) {
+        read_poly_data(keyword == "polygons" ? kVtkPolygon : kVtkStrip);
+      } else if (is_poly_data_ && (keyword == "lines" || keyword == "vertices")) {
+        read_poly_data(keyword == "lines" ? kVtkLines : kVtkVertices);
       } else if (keyword == "field") {
         pass_field();
       } else if (keyword == "metadata") {
@@ -69,8 +77,11 @@ class LegacyVtk {
       }
     }
     if (!has_points_) scanner_.fail("the grid has no POINTS");
-    if (!has_cells_ || !has_types_) scanner_.fail("the grid has no CELLS with CELL_TYPES");
-    add_vtk_tets(cells_, 0, raw_);
+    if (!is_poly_data_) {
+      if (!has_cells_ || !has_types_) scanner_.fail("the grid has no CELLS with CELL_TYPES");
+      parts_.push_back(std::move(cells_));
+    }
+    for (const VtkCells& part : parts_) add_vtk_cells(part, 0, raw_);
     return std::move(raw_);
   }
 
@@ -85,9 +96,11 @@ class LegacyVtk {
     if (kind == "binary") scanner_.be_binary(std::endian::big);
     if (lower_case(words.word()) != "dataset") words.fail("the word DATASET does not follow");
     const std::string data = lower_case(words.word());
-    if (data != "unstructured_grid") {
-      words.fail("the dataset " + quoted(data, data.data()) + " is no unstructured grid",
-                 {"a volume of tetrahedra is an unstructured grid"});
+    is_poly_data_ = data == "polydata";
+    if (!is_poly_data_ && data != "unstructured_grid") {
+      words.fail(
+          "the dataset " + quoted(data, data.data()) + " is no unstructured grid or poly data",
+          {"a surface is poly data, a volume of tetrahedra an unstructured grid"});
     }
   }
 
@@ -136,30 +149,37 @@ class LegacyVtk {
     scanner_.end_values();
   }
 
-  void read_cells() {
-    be_first(has_cells_, "CELLS");
+  /// Lists of one kind of cells, which have no list of types.
+  void read_poly_data(std::int64_t type) {
+    VtkCells& part = parts_.emplace_back();
+    read_cells(part);
+    part.types.assign(std::max<std::size_t>(part.offsets.size(), 1) - 1, type);
+    if (part.offsets.empty()) part.offsets.push_back(0);
+  }
+
+  void read_cells(VtkCells& cells) {
     const std::int64_t first = scanner_.words().integer();
     const std::int64_t second = scanner_.words().integer();
-    if (has_offsets_) return read_offset_cells(first, second);
+    if (has_offsets_) return read_offset_cells(first, second, cells);
     scanner_.begin_values();
     values(second, "numbers of cells", 4);
     const std::size_t count = values(first, "cells", 4);
-    cells_.offsets.reserve(count + 1);
-    cells_.offsets.push_back(0);
+    cells.offsets.reserve(count + 1);
+    cells.offsets.push_back(0);
     for (std::size_t c = 0; c < count; ++c) {
       scanner_.now_reading("cell", static_cast<std::int64_t>(c) + 1, first);
       const std::size_t corners = values(scanner_.integer<std::int32_t>(), "corners", 4);
       for (std::size_t k = 0; k < corners; ++k) {
-        cells_.connectivity.push_back(scanner_.integer<std::int32_t>());
+        cells.connectivity.push_back(scanner_.integer<std::int32_t>());
       }
-      cells_.offsets.push_back(static_cast<std::int64_t>(cells_.connectivity.size()));
+      cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
     }
     scanner_.end_values();
   }
 
-  void read_offset_cells(std::int64_t offsets, std::int64_t corners) {
-    read_list(offsets, "offsets", cells_.offsets);
-    read_list(corners, "connectivity", cells_.connectivity);
+  void read_offset_cells(std::int64_t offsets, std::int64_t corners, VtkCells& cells) {
+    read_list(offsets, "offsets", cells.offsets);
+    read_list(corners, "connectivity", cells.connectivity);
   }
 
   void read_list(std::int64_t count, const char* name, std::vector<std::int64_t>& list) {
@@ -224,14 +244,16 @@ class LegacyVtk {
 
   MixedScanner scanner_;
   bool has_offsets_;
+  bool is_poly_data_ = false;
   bool has_points_ = false, has_cells_ = false, has_types_ = false;
-  VtkCells cells_;
-  RawTets raw_;
+  VtkCells cells_;               ///< of an unstructured grid
+  std::vector<VtkCells> parts_;  ///< that are added once all points are known
+  RawElements raw_;
 };
 
 }  // namespace
 
-RawTets read_vtk(std::string_view bytes) {
+RawElements read_vtk(std::string_view bytes) {
   if (!lower_case(bytes.substr(0, 14)).starts_with("# vtk datafile")) {
     fail_at_line(bytes, bytes.data(), "a file of VTK starts with \"# vtk DataFile Version\"");
   }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/volume/io/vtk_cells.h"
+#include "solver/mesh/io/vtk_cells.h"
 
 namespace geotherm::io {
 

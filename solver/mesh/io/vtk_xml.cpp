@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/volume/io/vtk_xml.h"
+#include "solver/mesh/io/vtk_xml.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solver/volume/io/vtu_arrays.h"
+#include "solver/mesh/io/vtu_arrays.h"
 
 #include <zlib.h>
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "solver/mesh/io/raw_mesh.h"
+
+namespace geotherm::io {
+
+/// What Assimp reads, in this process. `folder`: with its slash, where files that the model names
+/// are; empty: nowhere. Throws ReadFailure and std::bad_alloc; what is damaged may end the process.
+RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder);
+
+}  // namespace geotherm::io
