@@ -25,6 +25,7 @@ struct Renderer::State {
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
   bool solid = false;
+  std::vector<Openness> openness;
   std::optional<MovingDrawMesh> moving;  ///< of a model that moves
   std::vector<std::uint32_t> origin;     ///< DrawMesh::origin
   std::vector<float> gathered;           ///< values by drawn vertex
@@ -85,19 +86,22 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     State& s = *state_;
     s.draw(build_draw_mesh(geometry), {geometry.positions.begin(), geometry.positions.end()});
     s.faces = std::move(faces);
+    s.openness.assign(geometry.openness.begin(), geometry.openness.end());
     s.solid = geometry.solid;
     s.moving.reset();
     return {};
   });
 }
 
-Result<void> Renderer::move_surface(std::span<const glm::vec3> positions) {
+Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
+                                    std::span<const Openness> openness) {
   assert(positions.size() == state_->positions.size());
   return guarded("moving the model", [&]() -> Result<void> {
     State& s = *state_;
     const bool known = s.moving.has_value();
-    if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid});
-    if (!known || !s.moving->move(positions)) {
+    if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid, openness});
+    s.openness.assign(openness.begin(), openness.end());
+    if (!known || !s.moving->move(positions, openness)) {
       s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
       return {};
     }
@@ -137,7 +141,7 @@ Result<void> Renderer::set_face_values(std::span<const float> values) {
     corners.reserve(3 * values.size());
     for (const float value : values) corners.insert(corners.end(), 3, value);
     if (!values.empty() && !s.recorder.has_face_values()) {
-      const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid});
+      const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid, s.openness});
       s.recorder.set_separate_faces(separate_faces(mesh), corners);
     } else {
       s.recorder.set_face_values(corners);

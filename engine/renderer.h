@@ -58,7 +58,8 @@ class Renderer {
   /// The same model with its vertices elsewhere, as many as set_surface() had; all else that was
   /// set has to be set again. Cost: the first time that of set_surface(), then what has moved and a
   /// copy of V vertices.
-  Result<void> move_surface(std::span<const glm::vec3> positions);
+  Result<void> move_surface(std::span<const glm::vec3> positions,
+                            std::span<const Openness> openness = {});
   /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
   Result<void> set_values(std::span<const float> values);
   /// One place in the colours a vertex, -1 where there is none (Paint::kRegions); empty: no

@@ -8,6 +8,8 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 normal_and_label;  // label: -1, 0 or 1, all three in each triangle
 layout(location = 2) in vec2 value_and_region;  // region: a place in the colours, -1: none
 
+layout(location = 3) in vec2 openness;  // of the normal's side, of the other one
+
 layout(constant_id = 0) const uint features = 0;
 
 // Few outputs: each costs a software device time in every triangle. xyz: the normal, or for flat
@@ -19,6 +21,7 @@ layout(location = 1) out vec2 corner;  // two of the three barycentric coordinat
 layout(location = 2) out vec3 eye;
 layout(location = 3) out vec3 corner_values;
 layout(location = 4) out vec3 corner_regions;
+layout(location = 5) out vec2 open;
 
 const float kLargestValue = 1e20;
 
@@ -29,6 +32,7 @@ void main() {
   } else {
     eye_and_value.xyz = mat3(frame.eye_from_scene) * normal_and_label.xyz;
   }
+  if ((features & kForm) != 0) open = openness;
   float value = max(value_and_region.x * frame.range.z, -1e38);
   eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? value : 0.0;
   if ((features & (kWire | kRegions)) != 0) {

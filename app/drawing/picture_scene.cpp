@@ -72,6 +72,7 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   engine::SurfaceStyle style;
   style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
+  style.form = settings.shading == PictureShading::kForm;
   if (face_field(settings.view) && !data.face_values.empty()) {
     style.paint = engine::Paint::kFaces;
     style.range_max = data.largest_face_value;
@@ -258,9 +259,19 @@ std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all
   return out;
 }
 
+std::vector<engine::Openness> scene_openness(const PictureData& data) {
+  std::vector<engine::Openness> out;
+  out.reserve(data.openness.size());
+  for (const auto& [n, front, back] : data.openness) {
+    out.push_back({{n[0], n[1], n[2]}, front, back});
+  }
+  return out;
+}
+
 Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
                             std::span<const glm::vec3> positions) {
-  return renderer.set_surface({positions, data.faces, data.solid});
+  const auto openness = scene_openness(data);
+  return renderer.set_surface({positions, data.faces, data.solid, openness});
 }
 
 Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,

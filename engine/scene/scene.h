@@ -14,11 +14,18 @@ namespace geotherm::engine {
 /// Value of a vertex that has none; its faces are drawn in neutral grey.
 inline constexpr float kNoValue = -std::numeric_limits<float>::max();
 
+/// How much light comes to a vertex, 0 to 1 on either side.
+struct Openness {
+  glm::vec3 normal;  ///< tells the sides apart
+  float front = 1, back = 1;
+};
+
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {
   std::span<const glm::vec3> positions;                 ///< V
   std::span<const std::array<std::uint32_t, 3>> faces;  ///< F, every corner in [0, V)
   bool solid = false;  ///< closed, all faces counter-clockwise from outside: no back is ever seen
+  std::span<const Openness> openness = {};  ///< V; empty: all is open
 };
 
 /// A source: a point (both ends the same) or a straight piece of a curve.
@@ -58,6 +65,8 @@ struct SurfaceStyle {
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
+  /// Hollows and what turns away from the eye are darker (SurfaceGeometry::openness).
+  bool form = false;
   bool wire = false;        ///< edges of all triangles
   float wire_width = 1.0F;  ///< pixels
   glm::vec3 wire_colour{0.08F, 0.09F, 0.11F};

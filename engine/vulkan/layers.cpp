@@ -173,6 +173,14 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.marker_rim = {scene.markers.rim, 1};
   const float half = 0.5F * scene.lines.width * scene.pixel_scale;
   frame.polyline = {half, half + scene.lines.rim * scene.pixel_scale, origin};
+  if (!scene.camera.orthographic) {
+    // From a pixel of the target to the direction in which the eye sees it.
+    const glm::mat4& p = scene.camera.projection;
+    const glm::vec2 scale(1 / p[0][0], 1 / p[1][1]);
+    const glm::vec2 per_pixel = 2.0F * scale / scene.camera.extent;
+    const glm::vec2 shift(p[2][0], p[2][1]);
+    frame.sight = {per_pixel, per_pixel * origin - scale * (1.0F - shift)};
+  }
   return frame;
 }
 
@@ -186,6 +194,7 @@ std::uint32_t surface_features(const Scene& scene) {
   if (surface.paint == Paint::kRegions) features |= shared::kRegions;
   if (has_isolines(surface)) features |= shared::kIsolines;
   if (surface.wire) features |= shared::kWire;
+  if (surface.form && scene.light != Light::kNone) features |= shared::kForm;
   return features;
 }
 

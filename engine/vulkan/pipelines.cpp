@@ -141,7 +141,8 @@ vk::Pipeline Pipelines::surface(std::uint32_t features) {
       .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, values_size, kPerVertex}},
       .attributes = {{0, 0, kFloat3, offsetof(Vertex, position)},
                      {1, 0, vk::Format::eR16G16B16A16Snorm, offsetof(Vertex, normal_and_label)},
-                     {2, 1, values, 0}}};
+                     {2, 1, values, 0},
+                     {3, 0, vk::Format::eR8G8Unorm, offsetof(Vertex, openness)}}};
   plan.features = features;
   plan.write_depth = true;
   return made(features, plan);
