@@ -9,6 +9,9 @@
 // Of corners that are nearly opposite only noise is left.
 const float kLeastWeight = 1e-4;
 
+// Of the line between regions, in widths of isolines, which are thinner.
+const float kBorderWidth = 1.6;
+
 struct Corners {
   vec3 weight;           // barycentric coordinates of the pixel
   vec3 weight_x;         // what they change by from pixel to pixel
@@ -48,10 +51,13 @@ vec3 colour_of_region(int region) {
   return region < 1 ? kNoValueColour : colour_number(min(region, int(kColourSteps)) - 1);
 }
 
-// Colours of two regions, and how far it is from their border into the first one, pixels.
+// Colours of two regions, and how far it is from their border into the first one, pixels; the border
+// is drawn as a line.
 vec3 beside_border(int first, int second, float inside) {
   float cover = clamp(0.5 + inside, 0.0, 1.0);
-  return mix(colour_of_region(second), colour_of_region(first), cover);
+  vec3 c = mix(colour_of_region(second), colour_of_region(first), cover);
+  float line = clamp(0.5 * kBorderWidth * frame.line.w + 0.5 - abs(inside), 0.0, 1.0);
+  return mix(c, frame.line.rgb, line);
 }
 
 // Corner `a` has a region of its own, the other two share one.
@@ -75,7 +81,7 @@ vec3 colour_of_three(Corners c, ivec3 region, vec3 value) {
   vec3 reach_y = ways(c.weight_y, c.length_opposite);
   int first = reach.x <= min(reach.y, reach.z) ? 0 : reach.y <= reach.z ? 1 : 2;
   int second = first;
-  float inside = 1.0;
+  float inside = kBorderWidth * frame.line.w + 1.0;  // beyond the line
   for (int k = 0; k < 3; ++k) {
     vec2 slope = vec2(reach_x[k] - reach_x[first], reach_y[k] - reach_y[first]);
     float pixels = (reach[k] - reach[first]) / max(length(slope), 1e-20);

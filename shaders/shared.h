@@ -51,7 +51,7 @@ struct Frame {
   vec4 line;        // colour, width
   vec4 wire;        // colour, width
   vec4 marker;      // colour, radius
-  vec4 marker_rim;  // colour, -
+  vec4 marker_rim;  // colour, the radius within it as a share
   vec4 polyline;    // half the width, the same with the rim; the tile's first pixel
   vec4 sight;       // x and y at depth 1 before the eye = pixel * xy + zw; orthographic: 0
 };
@@ -70,8 +70,9 @@ struct MarkerPush {
 
 // Pushed with each draw of a polyline.
 struct LinePush {
-  vec4 colour;
+  vec4 colour;  // multiplied by its opacity
   float half_width;
+  float dash;  // scene units from dash to dash; 0: none
 };
 
 // Pushed once for all panels.
@@ -94,7 +95,7 @@ static_assert(offsetof(Frame, marker_rim) == 240);
 static_assert(offsetof(Frame, polyline) == 256);
 static_assert(offsetof(Frame, sight) == 272);
 static_assert(sizeof(ArrowPush) == 20);
-static_assert(sizeof(LinePush) == 20);
+static_assert(sizeof(LinePush) == 24);
 static_assert(sizeof(MarkerPush) == 8);
 static_assert(sizeof(PanelPush) == 8);
 }  // namespace geotherm::engine::shared

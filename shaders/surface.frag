@@ -110,9 +110,9 @@ float brightness() {
   float size = length(n);
   n = size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
   float light = (features & kThreeLights) != 0 ? three_points(n) : headlight(n);
-  if ((features & kForm) != 0) light *= form(n);
-  // Colours that mean something are dimmed less.
-  return (features & (kMapped | kRegions)) != 0 ? 0.3 + 0.7 * light : light;
+  bool means = (features & (kMapped | kRegions)) != 0;  // such colours are dimmed less
+  if ((features & kForm) != 0) light *= means ? mix(1.0, form(n), 0.6) : form(n);
+  return means ? 0.3 + 0.7 * light : light;
 }
 
 void main() {

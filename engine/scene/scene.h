@@ -81,15 +81,20 @@ struct ArrowStyle {
 
 struct MarkerStyle {
   bool visible = true;
-  float radius = 5;  ///< pixels
+  float radius = 5;      ///< pixels
+  float inside = 0.68F;  ///< of the radius; the rest is rim
   glm::vec3 colour{1, 1, 1}, rim{0.05F};
+  float hidden_opacity = 0.33F;  ///< of the rim; what lies on it adds as much
 };
 
+/// What the surface hides of a line is drawn in dashes.
 struct LineStyle {
   bool visible = true;
-  float width = 3;                                ///< pixels, without the rim
-  float rim = 1.2F;                               ///< pixels on either side
-  glm::vec3 dark_rim{0.05F}, light_rim{1, 1, 1};  ///< about light lines, about dark ones
+  float width = 3;                                   ///< pixels, without the rim
+  float dash = 11;                                   ///< pixels from dash to dash
+  float hidden_width = 0.6F, hidden_opacity = 0.6F;  ///< of dashes, in those of the line
+  float rim = 1.2F;                                  ///< pixels on either side
+  glm::vec3 dark_rim{0.05F}, light_rim{1, 1, 1};     ///< about light lines, about dark ones
 
   /// The one that stands out from a line of this colour.
   glm::vec3 rim_about(const glm::vec3& colour) const {

@@ -114,8 +114,8 @@ class FrameRecorder {
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features);
-  void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene);
-  void record_markers(const vk::raii::CommandBuffer& commands);
+  void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene, bool hidden);
+  void record_markers(const vk::raii::CommandBuffer& commands, const MarkerStyle& style);
   void record_overlay(const vk::raii::CommandBuffer& commands);
   template <class Push>
   void push(const vk::raii::CommandBuffer& commands, const Push& values);

@@ -170,16 +170,16 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};
   frame.marker = {scene.markers.colour, scene.markers.radius * scene.pixel_scale};
-  frame.marker_rim = {scene.markers.rim, 1};
+  frame.marker_rim = {scene.markers.rim, scene.markers.inside};
   const float half = 0.5F * scene.lines.width * scene.pixel_scale;
   frame.polyline = {half, half + scene.lines.rim * scene.pixel_scale, origin};
   if (!scene.camera.orthographic) {
     // From a pixel of the target to the direction in which the eye sees it.
     const glm::mat4& p = scene.camera.projection;
-    const glm::vec2 scale(1 / p[0][0], 1 / p[1][1]);
-    const glm::vec2 per_pixel = 2.0F * scale / scene.camera.extent;
+    const glm::vec2 tangent(1 / p[0][0], 1 / p[1][1]);  // of half the picture
+    const glm::vec2 per_pixel = 2.0F * tangent / scene.camera.extent;
     const glm::vec2 shift(p[2][0], p[2][1]);
-    frame.sight = {per_pixel, per_pixel * origin - scale * (1.0F - shift)};
+    frame.sight = {per_pixel, per_pixel * origin - tangent * (1.0F - shift)};
   }
   return frame;
 }

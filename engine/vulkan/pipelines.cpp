@@ -41,7 +41,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
 
 vk::raii::PipelineLayout make_layout(const vk::raii::Device& device,
                                      const vk::DescriptorSetLayout& set) {
-  const vk::PushConstantRange push(Pipelines::kPushStages, 0, sizeof(shared::ArrowPush));
+  const vk::PushConstantRange push(Pipelines::kPushStages, 0, sizeof(shared::LinePush));
   return {device, {{}, set, push}};
 }
 
@@ -160,16 +160,19 @@ vk::Pipeline Pipelines::arrows() {
                .write_depth = true});
 }
 
-vk::Pipeline Pipelines::lines() {
-  return made(6U << 16, {.vertex = embedded::line_vert(),
-                         .fragment = embedded::line_frag(),
-                         .bindings = {{0, sizeof(LinePiece), kPerInstance}},
-                         .attributes = {{0, 0, kFloat3, offsetof(LinePiece, before)},
-                                        {1, 0, kFloat3, offsetof(LinePiece, from)},
-                                        {2, 0, kFloat3, offsetof(LinePiece, to)},
-                                        {3, 0, kFloat3, offsetof(LinePiece, after)}},
-                         .topology = vk::PrimitiveTopology::eTriangleStrip,
-                         .blend = true});
+vk::Pipeline Pipelines::lines(bool hidden) {
+  return made((hidden ? 7U : 6U) << 16,
+              {.vertex = embedded::line_vert(),
+               .fragment = embedded::line_frag(),
+               .bindings = {{0, sizeof(LinePiece), kPerInstance}},
+               .attributes = {{0, 0, kFloat3, offsetof(LinePiece, before)},
+                              {1, 0, kFloat3, offsetof(LinePiece, from)},
+                              {2, 0, kFloat3, offsetof(LinePiece, to)},
+                              {3, 0, kFloat3, offsetof(LinePiece, after)},
+                              {4, 0, vk::Format::eR32Sfloat, offsetof(LinePiece, at_from)}},
+               .topology = vk::PrimitiveTopology::eTriangleStrip,
+               .blend = true,
+               .depth_test = hidden ? vk::CompareOp::eLess : vk::CompareOp::eGreaterOrEqual});
 }
 
 vk::Pipeline Pipelines::visible_markers() {
