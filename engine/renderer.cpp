@@ -29,7 +29,7 @@ struct Renderer::State {
   std::optional<MovingDrawMesh> moving;  ///< of a model that moves
   std::vector<std::uint32_t> origin;     ///< DrawMesh::origin
   std::vector<float> gathered;           ///< values by drawn vertex
-  std::vector<std::int32_t> regions;     ///< by the model's vertices; empty: none
+  std::vector<glm::vec2> regions;        ///< and margins, by the model's vertices; empty: none
   std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
@@ -51,13 +51,13 @@ struct Renderer::State {
   }
 
   /// Values and regions by drawn vertex, as they are drawn together.
-  void upload_regions(std::span<const std::int32_t> from) {
-    std::vector<glm::vec2> both;
-    both.reserve(from.empty() ? 0 : origin.size());
+  void upload_regions(std::span<const glm::vec2> from) {
+    std::vector<glm::vec3> all;
+    all.reserve(from.empty() ? 0 : origin.size());
     for (std::size_t i = 0; i < origin.size() && !from.empty(); ++i) {
-      both.emplace_back(gathered[i], static_cast<float>(from[origin[i]]));
+      all.emplace_back(gathered[i], from[origin[i]]);
     }
-    recorder.set_regions(both);
+    recorder.set_regions(all);
   }
 };
 
@@ -123,10 +123,15 @@ Result<void> Renderer::set_values(std::span<const float> values) {
   });
 }
 
-Result<void> Renderer::set_regions(std::span<const std::int32_t> regions) {
+Result<void> Renderer::set_regions(std::span<const std::int32_t> regions,
+                                   std::span<const float> margins) {
   assert(regions.empty() || regions.size() == state_->positions.size());
+  assert(regions.size() == margins.size());
   return guarded("loading regions", [&]() -> Result<void> {
-    std::vector<std::int32_t> kept(regions.begin(), regions.end());
+    std::vector<glm::vec2> kept;
+    for (std::size_t v = 0; v < regions.size(); ++v) {
+      kept.emplace_back(static_cast<float>(regions[v]), margins[v]);
+    }
     state_->upload_regions(kept);
     state_->regions = std::move(kept);
     return {};

@@ -45,8 +45,7 @@ struct Frame {
   float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
-                    // w: scene units of a scaled value of 1
+  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
   vec4 plain;       // colour of the surface
   vec4 line;        // colour, width
   vec4 wire;        // colour, width

@@ -14,10 +14,9 @@ layout(set = 0, binding = kColoursBinding) uniform samplerBuffer colours;
 layout(location = 0) in vec4 eye_and_value;  // see surface.vert
 layout(location = 1) in vec2 corner;
 
-layout(location = 2) in vec3 eye;
-layout(location = 3) in vec3 corner_values;
-layout(location = 4) in vec3 corner_regions;
-layout(location = 5) in vec2 open;  // how much light comes to both sides
+layout(location = 2) in vec3 corner_margins;
+layout(location = 3) in vec3 corner_regions;
+layout(location = 4) in vec2 open;  // how much light comes to both sides
 
 layout(location = 0) out vec4 colour;
 

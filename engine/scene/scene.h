@@ -49,8 +49,8 @@ enum class Paint {
   kPlain,  ///< one colour
   kMap,    ///< the colour map at each vertex' value
   kFaces,  ///< the colour map at each face's own value, flat within it
-  /// The colour of the region that is nearest: each vertex has one, and between vertices of several
-  /// it is the one whose value grows least from there.
+  /// The colour of the region that is nearest, with lines between regions: each vertex has one, and
+  /// between vertices of several their margins decide (region_margins()).
   kRegions,
 };
 
@@ -61,7 +61,6 @@ struct SurfaceStyle {
   Paint paint = Paint::kPlain;
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
-  float scene_per_value = 0;              ///< kRegions: lengths in scene space; 0: values are none
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};

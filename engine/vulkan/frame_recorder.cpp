@@ -87,8 +87,8 @@ void FrameRecorder::set_values(std::span<const float> values) {
   device_->update(values_, std::as_bytes(values));
 }
 
-void FrameRecorder::set_regions(std::span<const glm::vec2> values_and_regions) {
-  const auto bytes = std::as_bytes(values_and_regions);
+void FrameRecorder::set_regions(std::span<const glm::vec3> values_regions_margins) {
+  const auto bytes = std::as_bytes(values_regions_margins);
   if (bytes.empty()) {
     regions_ = {};
   } else if (regions_.bytes == bytes.size()) {

@@ -91,7 +91,8 @@ class FrameRecorder {
   /// As many as set_surface() had; vertices of separate faces are gone.
   void set_vertices(std::span<const DrawMesh::Vertex> vertices);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
-  void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
+  /// Values, regions, margins: as many, or none.
+  void set_regions(std::span<const glm::vec3> values_regions_margins);
   /// Vertices of faces for themselves (separate_faces()) with their values.
   void set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
                           std::span<const float> values);

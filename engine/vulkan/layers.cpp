@@ -164,8 +164,7 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
   const float per_width = width != 0 ? 1 / width : 0;
   const float scale = has_isolines(surface) ? 1 / surface.line_spacing : 1;
-  frame.range = {per_width / scale, -surface.range_min * per_width, scale,
-                 surface.scene_per_value / scale};
+  frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
   frame.plain = {surface.colour, 1};
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};

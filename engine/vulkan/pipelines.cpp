@@ -133,8 +133,8 @@ vk::Pipeline Pipelines::surface(std::uint32_t features) {
   using Vertex = DrawMesh::Vertex;
   // Without regions there are values alone; the shader reads 0 for the rest.
   const bool regions = (features & shared::kRegions) != 0;
-  const auto values = regions ? vk::Format::eR32G32Sfloat : vk::Format::eR32Sfloat;
-  const std::uint32_t values_size = regions ? sizeof(glm::vec2) : sizeof(float);
+  const auto values = regions ? kFloat3 : vk::Format::eR32Sfloat;
+  const std::uint32_t values_size = regions ? sizeof(glm::vec3) : sizeof(float);
   Plan plan{
       .vertex = embedded::surface_vert(),
       .fragment = embedded::surface_frag(),

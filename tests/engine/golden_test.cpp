@@ -6,6 +6,7 @@
 
 #include "bench/models/generate.h"
 #include "engine/scene/colours.h"
+#include "engine/scene/region_margins.h"
 #include "geotherm/heat_method.h"
 #include "solver/geometry/face_gradient.h"
 #include "tests/engine/stage.h"
@@ -136,7 +137,8 @@ TEST_P(GoldenView, LooksAsItDid) {
   stage.scene.pixel_scale = 0.75F;
   GetParam().change(stage.scene);
   if (stage.scene.surface.paint == Paint::kRegions) {
-    must(stage.renderer.set_regions(solved.regions));
+    // Their values are no distances.
+    must(stage.renderer.set_regions(solved.regions, region_margins({}, solved.regions, {})));
     must(stage.renderer.set_colours(region_table()));
   }
   expect_golden(stage.draw(), GetParam().name, GetParam().share);
