@@ -19,7 +19,7 @@ struct Figure;
 struct DrawnPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;
-  std::shared_ptr<const Figure> figure;  ///< DrawAs::kFigure: what lies over the pixels
+  std::shared_ptr<const Figure> figure = nullptr;  ///< DrawAs::kFigure: what lies over the pixels
 };
 
 /// All of a picture as pixels, or its lines, markers and letters apart, as shapes.

@@ -157,7 +157,7 @@ void describe(cairo_surface_t* pdf, const std::vector<PngText>& texts) {
     set("Title", CAIRO_PDF_METADATA_TITLE);
     set("Description", CAIRO_PDF_METADATA_SUBJECT);
     set("Software", CAIRO_PDF_METADATA_CREATOR);
-    set("command", CAIRO_PDF_METADATA_KEYWORDS);
+    set("geotherm:command", CAIRO_PDF_METADATA_KEYWORDS);
   }
 }
 

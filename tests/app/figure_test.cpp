@@ -34,8 +34,9 @@ DrawnPicture picture() {
 }
 
 std::string bytes_of(FigureFormat format) {
-  auto bytes = app::figure_bytes(picture(), format,
-                                 {{"Title", "a title"}, {"command", "geotherm render x -o y.pdf"}});
+  auto bytes =
+      app::figure_bytes(picture(), format,
+                        {{"Title", "a title"}, {"geotherm:command", "geotherm render x -o y.pdf"}});
   EXPECT_TRUE(bytes) << bytes.error().message;
   return *bytes;
 }
@@ -110,8 +111,8 @@ TEST_F(FigureOfSquares, ShowsIsolinesWhereTheyAreSeen) {
       length += (part.back() - part.front()).norm();
     }
   }
-  // Levels 0.3, 0.6 and 0.9 at x = -0.167, 0.167 and 0.5: two pass behind the square in front, which
-  // has them as well.
+  // Levels 0.3, 0.6 and 0.9 at x = -0.167, 0.167 and 0.5: two pass behind the square in front,
+  // which has them as well.
   const double pixels = scene_.camera.pixels_per_unit;
   EXPECT_NEAR(length / pixels, 3, 0.02);
   engine::Scene rest = FigureShapes::rest_of(scene_);
@@ -127,7 +128,7 @@ TEST_F(FigureOfSquares, DashesWhatIsHiddenOfPaths) {
     for (const app::Outline& part : stroke.parts) {
       (stroke.dash > 0 ? hidden : seen) += (part.back() - part.front()).norm();
     }
-    EXPECT_EQ(stroke.colour[3] < 1, stroke.dash > 0);
+    EXPECT_EQ(stroke.colour[3]<1, stroke.dash> 0);
   }
   const double pixels = scene_.camera.pixels_per_unit;
   EXPECT_NEAR(hidden / pixels, 0.5, 0.01);

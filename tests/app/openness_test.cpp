@@ -54,8 +54,9 @@ INSTANTIATE_TEST_SUITE_P(FewAndManyFaces, OpennessOf, testing::Values(8U, 40U, 1
                          [](const auto& test) { return std::to_string(test.param); });
 
 TEST_P(OpennessOf, APlaneIsFull) {
-  const Sheet plane =
-      sheet(GetParam(), [](float x, float y) -> PictureData::Vector { return {x / 2, y / 2, 0}; });
+  const Sheet plane = sheet(GetParam(), [](float x, float y) -> PictureData::Vector {
+    return {x / 2, y / 2, 0};
+  });
   for (const auto& [normal, front, back] : plane.openness()) {
     EXPECT_NEAR(normal[2], 1, 1e-5);
     EXPECT_GT(front, 0.99F);

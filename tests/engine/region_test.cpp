@@ -23,8 +23,8 @@ class Regions : public GpuTest {
   static Stage stage_with(Model model, const Places& regions,
                           const std::vector<float>& distances = {}) {
     Stage stage(device(), std::move(model), 1);
-    must(stage.renderer.set_regions(
-        regions, region_margins(stage.model.geometry(), regions, distances)));
+    must(stage.renderer.set_regions(regions,
+                                    region_margins(stage.model.geometry(), regions, distances)));
     stage.scene.surface.line_width = 0;
     must(stage.renderer.set_colours(region_table()));
     stage.scene.surface.paint = Paint::kRegions;
