@@ -2,6 +2,7 @@
 #include "app/drawing/figure_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -108,18 +109,21 @@ class Strokes {
     }
   }
 
-  /// Each is hidden or seen as a whole; first the rims of all, so that pieces of a curve join.
+  /// Each is hidden or seen as a whole; what overlaps is drawn at once.
   void add_markers(std::span<const PictureData::Segment> markers) {
     const engine::MarkerStyle& style = scene_.markers;
     const double width = 2 * style.radius * scene_.pixel_scale;
-    for (const bool inside : {false, true}) {
-      for (const auto& [from, to] : markers) {
-        const Vec3 ends[] = {to_vec3(from), to_vec3(to)};
-        const float alpha = sight_.sees(ends[0] / 2 + ends[1] / 2) ? 1 : style.hidden_opacity;
-        strokes.push_back({{{sight_.place(ends[0]), sight_.place(ends[1])}},
-                           to_colour(inside ? style.colour : style.rim, alpha),
-                           inside ? style.inside * width : width});
-      }
+    std::array<std::vector<Outline>, 2> parts;  // hidden, seen
+    for (const auto& [from, to] : markers) {
+      const Vec3 ends[] = {to_vec3(from), to_vec3(to)};
+      parts[sight_.sees(ends[0] / 2 + ends[1] / 2) ? 1 : 0].push_back(
+          {sight_.place(ends[0]), sight_.place(ends[1])});
+    }
+    for (std::size_t seen = 0; seen < 2; ++seen) {
+      if (parts[seen].empty()) continue;
+      const float alpha = seen == 1 ? 1 : style.hidden_opacity;
+      strokes.push_back({parts[seen], to_colour(style.rim, alpha), width});
+      strokes.push_back({parts[seen], to_colour(style.colour, alpha), style.inside * width});
     }
   }
 

@@ -21,7 +21,7 @@ std::size_t count_of(const std::string& part, const std::string& in) {
   return count;
 }
 
-DrawnPicture picture() {
+DrawnPicture figured_picture() {
   Figure figure;
   figure.strokes.push_back({{{{1, 1}, {30, 20}}, {{5, 5}, {6, 9}}}, {1, 0, 0, 1}, 2});
   figure.strokes.push_back({{{{1, 9}, {30, 9}}}, {0, 0, 1, 0.5F}, 1, 6});
@@ -33,16 +33,16 @@ DrawnPicture picture() {
   return out;
 }
 
-std::string bytes_of(FigureFormat format) {
+std::string figure_file(FigureFormat format) {
   auto bytes =
-      app::figure_bytes(picture(), format,
+      app::figure_bytes(figured_picture(), format,
                         {{"Title", "a title"}, {"geotherm:command", "geotherm render x -o y.pdf"}});
   EXPECT_TRUE(bytes) << bytes.error().message;
   return *bytes;
 }
 
 TEST(Figures, AsPdfHoldOneImageAndAFont) {
-  const std::string pdf = bytes_of(FigureFormat::kPdf);
+  const std::string pdf = figure_file(FigureFormat::kPdf);
   EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
   EXPECT_EQ(count_of("/Subtype /Image", pdf), 1U);
   EXPECT_EQ(count_of("/FontFile2", pdf), 1U);
@@ -52,7 +52,7 @@ TEST(Figures, AsPdfHoldOneImageAndAFont) {
 }
 
 TEST(Figures, AsSvgHoldOneImageAndShapes) {
-  const std::string svg = bytes_of(FigureFormat::kSvg);
+  const std::string svg = figure_file(FigureFormat::kSvg);
   EXPECT_EQ(count_of("<image", svg), 1U);
   EXPECT_NE(svg.find("width=\"40px\" height=\"30px\""), std::string::npos) << svg.substr(0, 300);
   EXPECT_EQ(count_of("stroke-dasharray", svg), 1U);
@@ -62,8 +62,8 @@ TEST(Figures, AsSvgHoldOneImageAndShapes) {
 
 TEST(Figures, HaveTheSameBytesEachTime) {
   for (const FigureFormat format : {FigureFormat::kPdf, FigureFormat::kSvg}) {
-    EXPECT_EQ(bytes_of(format), bytes_of(format));
-    EXPECT_EQ(bytes_of(format).find("Date"), std::string::npos);
+    EXPECT_EQ(figure_file(format), figure_file(format));
+    EXPECT_EQ(figure_file(format).find("Date"), std::string::npos);
   }
 }
 

@@ -151,6 +151,7 @@ TEST_F(Regions, CarryIsolines) {
   const Image bare = stage.draw();
   must(stage.renderer.set_values(stage.model.values([](const glm::vec3& p) { return p.x + 1; })));
   EXPECT_EQ(stage.draw().pixels, bare.pixels);
+  stage.scene.surface.line_width = 1.4F;
   stage.scene.surface.line_spacing = 0.25F;
   EXPECT_GT(different_pixels(bare, stage.draw(), 50), 0.01);
 }
