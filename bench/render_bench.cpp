@@ -56,8 +56,9 @@ std::vector<Task> make_tasks(const Stage& stage, Index triangles, int samples) {
   PictureSettings settings;
   settings.width = kSize.x;
   settings.height = kSize.y;
-  const auto scene_for = [&](View view) {
+  const auto scene_for = [&](View view, PictureShading shading = PictureShading::kForm) {
     settings.view = view;
+    settings.shading = shading;
     engine::Scene scene = scene_of(stage.data, settings, picture_scale(stage.data, settings));
     scene.camera = camera_of({}, settings.camera, stage.positions, kSize, {});
     return scene;
@@ -66,9 +67,10 @@ std::vector<Task> make_tasks(const Stage& stage, Index triangles, int samples) {
   const auto add = [&](const std::string& name, const engine::Scene& scene) {
     tasks.push_back({{.view = name, .triangles = triangles, .samples = samples}, scene});
   };
-  add("fill", scene_for(View::kSmooth));  // one colour, light, no markers
-  for (const View view : {View::kWireframe, View::kFlat, View::kSources, View::kHeatGradient,
-                          View::kGradientError, View::kContours}) {
+  // One colour, light, no markers: what views are compared with.
+  add("fill", scene_for(View::kSmooth, PictureShading::kPlain));
+  for (const View view : {View::kWireframe, View::kFlat, View::kSmooth, View::kSources,
+                          View::kHeatGradient, View::kGradientError, View::kContours}) {
     add(to_text(view), scene_for(view));
   }
   add("update", tasks.front().scene);

@@ -25,10 +25,11 @@ struct Renderer::State {
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
   bool solid = false;
+  std::vector<Openness> openness;
   std::optional<MovingDrawMesh> moving;  ///< of a model that moves
   std::vector<std::uint32_t> origin;     ///< DrawMesh::origin
   std::vector<float> gathered;           ///< values by drawn vertex
-  std::vector<std::int32_t> regions;     ///< by the model's vertices; empty: none
+  std::vector<glm::vec2> regions;        ///< and margins, by the model's vertices; empty: none
   std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
@@ -50,13 +51,13 @@ struct Renderer::State {
   }
 
   /// Values and regions by drawn vertex, as they are drawn together.
-  void upload_regions(std::span<const std::int32_t> from) {
-    std::vector<glm::vec2> both;
-    both.reserve(from.empty() ? 0 : origin.size());
+  void upload_regions(std::span<const glm::vec2> from) {
+    std::vector<glm::vec3> all;
+    all.reserve(from.empty() ? 0 : origin.size());
     for (std::size_t i = 0; i < origin.size() && !from.empty(); ++i) {
-      both.emplace_back(gathered[i], static_cast<float>(from[origin[i]]));
+      all.emplace_back(gathered[i], from[origin[i]]);
     }
-    recorder.set_regions(both);
+    recorder.set_regions(all);
   }
 };
 
@@ -85,19 +86,22 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
     State& s = *state_;
     s.draw(build_draw_mesh(geometry), {geometry.positions.begin(), geometry.positions.end()});
     s.faces = std::move(faces);
+    s.openness.assign(geometry.openness.begin(), geometry.openness.end());
     s.solid = geometry.solid;
     s.moving.reset();
     return {};
   });
 }
 
-Result<void> Renderer::move_surface(std::span<const glm::vec3> positions) {
+Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
+                                    std::span<const Openness> openness) {
   assert(positions.size() == state_->positions.size());
   return guarded("moving the model", [&]() -> Result<void> {
     State& s = *state_;
     const bool known = s.moving.has_value();
-    if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid});
-    if (!known || !s.moving->move(positions)) {
+    if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid, openness});
+    s.openness.assign(openness.begin(), openness.end());
+    if (!known || !s.moving->move(positions, openness)) {
       s.draw(s.moving->mesh(), {positions.begin(), positions.end()});
       return {};
     }
@@ -119,10 +123,15 @@ Result<void> Renderer::set_values(std::span<const float> values) {
   });
 }
 
-Result<void> Renderer::set_regions(std::span<const std::int32_t> regions) {
+Result<void> Renderer::set_regions(std::span<const std::int32_t> regions,
+                                   std::span<const float> margins) {
   assert(regions.empty() || regions.size() == state_->positions.size());
+  assert(regions.size() == margins.size());
   return guarded("loading regions", [&]() -> Result<void> {
-    std::vector<std::int32_t> kept(regions.begin(), regions.end());
+    std::vector<glm::vec2> kept;
+    for (std::size_t v = 0; v < regions.size(); ++v) {
+      kept.emplace_back(static_cast<float>(regions[v]), margins[v]);
+    }
     state_->upload_regions(kept);
     state_->regions = std::move(kept);
     return {};
@@ -137,7 +146,7 @@ Result<void> Renderer::set_face_values(std::span<const float> values) {
     corners.reserve(3 * values.size());
     for (const float value : values) corners.insert(corners.end(), 3, value);
     if (!values.empty() && !s.recorder.has_face_values()) {
-      const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid});
+      const DrawMesh mesh = build_draw_mesh({s.positions, s.faces, s.solid, s.openness});
       s.recorder.set_separate_faces(separate_faces(mesh), corners);
     } else {
       s.recorder.set_face_values(corners);

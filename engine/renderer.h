@@ -58,12 +58,13 @@ class Renderer {
   /// The same model with its vertices elsewhere, as many as set_surface() had; all else that was
   /// set has to be set again. Cost: the first time that of set_surface(), then what has moved and a
   /// copy of V vertices.
-  Result<void> move_surface(std::span<const glm::vec3> positions);
+  Result<void> move_surface(std::span<const glm::vec3> positions,
+                            std::span<const Openness> openness = {});
   /// One value a vertex (kNoValue: none). Cost: a copy of V floats.
   Result<void> set_values(std::span<const float> values);
-  /// One place in the colours a vertex, -1 where there is none (Paint::kRegions); empty: no
-  /// regions.
-  Result<void> set_regions(std::span<const std::int32_t> regions);
+  /// One place in the colours a vertex, -1 where there is none (Paint::kRegions), and its margin
+  /// (region_margins()); empty: no regions.
+  Result<void> set_regions(std::span<const std::int32_t> regions, std::span<const float> margins);
   /// One value a face (kNoValue: none), for Paint::kFaces; empty: no such values. Cost: those after
   /// none take as long as set_surface(), and three vertices a face of the device's memory.
   Result<void> set_face_values(std::span<const float> values);

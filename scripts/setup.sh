@@ -22,7 +22,7 @@ TEXT
 
 packages=(g++ cmake ninja-build
   libeigen3-dev libnanoflann-dev zlib1g-dev libpng-dev  # the library
-  libcli11-dev nlohmann-json3-dev                   # the program
+  libcli11-dev nlohmann-json3-dev libcairo2-dev pkg-config  # the program
   libvulkan-dev libglm-dev libstb-dev fonts-dejavu-core glslang-tools spirv-tools  # the renderer
   libvulkan1 mesa-vulkan-drivers)                   # drawing, without a GPU as well
 others=(libsuitesparse-dev libopenblas-dev          # the backend cholmod

@@ -10,9 +10,11 @@ layout(location = 0) in vec3 before;
 layout(location = 1) in vec3 from;
 layout(location = 2) in vec3 to;
 layout(location = 3) in vec3 after;
+layout(location = 4) in float at_from;  // along the line, scene units
 
 layout(location = 0) flat out vec4 ends;       // both ends, pixels of the picture
 layout(location = 1) flat out vec4 bisectors;  // directions across which it meets its neighbours; 0: none
+layout(location = 2) flat out vec2 run;        // along the line at both ends, scene units
 
 const float kNearest = 1e-4;  // to the eye
 const float kShortest = 1e-3;  // pixels; what is shorter has no direction
@@ -42,6 +44,7 @@ float overhang(vec2 along, vec2 across) {
 
 void main() {
   ends = bisectors = vec4(0.0);
+  run = at_from + vec2(0.0, distance(from, to));
   vec4 a = clip_of(from);
   vec4 b = clip_of(to);
   if (a.w < kNearest && b.w < kNearest) {

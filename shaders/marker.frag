@@ -19,7 +19,7 @@ void main() {
   bool inside = push.inside > 0.5;
   if (push.opacity < 1.0 && radius < frame.marker.w && (along < 0.0 || along >= 1.0)) discard;
   float away = length(at - clamp(along, 0.0, 1.0) * segment);
-  float reach = inside ? 0.68 * radius : radius;
+  float reach = inside ? frame.marker_rim.w * radius : radius;
   float cover = clamp(reach + 0.5 - away, 0.0, 1.0) * push.opacity;
   if (cover <= 0.0) discard;
   colour = vec4(inside ? frame.marker.rgb : frame.marker_rim.rgb, 1.0) * cover;

@@ -32,6 +32,7 @@ SHARED_CONSTANT kWire = 8;      // edges of the triangles
 SHARED_CONSTANT kThreeLights = 16;
 SHARED_CONSTANT kNoLight = 32;
 SHARED_CONSTANT kRegions = 64;  // painted by the nearest region
+SHARED_CONSTANT kForm = 128;    // darker where little light comes, and towards outlines
 
 // RGBA8, evenly over the colour map.
 SHARED_CONSTANT kColourSteps = 1024;
@@ -44,14 +45,14 @@ struct Frame {
   float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
-                    // w: scene units of a scaled value of 1
+  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
   vec4 plain;       // colour of the surface
   vec4 line;        // colour, width
   vec4 wire;        // colour, width
   vec4 marker;      // colour, radius
-  vec4 marker_rim;  // colour, -
+  vec4 marker_rim;  // colour, the radius within it as a share
   vec4 polyline;    // half the width, the same with the rim; the tile's first pixel
+  vec4 sight;       // x and y at depth 1 before the eye = pixel * xy + zw; orthographic: 0
 };
 
 // Pushed with each draw of arrows.
@@ -68,8 +69,9 @@ struct MarkerPush {
 
 // Pushed with each draw of a polyline.
 struct LinePush {
-  vec4 colour;
+  vec4 colour;  // multiplied by its opacity
   float half_width;
+  float dash;  // scene units from dash to dash; 0: none
 };
 
 // Pushed once for all panels.
@@ -78,7 +80,7 @@ struct PanelPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 2 * 64 + 16 + 8 * 16);
+static_assert(sizeof(Frame) == 2 * 64 + 16 + 9 * 16);
 static_assert(offsetof(Frame, extent) == 128);
 static_assert(offsetof(Frame, near_shift) == 136);
 static_assert(offsetof(Frame, orthographic) == 140);
@@ -90,8 +92,9 @@ static_assert(offsetof(Frame, wire) == 208);
 static_assert(offsetof(Frame, marker) == 224);
 static_assert(offsetof(Frame, marker_rim) == 240);
 static_assert(offsetof(Frame, polyline) == 256);
+static_assert(offsetof(Frame, sight) == 272);
 static_assert(sizeof(ArrowPush) == 20);
-static_assert(sizeof(LinePush) == 20);
+static_assert(sizeof(LinePush) == 24);
 static_assert(sizeof(MarkerPush) == 8);
 static_assert(sizeof(PanelPush) == 8);
 }  // namespace geotherm::engine::shared

@@ -14,15 +14,21 @@ layout(set = 0, binding = kColoursBinding) uniform samplerBuffer colours;
 layout(location = 0) in vec4 eye_and_value;  // see surface.vert
 layout(location = 1) in vec2 corner;
 
-layout(location = 2) in vec3 eye;
-layout(location = 3) in vec3 corner_values;
-layout(location = 4) in vec3 corner_regions;
+layout(location = 2) in vec3 corner_margins;
+layout(location = 3) in vec3 corner_regions;
+layout(location = 4) in vec2 open;  // how much light comes to both sides
 
 layout(location = 0) out vec4 colour;
 
 // What is larger, either way, comes from a corner without a value, weighted or extrapolated.
 const float kLargestValue = 1e20;
 const vec3 kNoValueColour = vec3(0.62);
+
+// Of the light, what is missing where none comes from around, and at an outline; the cosine to the
+// eye below which one begins.
+const float kHollowShade = 0.65;
+const float kOutlineShade = 0.35;
+const float kOutline = 0.45;
 
 // How bright a surface is whose unit normal is `n` in eye space (x right, y up, z to the eye).
 // A face that looks at the key light keeps its colour: what a colour map says stays readable.
@@ -81,6 +87,16 @@ float edges(vec3 b) {
   return max(cover.x, max(cover.y, cover.z)) * fade;
 }
 
+// What shows the form of a surface whatever its colour: less light in hollows, and less towards
+// outlines, where it turns away from the eye.
+float form(vec3 n) {
+  float light = gl_FrontFacing ? open.x : open.y;
+  vec3 to_eye = normalize(vec3(-(gl_FragCoord.xy * frame.sight.xy + frame.sight.zw), 1.0));
+  float facing = clamp(dot(n, to_eye) * (1.0 / kOutline), 0.0, 1.0);
+  float outline = 1.0 - kOutlineShade * (1.0 - facing) * (1.0 - facing);
+  return (1.0 - kHollowShade * (1.0 - light)) * outline;
+}
+
 float brightness() {
   if ((features & kNoLight) != 0) return 1.0;
   vec3 n;
@@ -93,8 +109,9 @@ float brightness() {
   float size = length(n);
   n = size > 0.0 ? n / size : vec3(0.0, 0.0, 1.0);
   float light = (features & kThreeLights) != 0 ? three_points(n) : headlight(n);
-  // Colours that mean something are dimmed less.
-  return (features & (kMapped | kRegions)) != 0 ? 0.3 + 0.7 * light : light;
+  bool means = (features & (kMapped | kRegions)) != 0;  // such colours are dimmed less
+  if ((features & kForm) != 0) light *= means ? mix(1.0, form(n), 0.6) : form(n);
+  return means ? 0.3 + 0.7 * light : light;
 }
 
 void main() {

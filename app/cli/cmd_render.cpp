@@ -5,6 +5,7 @@
 #include "app/cli/picture_report.h"
 #include "app/cli/sequence_work.h"
 #include "app/picture/cut_picture.h"
+#include "app/picture/figure.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
 #include "app/picture/picture_text.h"
@@ -22,6 +23,14 @@
 namespace geotherm::app {
 namespace {
 
+/// Absent: pixels.
+std::optional<FigureFormat> figure_format(const std::string& path) {
+  const std::string extension = io::file_extension(path);
+  if (extension == ".pdf") return FigureFormat::kPdf;
+  if (extension == ".svg") return FigureFormat::kSvg;
+  return std::nullopt;
+}
+
 Result<void> check_output(const RenderArguments& arguments, const PictureSettings& settings) {
   const std::string& path = arguments.output;
   if (path == "-" && settings.turntable > 0) {
@@ -29,9 +38,9 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
                  "--turntable: several pictures cannot go to standard output; give -o FILE.png"};
   }
   const std::string extension = io::file_extension(path);
-  if (path == "-" || extension == ".png") return {};
+  if (path == "-" || extension == ".png" || figure_format(path)) return {};
   return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
-                                         ".png, not '" + one_line(extension) +
+                                         ".png, .pdf or .svg, not '" + one_line(extension) +
                                          "'; give -o FILE.png"};
 }
 
@@ -173,19 +182,22 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
     if (report(progress, "drawing", static_cast<double>(frame) / frames)) return {};
     return cancelled_error();
   };
+  const std::optional<FigureFormat> format = figure_format(figures.paths.front());
   Stopwatch watch;
   const auto take_frame = [&](int frame, const DrawnPicture& picture) -> Result<void> {
     figures.draw_ms += watch.lap();
-    auto bytes = png_bytes(picture, picture_texts(figures, frame));
-    if (!bytes) return bytes.error();
     const std::string& path = figures.paths[static_cast<std::size_t>(frame)];
+    const auto texts = picture_texts(figures, frame);
+    auto bytes = format ? figure_bytes(picture, *format, texts) : png_bytes(picture, texts);
+    if (!bytes) return bytes.error();
     auto written = outputs.write_text(path, *std::move(bytes), standard_output);
     if (!written) return written;
     figures.write_ms += watch.lap();
     return announce(frame + 1);
   };
   if (auto going = announce(0); !going) return going;
-  Result<void> drawn = drawing.draw(data, figures.settings, take_frame);
+  Result<void> drawn =
+      drawing.draw(data, figures.settings, take_frame, format ? DrawAs::kFigure : DrawAs::kPixels);
   if (!drawn) outputs.remove_written();
   return drawn;
 }
@@ -225,9 +237,11 @@ void note_empty(const PictureData& data, const PictureSettings& settings,
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   command
-      .add_option("-o,--output", arguments.output,
-                  "the picture, .png; - is standard output; with --sequence a name with a place "
-                  "for the frame's number, such as frame_%04d.png")
+      .add_option(
+          "-o,--output", arguments.output,
+          "the picture: .png, or .pdf or .svg with lines and letters as shapes; - is standard "
+          "output, as PNG; with --sequence a name with a place for the frame's number, "
+          "such as frame_%04d.png")
       ->type_name("FILE")
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
@@ -250,6 +264,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "Examples:\n"
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
       "  geotherm render bunny -s 0 --path 1500 -o path.png\n"
+      "  geotherm render gargoyle -s 17 -o figure.pdf\n"
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/drawing/figure_shapes.h"
 #include "app/drawing/picture_scene.h"
 #include "app/picture/cut_picture.h"
 #include "app/picture/drawing.h"
@@ -61,30 +62,38 @@ class EngineDrawing final : public Drawing {
   }
 
   Result<void> draw(const PictureData& data, const PictureSettings& settings,
-                    const TakeFrame& frame) override {
+                    const TakeFrame& frame, DrawAs as) override {
     if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
     const std::vector<glm::vec3> positions = scene_vectors(data.positions);
-    if (is_cut(data, settings)) {
-      const PictureData cut = cut_picture(data, settings).data;
-      const std::vector<glm::vec3> places = scene_vectors(cut.positions);
-      if (auto done = upload_picture(*renderer_, cut, settings, places); !done) return done;
-    } else if (auto done = upload_picture(*renderer_, data, settings, positions); !done) {
-      return done;
-    }
+    std::optional<CutPicture> cut;
+    if (is_cut(data, settings)) cut = cut_picture(data, settings);
+    const PictureData& shown = cut ? cut->data : data;
+    const std::vector<glm::vec3> places = cut ? scene_vectors(shown.positions) : positions;
+    if (auto done = upload_picture(*renderer_, shown, settings, places); !done) return done;
     const PictureScale scale = picture_scale(data, settings);
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
     engine::Scene scene = scene_of(data, settings, scale);
+    std::optional<FigureShapes> shapes;
+    if (as == DrawAs::kFigure) {
+      auto built = FigureShapes::build(shown, scene.surface);
+      if (!built) return built.error();
+      shapes = *std::move(built);
+    }
     const std::vector<glm::vec3> framed = scene_vectors(data.framed);
     const std::vector<glm::vec3>& fitted = framed.empty() ? positions : framed;
     for (int i = 0; i < frame_count(settings); ++i) {
       scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, layout.insets);
-      auto image = engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
+      std::shared_ptr<const Figure> figure;
+      if (shapes) figure = std::make_shared<Figure>(shapes->of(shown, scene, layout.overlay));
+      auto image = shapes ? engine::draw_picture(*device_, *renderer_, FigureShapes::rest_of(scene))
+                          : engine::draw_picture(*device_, *renderer_, scene, layout.overlay);
       if (!image) {
         if (image.error().code == ErrorCode::kNoDevice) close();  // lost: the next is another one
         return image.error();
       }
-      const DrawnPicture picture{image->width, image->height, std::move(image->pixels)};
+      const DrawnPicture picture{image->width, image->height, std::move(image->pixels),
+                                 std::move(figure)};
       if (auto taken = frame(i, picture); !taken) return taken;
     }
     return {};

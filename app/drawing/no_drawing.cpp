@@ -16,7 +16,7 @@ class NoDrawing final : public Drawing {
   std::vector<std::string> colour_maps() const override { return {"red-blue"}; }
   Result<std::vector<DrawingDevice>> devices() override { return no_renderer(); }
   Result<DrawingDevice> open(const PictureSettings&) override { return no_renderer(); }
-  Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&) override {
+  Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&, DrawAs) override {
     return no_renderer();
   }
 };

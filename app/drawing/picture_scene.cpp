@@ -8,6 +8,7 @@
 #include "app/picture/picture_scale.h"
 #include "app/text/text.h"
 #include "engine/scene/colours.h"
+#include "engine/scene/region_margins.h"
 
 namespace geotherm::app {
 namespace {
@@ -72,6 +73,7 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   engine::SurfaceStyle style;
   style.smooth = settings.view != View::kFlat;
   style.wire = settings.view == View::kWireframe;
+  style.form = settings.shading == PictureShading::kForm;
   if (face_field(settings.view) && !data.face_values.empty()) {
     style.paint = engine::Paint::kFaces;
     style.range_max = data.largest_face_value;
@@ -82,9 +84,6 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   const bool mapped = maps_values(settings.view);
   if (data.values.empty() || !(regions || mapped)) return style;
   if (mapped) style.paint = engine::Paint::kMap;
-  if (!data.is_signed) {
-    style.scene_per_value = static_cast<float>(data.value_unit / data.model_per_scene);
-  }
   style.range_min = value_of(data, scale.min);
   style.range_max = value_of(data, scale.max);
   style.line_spacing = value_of(data, scale.spacing);
@@ -224,15 +223,28 @@ std::vector<std::array<std::uint32_t, 3>> joining_triangles(const PictureData& d
   return triangles;
 }
 
+/// Where values are distances, in scene units.
+std::vector<float> scene_distances(const PictureData& data) {
+  std::vector<float> out;
+  const auto unit = static_cast<float>(data.value_unit / data.model_per_scene);
+  if (data.is_signed || !std::isfinite(unit)) return out;
+  for (const float value : data.values)
+    out.push_back(value == kNoPictureValue ? value : value * unit);
+  return out;
+}
+
 /// The colours of a view, and what they stand for where that is no value.
 Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
                             const PictureSettings& settings) {
   if (shows_regions(data, settings)) {
     const auto places = engine::region_colour_places(joining_triangles(data), data.nearest);
-    if (auto done = renderer.set_regions(places); !done) return done;
+    const std::vector<glm::vec3> positions = scene_vectors(data.positions);
+    const auto margins =
+        engine::region_margins({positions, data.faces}, data.nearest, scene_distances(data));
+    if (auto done = renderer.set_regions(places, margins); !done) return done;
     return renderer.set_colours(engine::region_table());
   }
-  if (auto done = renderer.set_regions({}); !done) return done;
+  if (auto done = renderer.set_regions({}, {}); !done) return done;
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   return map == nullptr ? Result<void>()
                         : renderer.set_colours(engine::colour_table(*map, settings.reverse));
@@ -258,9 +270,19 @@ std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all
   return out;
 }
 
+std::vector<engine::Openness> scene_openness(const PictureData& data) {
+  std::vector<engine::Openness> out;
+  out.reserve(data.openness.size());
+  for (const auto& [n, front, back] : data.openness) {
+    out.push_back({{n[0], n[1], n[2]}, front, back});
+  }
+  return out;
+}
+
 Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
                             std::span<const glm::vec3> positions) {
-  return renderer.set_surface({positions, data.faces, data.solid});
+  const auto openness = scene_openness(data);
+  return renderer.set_surface({positions, data.faces, data.solid, openness});
 }
 
 Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,

@@ -37,6 +37,8 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
 
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
+std::vector<engine::Openness> scene_openness(const PictureData& data);
+
 /// Hands a renderer the mesh. `positions`: those of the data. Errors: the renderer's.
 Result<void> upload_surface(engine::Renderer& renderer, const PictureData& data,
                             std::span<const glm::vec3> positions);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/picture/openness.h"
 #include "solver/volume/tet_slice.h"
 
 namespace geotherm::app {
@@ -233,6 +234,7 @@ CutPicture cut_picture(const PictureData& whole, const PictureSettings& settings
     }
     if (!whole.nearest.empty()) data.nearest.push_back(nearest_of(whole, p));
   }
+  data.openness = openness_of(data.positions, data.faces);
   data.face_values = left_of(whole.face_values, out.origin, kNoPictureValue);
   data.heat_directions = left_of(whole.heat_directions, out.origin, {});
   data.distance_gradients = left_of(whole.distance_gradients, out.origin, {});

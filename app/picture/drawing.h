@@ -13,11 +13,17 @@
 
 namespace geotherm::app {
 
+struct Figure;
+
 /// A finished picture: rows from the top, four bytes a pixel, alpha not multiplied in.
 struct DrawnPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> pixels;
+  std::shared_ptr<const Figure> figure = nullptr;  ///< DrawAs::kFigure: what lies over the pixels
 };
+
+/// All of a picture as pixels, or its lines, markers and letters apart, as shapes.
+enum class DrawAs { kPixels, kFigure };
 
 /// A device on which pictures can be drawn, for `geotherm devices`.
 struct DrawingDevice {
@@ -48,7 +54,7 @@ class Drawing {
   /// Errors: kNoDevice (it was lost), kOutOfMemory, those of `frame`.
   using TakeFrame = std::function<Result<void>(int, const DrawnPicture&)>;
   virtual Result<void> draw(const PictureData& data, const PictureSettings& settings,
-                            const TakeFrame& frame) = 0;
+                            const TakeFrame& frame, DrawAs as = DrawAs::kPixels) = 0;
 };
 
 /// What this build draws with: the engine, or a stand-in that says that there is none. Opens

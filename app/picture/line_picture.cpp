@@ -279,14 +279,24 @@ class SvgDrawing {
     const double width = (valued ? 1.6 : 3.2) * unit_;
     for (const Polyline& line : picture_.lines) {
       const auto points = positions_of(*picture_.mesh, *line.path);
-      const auto parts = sight_.visible_parts(points);
+      const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
+      if (!valued) draw_hidden(sight_.parts(points, false), colour_at(share, style_), width);
+      const auto parts = sight_.parts(points, true);
       if (parts.empty()) continue;
       shows_lines_ = true;
-      const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
       const std::string d = commands(parts, false);
       if (!valued) stroke(d, style_.background, 2 * width);  // a rim sets it off
       stroke(d, colour_at(share, style_), width);
     }
+  }
+
+  /// What the surface hides of a path: dashes, thinner and fainter.
+  void draw_hidden(const std::vector<Outline>& parts, const Colour& colour, double width) {
+    if (parts.empty()) return;
+    svg_ += "<g stroke-dasharray=\"" + fixed(6 * unit_, 2) + ' ' + fixed(5 * unit_, 2) +
+            "\" stroke-linecap=\"butt\" stroke-opacity=\"0.6\">\n";
+    stroke(commands(parts, false), colour, 0.6 * width);
+    svg_ += "</g>\n";
   }
 
   void stroke(const std::string& d, const Colour& colour, double width) {

@@ -101,29 +101,30 @@ constexpr double kOnSurface = 4e-3;
 bool LineSight::sees(const Vec3& point) const {
   const LineView::Ray ray = view_.ray_to(point);
   const auto hit = tree_.first_hit(ray.origin, ray.direction);
-  return !hit || (1 - hit->distance) * ray.direction.stableNorm() < kOnSurface * view_.radius();
+  return !hit || (1 - hit->distance) * ray.direction.stableNorm() < kOnSurface * view_.radius;
 }
 
-Vec3 LineSight::last_seen(Vec3 seen, Vec3 hidden) const {
+Vec3 LineSight::last_such(Vec3 such, Vec3 other, bool visible) const {
   constexpr int kHalvings = 5;
   for (int i = 0; i < kHalvings; ++i) {
-    const Vec3 middle = seen / 2 + hidden / 2;
-    (sees(middle) ? seen : hidden) = middle;
+    const Vec3 middle = such / 2 + other / 2;
+    (sees(middle) == visible ? such : other) = middle;
   }
-  return seen;
+  return such;
 }
 
-std::vector<Outline> LineSight::visible_parts(std::span<const Vec3> points) const {
+std::vector<Outline> LineSight::parts(std::span<const Vec3> points, bool visible) const {
   std::vector<Outline> out;
   bool before = false;
+  const auto add = [&](const Vec3& point) { out.back().push_back(view_.project(point)); };
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool now = sees(points[i]);
+    const bool now = sees(points[i]) == visible;
     if (now && !before) {
       out.emplace_back();
-      if (i > 0) out.back().push_back(view_.project(last_seen(points[i], points[i - 1])));
+      if (i > 0) add(last_such(points[i], points[i - 1], visible));
     }
-    if (now) out.back().push_back(view_.project(points[i]));
-    if (!now && before) out.back().push_back(view_.project(last_seen(points[i - 1], points[i])));
+    if (now) add(points[i]);
+    if (!now && before) add(last_such(points[i - 1], points[i], visible));
     before = now;
   }
   return out;

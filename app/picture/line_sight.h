@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "app/picture/picture_settings.h"
@@ -54,18 +56,31 @@ using Outline = std::vector<Eigen::Vector2d>;
 /// Computes which parts of lines on a surface are not hidden by it.
 class LineSight {
  public:
-  LineSight(const RayTree& tree, const LineView& view) : tree_(tree), view_(view) {}
+  /// Any view: the eye's ray to a point (LineView::ray_to()), where a point lies in the picture,
+  /// and the model's radius.
+  struct View {
+    std::function<LineView::Ray(const Vec3&)> ray_to;
+    std::function<Eigen::Vector2d(const Vec3&)> project;
+    double radius = 1;
+  };
+
+  LineSight(const RayTree& tree, View view) : tree_(tree), view_(std::move(view)) {}
+  LineSight(const RayTree& tree, const LineView& view)
+      : LineSight(tree, View{[&view](const Vec3& p) { return view.ray_to(p); },
+                             [&view](const Vec3& p) { return view.project(p); }, view.radius()}) {}
 
   bool sees(const Vec3& point) const;
+  Eigen::Vector2d place(const Vec3& point) const { return view_.project(point); }
 
-  /// The visible parts of a polyline, pixels; where they end is found to a small part of a piece.
-  std::vector<Outline> visible_parts(std::span<const Vec3> points) const;
+  /// The parts of a polyline that are visible, or those that are hidden, pixels; where they end is
+  /// found to a small part of a piece.
+  std::vector<Outline> parts(std::span<const Vec3> points, bool visible) const;
 
  private:
-  Vec3 last_seen(Vec3 seen, Vec3 hidden) const;
+  Vec3 last_such(Vec3 such, Vec3 other, bool visible) const;
 
   const RayTree& tree_;
-  const LineView& view_;
+  View view_;
 };
 
 /// Borders, and the edges where the surface turns away from the eye: visible parts, pixels.

@@ -7,6 +7,7 @@
 #include <ranges>
 #include <set>
 
+#include "app/picture/openness.h"
 #include "geotherm/quality_fields.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/volume/clean_tets.h"
@@ -79,6 +80,7 @@ PictureData picture_in(const SceneSpace& scene, const TriangleMesh& mesh) {
     data.faces.push_back({static_cast<std::uint32_t>(face[0]), static_cast<std::uint32_t>(face[1]),
                           static_cast<std::uint32_t>(face[2])});
   }
+  data.openness = openness_of(data.positions, data.faces);
   return data;
 }
 
@@ -108,6 +110,7 @@ void move_picture(PictureData& data, const TriangleMesh& mesh) {
   for (const Face& face : mesh.faces()) {
     for (const Index v : face) data.positions[v] = scene.of(mesh.positions()[v]);
   }
+  data.openness = openness_of(data.positions, data.faces);
 }
 
 bool is_solid(const TriangleMesh& mesh, const MeshReport& report) {

@@ -33,7 +33,13 @@ struct PictureData {
   std::vector<Vector> positions;                    ///< V
   std::vector<std::array<std::uint32_t, 3>> faces;  ///< F, as in the file
   std::vector<Vector> framed;                       ///< what the camera fits; empty: `positions`
-  Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
+  /// How much light comes to both sides of a vertex, 0 to 1 (app/picture/openness.h).
+  struct Openness {
+    Vector normal;
+    float front = 1, back = 1;  ///< on the normal's side, on the other one
+  };
+  std::vector<Openness> openness;  ///< V
+  Vec3 centre = Vec3::Zero();      ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
 
   /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.

@@ -54,6 +54,16 @@ inline NamedValues<PictureLight> named_values(PictureLight) {
           {{kThreePoint, "three-point"}, {kHeadlight, "headlight"}, {kNone, "none"}}};
 }
 
+/// How the surface is shaded beside the light itself.
+enum class PictureShading {
+  kForm,   ///< darker in hollows and towards outlines
+  kPlain,  ///< by the light alone
+};
+inline NamedValues<PictureShading> named_values(PictureShading) {
+  using enum PictureShading;
+  return {"there is no shading '*'", {{kForm, "form"}, {kPlain, "plain"}}};
+}
+
 enum class PictureBackground { kLight, kDark, kTransparent };
 inline NamedValues<PictureBackground> named_values(PictureBackground) {
   using enum PictureBackground;
@@ -103,6 +113,7 @@ struct PictureSettings {
   std::optional<double> range_min, range_max;  ///< distances at the map's ends
   std::optional<double> line_spacing;          ///< 0: no lines; absent: a round number that suits
   PictureLight light = PictureLight::kThreePoint;
+  PictureShading shading = PictureShading::kForm;
   PictureBackground background = PictureBackground::kLight;
   bool bar = true, caption = true, markers = true;
   /// The normal of a plane; what lies on its side of it is removed. Absent: nothing is.

@@ -120,6 +120,11 @@ std::vector<Setting> picture_settings_table() {
                  const Text& t) { return store(parse_spacing(t), s.picture.line_spacing); }},
       choice<&PictureSettings::light>(
           {.name = "light", .group = kPicture, .value_name = "NAME", .help = "on the surface"}),
+      choice<&PictureSettings::shading>(
+          {.name = "shading",
+           .group = kPicture,
+           .value_name = "NAME",
+           .help = "form: darker in hollows and towards outlines; plain: by the light alone"}),
       choice<&PictureSettings::background>({.name = "background",
                                             .group = kPicture,
                                             .value_name = "NAME",

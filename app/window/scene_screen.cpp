@@ -68,8 +68,8 @@ Result<void> SceneScreen::update_data(const Session& session) {
     std::vector<glm::vec3> positions = scene_vectors(next.positions);
     // A surface that moves keeps its faces.
     const bool moves = base_ && !cut_ && base_->faces == next.faces;
-    auto done =
-        moves ? renderer_.move_surface(positions) : upload_surface(renderer_, next, positions);
+    auto done = moves ? renderer_.move_surface(positions, scene_openness(next))
+                      : upload_surface(renderer_, next, positions);
     if (!done) return done;
     base_ = explored.model->base;
     data_ = *base_;

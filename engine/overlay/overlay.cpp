@@ -95,10 +95,12 @@ void Overlay::add_gradient(glm::vec2 min, glm::vec2 max, const glm::vec4& top,
                            const glm::vec4& bottom) {
   const glm::vec2 white = atlas.white_uv();
   add_quad(vertices, {min, white}, {max, white}, top, bottom);
+  boxes.push_back({min, max, top, bottom});
 }
 
 void Overlay::add_text(glm::vec2 base, std::string_view text, const glm::vec4& colour) {
   glm::vec2 pen = glm::floor(base + 0.5F);
+  texts.push_back({pen, atlas.width_of(text), std::string(text), colour});
   while (!text.empty()) {
     const GlyphAtlas::Glyph& glyph = atlas.glyph(take_letter(text));
     if (glyph.size.x > 0) {

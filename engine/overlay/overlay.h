@@ -68,6 +68,20 @@ struct Overlay {
   std::vector<Vertex> vertices;  ///< three a triangle
   GlyphAtlas atlas;
 
+  /// What was added, for pictures that keep shapes.
+  struct Box {
+    glm::vec2 min, max;
+    glm::vec4 top, bottom;
+  };
+  struct Text {
+    glm::vec2 base;
+    float width = 0;  ///< pixels
+    std::string text;
+    glm::vec4 colour;
+  };
+  std::vector<Box> boxes;
+  std::vector<Text> texts;
+
   void add_rectangle(glm::vec2 min, glm::vec2 max, const glm::vec4& colour);
   /// A rectangle whose colour runs from `top` to `bottom`.
   void add_gradient(glm::vec2 min, glm::vec2 max, const glm::vec4& top, const glm::vec4& bottom);

@@ -99,6 +99,7 @@ struct MovingDrawMesh::State {
     mesh.vertices.reserve(groups.size() * 3 / 2);
     mesh.origin.reserve(groups.size() * 3 / 2);
     for (std::uint32_t f = 0; f < faces.size(); ++f) place(f, group_normals);
+    set_openness(geometry.openness);
   }
 
   void measure(std::uint32_t f) {
@@ -171,6 +172,22 @@ struct MovingDrawMesh::State {
     return group.copies[label];
   }
 
+  /// Gives every copy what its vertex has, the sides by its own normal.
+  void set_openness(std::span<const Openness> openness) {
+    if (openness.empty()) return;
+    const auto byte = [](float x) {
+      return static_cast<std::uint8_t>(std::lround(255 * std::clamp(x, 0.0F, 1.0F)));
+    };
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      DrawMesh::Vertex& drawn = mesh.vertices[i];
+      const Openness& own = openness[mesh.origin[i]];
+      const auto& [x, y, z, label] = drawn.normal_and_label;
+      const bool same = glm::dot(own.normal, glm::vec3(x, y, z)) >= 0;
+      drawn.openness[0] = byte(same ? own.front : own.back);
+      drawn.openness[1] = byte(same ? own.back : own.front);
+    }
+  }
+
   /// Normals and places of the copies of a vertex. False: its corners share other normals now.
   bool renew(std::size_t v) {
     const Fan& now = look_at(v);
@@ -184,7 +201,8 @@ struct MovingDrawMesh::State {
       for (std::uint32_t label = 0; label < 3; ++label) {
         if ((group.labels >> label & 1U) == 0) continue;
         mesh.vertices[group.copies[label]] = {positions[v],
-                                              packed(now.normals[g], static_cast<int>(label))};
+                                              packed(now.normals[g], static_cast<int>(label)),
+                                              mesh.vertices[group.copies[label]].openness};
       }
     }
     return true;
@@ -210,7 +228,8 @@ MovingDrawMesh::~MovingDrawMesh() = default;
 
 const DrawMesh& MovingDrawMesh::mesh() const { return state_->mesh; }
 
-bool MovingDrawMesh::move(std::span<const glm::vec3> positions) {
+bool MovingDrawMesh::move(std::span<const glm::vec3> positions,
+                          std::span<const Openness> openness) {
   State& s = *state_;
   std::vector<char> turned(s.faces.size()), near(s.positions.size());
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -227,10 +246,11 @@ bool MovingDrawMesh::move(std::span<const glm::vec3> positions) {
   }
   for (std::size_t v = 0; v < near.size(); ++v) {
     if (near[v] != 0 && !s.renew(v)) {
-      *this = MovingDrawMesh({s.positions, s.faces});
+      *this = MovingDrawMesh({s.positions, s.faces, false, openness});
       return false;
     }
   }
+  s.set_openness(openness);
   return true;
 }
 

@@ -19,6 +19,8 @@ struct DrawMesh {
   struct Vertex {
     glm::vec3 position;
     std::array<std::int16_t, 4> normal_and_label;  ///< times 32767; label -1, 0 or 1
+    /// Times 255: of the normal's side, of the other one; two that say nothing.
+    std::array<std::uint8_t, 4> openness{255, 255, 0, 0};
   };
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> origin;                ///< the model's vertex of each
@@ -49,9 +51,10 @@ class MovingDrawMesh {
   /// Equal to build_draw_mesh() of the same positions.
   const DrawMesh& mesh() const;
 
-  /// Puts the vertices there: as many as there were. True: faces and origins are as before. False:
-  /// there are creases where there were none, or fewer, and all was built again.
-  bool move(std::span<const glm::vec3> positions);
+  /// Puts the vertices there: as many as there were, with what light comes to them now. True: faces
+  /// and origins are as before. False: there are creases where there were none, or fewer, and all
+  /// was built again.
+  bool move(std::span<const glm::vec3> positions, std::span<const Openness> openness = {});
 
  private:
   friend DrawMesh build_draw_mesh(const SurfaceGeometry& geometry);

@@ -42,11 +42,13 @@ std::vector<LinePiece> line_pieces(std::span<const glm::vec3> points) {
   const std::size_t count = chain.size();
   const bool closed = count > 3 && is_repeated(chain.front(), chain.back());
   std::vector<LinePiece> pieces;
+  float length = 0;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const glm::vec3& at_begin = closed ? chain[count - 2] : chain[0];
     const glm::vec3& at_end = closed ? chain[1] : chain[count - 1];
     pieces.push_back({i > 0 ? chain[i - 1] : at_begin, chain[i], chain[i + 1],
-                      i + 2 < count ? chain[i + 2] : at_end});
+                      i + 2 < count ? chain[i + 2] : at_end, length});
+    length += glm::length(chain[i + 1] - chain[i]);
   }
   return pieces;
 }

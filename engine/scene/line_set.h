@@ -15,6 +15,7 @@ namespace geotherm::engine {
 /// neighbours. At an end of the polyline the point beside is the end itself.
 struct LinePiece {
   glm::vec3 before, from, to, after;
+  float at_from = 0;  ///< length of the polyline up to `from`
 };
 
 /// A polyline without the points that are not finite, which cut it in two.

@@ -14,11 +14,18 @@ namespace geotherm::engine {
 /// Value of a vertex that has none; its faces are drawn in neutral grey.
 inline constexpr float kNoValue = -std::numeric_limits<float>::max();
 
+/// How much light comes to a vertex, 0 to 1 on either side.
+struct Openness {
+  glm::vec3 normal;  ///< tells the sides apart
+  float front = 1, back = 1;
+};
+
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {
   std::span<const glm::vec3> positions;                 ///< V
   std::span<const std::array<std::uint32_t, 3>> faces;  ///< F, every corner in [0, V)
   bool solid = false;  ///< closed, all faces counter-clockwise from outside: no back is ever seen
+  std::span<const Openness> openness = {};  ///< V; empty: all is open
 };
 
 /// A source: a point (both ends the same) or a straight piece of a curve.
@@ -42,8 +49,8 @@ enum class Paint {
   kPlain,  ///< one colour
   kMap,    ///< the colour map at each vertex' value
   kFaces,  ///< the colour map at each face's own value, flat within it
-  /// The colour of the region that is nearest: each vertex has one, and between vertices of several
-  /// it is the one whose value grows least from there.
+  /// The colour of the region that is nearest, with lines between regions: each vertex has one, and
+  /// between vertices of several their margins decide (region_margins()).
   kRegions,
 };
 
@@ -54,10 +61,11 @@ struct SurfaceStyle {
   Paint paint = Paint::kPlain;
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
-  float scene_per_value = 0;              ///< kRegions: lengths in scene space; 0: values are none
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
+  /// Hollows and what turns away from the eye are darker (SurfaceGeometry::openness).
+  bool form = false;
   bool wire = false;        ///< edges of all triangles
   float wire_width = 1.0F;  ///< pixels
   glm::vec3 wire_colour{0.08F, 0.09F, 0.11F};
@@ -72,15 +80,20 @@ struct ArrowStyle {
 
 struct MarkerStyle {
   bool visible = true;
-  float radius = 5;  ///< pixels
+  float radius = 5;      ///< pixels
+  float inside = 0.68F;  ///< of the radius; the rest is rim
   glm::vec3 colour{1, 1, 1}, rim{0.05F};
+  float hidden_opacity = 0.33F;  ///< of the rim; what lies on it adds as much
 };
 
+/// What the surface hides of a line is drawn in dashes.
 struct LineStyle {
   bool visible = true;
-  float width = 3;                                ///< pixels, without the rim
-  float rim = 1.2F;                               ///< pixels on either side
-  glm::vec3 dark_rim{0.05F}, light_rim{1, 1, 1};  ///< about light lines, about dark ones
+  float width = 3;                                   ///< pixels, without the rim
+  float dash = 11;                                   ///< pixels from dash to dash
+  float hidden_width = 0.6F, hidden_opacity = 0.6F;  ///< of dashes, in those of the line
+  float rim = 1.2F;                                  ///< pixels on either side
+  glm::vec3 dark_rim{0.05F}, light_rim{1, 1, 1};     ///< about light lines, about dark ones
 
   /// The one that stands out from a line of this colour.
   glm::vec3 rim_about(const glm::vec3& colour) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/vulkan/frame_recorder.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstring>
@@ -13,7 +14,6 @@ namespace geotherm::engine {
 namespace {
 
 using Usage = vk::BufferUsageFlagBits;
-constexpr float kHiddenOpacity = 0.33F;  // of the rim; what lies on it adds as much
 /// Arrows towards the eye, in their full lengths; the second field lies on the first.
 constexpr float kLift = 0.35F;
 constexpr float kLiftOfSecond = 0.42F;
@@ -27,6 +27,12 @@ std::vector<std::uint32_t> packed(const ColourTable& table) {
 vk::SampleCountFlagBits sample_count(int samples) {
   assert(samples == 1 || samples == 4);
   return samples == 4 ? vk::SampleCountFlagBits::e4 : vk::SampleCountFlagBits::e1;
+}
+
+/// Pixels that a length of 1 covers in the middle of the model.
+float pixels_per_scene(const Camera& camera) {
+  const float depth = camera.orthographic ? 1 : std::max(-camera.view[3].z, 1e-4F);
+  return camera.pixels_per_unit / depth;
 }
 
 /// The target's pixels that belong to the picture: beside it there are panels.
@@ -81,8 +87,8 @@ void FrameRecorder::set_values(std::span<const float> values) {
   device_->update(values_, std::as_bytes(values));
 }
 
-void FrameRecorder::set_regions(std::span<const glm::vec2> values_and_regions) {
-  const auto bytes = std::as_bytes(values_and_regions);
+void FrameRecorder::set_regions(std::span<const glm::vec3> values_regions_margins) {
+  const auto bytes = std::as_bytes(values_regions_margins);
   if (bytes.empty()) {
     regions_ = {};
   } else if (regions_.bytes == bytes.size()) {
@@ -160,7 +166,7 @@ void FrameRecorder::prepare(const ArrowSelection& arrows, const Overlay& overlay
 
 template <class Push>
 void FrameRecorder::push(const vk::raii::CommandBuffer& commands, const Push& values) {
-  static_assert(sizeof(Push) <= sizeof(shared::ArrowPush));
+  static_assert(sizeof(Push) <= sizeof(shared::LinePush));
   commands.pushConstants<Push>(pipelines_.layout(), Pipelines::kPushStages, 0, values);
 }
 
@@ -202,9 +208,10 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
 
 void FrameRecorder::record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene) {
   if (scene.surface.visible && index_count_ > 0) record_surface(commands, scene);
+  if (scene.lines.visible) record_lines(commands, scene, true);
   record_arrows(commands, scene.arrows);
-  if (scene.lines.visible) record_lines(commands, scene);
-  if (scene.markers.visible && marker_count_ > 0) record_markers(commands);
+  if (scene.lines.visible) record_lines(commands, scene, false);
+  if (scene.markers.visible && marker_count_ > 0) record_markers(commands, scene.markers);
 }
 
 void FrameRecorder::record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene) {
@@ -243,16 +250,20 @@ void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,
   }
 }
 
-void FrameRecorder::record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene) {
+void FrameRecorder::record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene,
+                                 bool hidden) {
   if (line_ranges_.empty()) return;
   const LineStyle& style = scene.lines;
-  const float half = 0.5F * style.width * scene.pixel_scale;
-  const float with_rim = half + style.rim * scene.pixel_scale;
-  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.lines());
+  const float thinner = hidden ? style.hidden_width : 1;
+  const float half = 0.5F * style.width * scene.pixel_scale * thinner;
+  const float with_rim = half + style.rim * scene.pixel_scale * thinner;
+  const float dash = hidden ? style.dash * scene.pixel_scale / pixels_per_scene(scene.camera) : 0;
+  commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.lines(hidden));
   commands.bindVertexBuffers(0, *lines_.buffer, {0});
   for (const LineSet::Range& line : line_ranges_) {
     const auto draw = [&](const glm::vec3& colour, float half_width) {
-      push(commands, shared::LinePush{glm::vec4(colour, 1), half_width});
+      const float opacity = hidden ? style.hidden_opacity : 1;
+      push(commands, shared::LinePush{glm::vec4(colour, 1) * opacity, half_width, dash});
       commands.draw(4, line.count, 0, line.first);
     };
     if (style.rim > 0) draw(style.rim_about(line.colour), with_rim);
@@ -260,7 +271,8 @@ void FrameRecorder::record_lines(const vk::raii::CommandBuffer& commands, const 
   }
 }
 
-void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands) {
+void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands,
+                                   const MarkerStyle& style) {
   commands.bindVertexBuffers(0, *markers_.buffer, {0});
   const auto draw = [&](vk::Pipeline pipeline, float opacity) {
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
@@ -269,7 +281,7 @@ void FrameRecorder::record_markers(const vk::raii::CommandBuffer& commands) {
       commands.draw(4, marker_count_, 0, 0);
     }
   };
-  draw(pipelines_.hidden_markers(), kHiddenOpacity);
+  draw(pipelines_.hidden_markers(), style.hidden_opacity);
   draw(pipelines_.visible_markers(), 1);
 }
 

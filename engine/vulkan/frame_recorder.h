@@ -91,7 +91,8 @@ class FrameRecorder {
   /// As many as set_surface() had; vertices of separate faces are gone.
   void set_vertices(std::span<const DrawMesh::Vertex> vertices);
   void set_values(std::span<const float> values);  ///< as many as set_surface() had
-  void set_regions(std::span<const glm::vec2> values_and_regions);  ///< as many, or none
+  /// Values, regions, margins: as many, or none.
+  void set_regions(std::span<const glm::vec3> values_regions_margins);
   /// Vertices of faces for themselves (separate_faces()) with their values.
   void set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
                           std::span<const float> values);
@@ -114,8 +115,8 @@ class FrameRecorder {
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features);
-  void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene);
-  void record_markers(const vk::raii::CommandBuffer& commands);
+  void record_lines(const vk::raii::CommandBuffer& commands, const Scene& scene, bool hidden);
+  void record_markers(const vk::raii::CommandBuffer& commands, const MarkerStyle& style);
   void record_overlay(const vk::raii::CommandBuffer& commands);
   template <class Push>
   void push(const vk::raii::CommandBuffer& commands, const Push& values);

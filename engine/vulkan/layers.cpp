@@ -164,15 +164,22 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
   const float per_width = width != 0 ? 1 / width : 0;
   const float scale = has_isolines(surface) ? 1 / surface.line_spacing : 1;
-  frame.range = {per_width / scale, -surface.range_min * per_width, scale,
-                 surface.scene_per_value / scale};
+  frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
   frame.plain = {surface.colour, 1};
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};
   frame.marker = {scene.markers.colour, scene.markers.radius * scene.pixel_scale};
-  frame.marker_rim = {scene.markers.rim, 1};
+  frame.marker_rim = {scene.markers.rim, scene.markers.inside};
   const float half = 0.5F * scene.lines.width * scene.pixel_scale;
   frame.polyline = {half, half + scene.lines.rim * scene.pixel_scale, origin};
+  if (!scene.camera.orthographic) {
+    // From a pixel of the target to the direction in which the eye sees it.
+    const glm::mat4& p = scene.camera.projection;
+    const glm::vec2 tangent(1 / p[0][0], 1 / p[1][1]);  // of half the picture
+    const glm::vec2 per_pixel = 2.0F * tangent / scene.camera.extent;
+    const glm::vec2 shift(p[2][0], p[2][1]);
+    frame.sight = {per_pixel, per_pixel * origin - tangent * (1.0F - shift)};
+  }
   return frame;
 }
 
@@ -186,6 +193,7 @@ std::uint32_t surface_features(const Scene& scene) {
   if (surface.paint == Paint::kRegions) features |= shared::kRegions;
   if (has_isolines(surface)) features |= shared::kIsolines;
   if (surface.wire) features |= shared::kWire;
+  if (surface.form && scene.light != Light::kNone) features |= shared::kForm;
   return features;
 }
 

@@ -41,7 +41,7 @@ vk::raii::DescriptorSetLayout make_set_layout(const vk::raii::Device& device) {
 
 vk::raii::PipelineLayout make_layout(const vk::raii::Device& device,
                                      const vk::DescriptorSetLayout& set) {
-  const vk::PushConstantRange push(Pipelines::kPushStages, 0, sizeof(shared::ArrowPush));
+  const vk::PushConstantRange push(Pipelines::kPushStages, 0, sizeof(shared::LinePush));
   return {device, {{}, set, push}};
 }
 
@@ -133,15 +133,16 @@ vk::Pipeline Pipelines::surface(std::uint32_t features) {
   using Vertex = DrawMesh::Vertex;
   // Without regions there are values alone; the shader reads 0 for the rest.
   const bool regions = (features & shared::kRegions) != 0;
-  const auto values = regions ? vk::Format::eR32G32Sfloat : vk::Format::eR32Sfloat;
-  const std::uint32_t values_size = regions ? sizeof(glm::vec2) : sizeof(float);
+  const auto values = regions ? kFloat3 : vk::Format::eR32Sfloat;
+  const std::uint32_t values_size = regions ? sizeof(glm::vec3) : sizeof(float);
   Plan plan{
       .vertex = embedded::surface_vert(),
       .fragment = embedded::surface_frag(),
       .bindings = {{0, sizeof(Vertex), kPerVertex}, {1, values_size, kPerVertex}},
       .attributes = {{0, 0, kFloat3, offsetof(Vertex, position)},
                      {1, 0, vk::Format::eR16G16B16A16Snorm, offsetof(Vertex, normal_and_label)},
-                     {2, 1, values, 0}}};
+                     {2, 1, values, 0},
+                     {3, 0, vk::Format::eR8G8Unorm, offsetof(Vertex, openness)}}};
   plan.features = features;
   plan.write_depth = true;
   return made(features, plan);
@@ -159,16 +160,19 @@ vk::Pipeline Pipelines::arrows() {
                .write_depth = true});
 }
 
-vk::Pipeline Pipelines::lines() {
-  return made(6U << 16, {.vertex = embedded::line_vert(),
-                         .fragment = embedded::line_frag(),
-                         .bindings = {{0, sizeof(LinePiece), kPerInstance}},
-                         .attributes = {{0, 0, kFloat3, offsetof(LinePiece, before)},
-                                        {1, 0, kFloat3, offsetof(LinePiece, from)},
-                                        {2, 0, kFloat3, offsetof(LinePiece, to)},
-                                        {3, 0, kFloat3, offsetof(LinePiece, after)}},
-                         .topology = vk::PrimitiveTopology::eTriangleStrip,
-                         .blend = true});
+vk::Pipeline Pipelines::lines(bool hidden) {
+  return made((hidden ? 7U : 6U) << 16,
+              {.vertex = embedded::line_vert(),
+               .fragment = embedded::line_frag(),
+               .bindings = {{0, sizeof(LinePiece), kPerInstance}},
+               .attributes = {{0, 0, kFloat3, offsetof(LinePiece, before)},
+                              {1, 0, kFloat3, offsetof(LinePiece, from)},
+                              {2, 0, kFloat3, offsetof(LinePiece, to)},
+                              {3, 0, kFloat3, offsetof(LinePiece, after)},
+                              {4, 0, vk::Format::eR32Sfloat, offsetof(LinePiece, at_from)}},
+               .topology = vk::PrimitiveTopology::eTriangleStrip,
+               .blend = true,
+               .depth_test = hidden ? vk::CompareOp::eLess : vk::CompareOp::eGreaterOrEqual});
 }
 
 vk::Pipeline Pipelines::visible_markers() {

@@ -22,7 +22,7 @@ class Pipelines {
 
   vk::Pipeline surface(std::uint32_t features);  ///< features: shared.h
   vk::Pipeline arrows();
-  vk::Pipeline lines();
+  vk::Pipeline lines(bool hidden);
   vk::Pipeline visible_markers();
   vk::Pipeline hidden_markers();
   vk::Pipeline overlay();

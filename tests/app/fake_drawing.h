@@ -48,7 +48,7 @@ class FakeDrawing final : public app::Drawing {
   }
 
   Result<void> draw(const app::PictureData& what, const app::PictureSettings& settings,
-                    const TakeFrame& frame) override {
+                    const TakeFrame& frame, app::DrawAs) override {
     calls.emplace_back("draw");
     data = what;
     drawn = settings;

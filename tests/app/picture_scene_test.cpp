@@ -59,13 +59,11 @@ TEST(PictureSceneOfView, PaintsErrorsByTheMapAndRegionsWhereTheyAreKnown) {
   EXPECT_EQ(scene_of(View::kExactError).surface.paint, engine::Paint::kMap);
   EXPECT_EQ(scene_of(View::kRegions).surface.paint, engine::Paint::kPlain);
   PictureData data = solved();
-  data.model_per_scene = 4;
   data.nearest = {0, kNoIndex};
   PictureSettings settings;
   settings.view = View::kRegions;
   const auto style = app::scene_of(data, settings, app::picture_scale(data, settings)).surface;
   EXPECT_EQ(style.paint, engine::Paint::kRegions);
-  EXPECT_EQ(style.scene_per_value, 2);  // values are eighths of 8 model units, which are 2 here
   EXPECT_GT(style.line_spacing, 0);
   EXPECT_TRUE(scene_of(View::kRegions).markers.visible);
   EXPECT_TRUE(scene_of(View::kExactError).markers.visible);

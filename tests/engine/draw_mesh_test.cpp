@@ -140,6 +140,26 @@ TEST_P(DrawMeshOf, MovesToWhatIsBuiltOfThePositions) {
 INSTANTIATE_TEST_SUITE_P(All, DrawMeshOf, testing::ValuesIn(shapes()),
                          [](const auto& test) { return test.param.name; });
 
+TEST_P(DrawMeshOf, GivesEachCopyTheOpennessOfItsSide) {
+  const Model& own = model();
+  std::vector<Openness> openness;
+  for (std::size_t v = 0; v < own.positions.size(); ++v) {
+    openness.push_back({{0, 0, 1}, 1, 0.2F});
+  }
+  SurfaceGeometry geometry = own.geometry();
+  geometry.openness = openness;
+  const DrawMesh drawn = build_draw_mesh(geometry);
+  MovingDrawMesh moving(own.geometry());
+  moving.move(own.positions, openness);
+  for (std::size_t i = 0; i < drawn.vertices.size(); ++i) {
+    const DrawMesh::Vertex& vertex = drawn.vertices[i];
+    const bool up = vertex.normal_and_label[2] >= 0;
+    EXPECT_EQ(vertex.openness[up ? 0 : 1], 255);
+    EXPECT_EQ(vertex.openness[up ? 1 : 0], 51);
+    EXPECT_EQ(vertex.openness, moving.mesh().vertices[i].openness);
+  }
+}
+
 TEST(DrawMesh, GivesEachSideOfACubeItsOwnNormal) {
   const Model cube = cube_model(0.5F);
   const DrawMesh drawn = build_draw_mesh(cube.geometry());

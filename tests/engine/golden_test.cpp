@@ -21,6 +21,7 @@ struct Solved {
   std::vector<float> values;  ///< 0 to 1
   std::vector<glm::vec3> heat, error;
   std::vector<std::int32_t> regions;  ///< bands of distance
+  std::vector<float> margins;         ///< to the nearest other band
   std::vector<glm::vec3> path;        ///< down the distance, along edges
   Marker source;
 };
@@ -67,6 +68,8 @@ Solved solve_bunny() {
   }
   for (const float value : solved.values) {
     solved.regions.push_back(static_cast<std::int32_t>(value * 5));
+    const float within = value * 5 - std::floor(value * 5);
+    solved.margins.push_back(std::max(std::min(within, 1 - within), 1e-4F));
   }
   solved.path = steepest_edges(solved.model, solved.values);
   solved.source = {solved.model.positions[kSource], solved.model.positions[kSource]};
@@ -136,7 +139,7 @@ TEST_P(GoldenView, LooksAsItDid) {
   stage.scene.pixel_scale = 0.75F;
   GetParam().change(stage.scene);
   if (stage.scene.surface.paint == Paint::kRegions) {
-    must(stage.renderer.set_regions(solved.regions));
+    must(stage.renderer.set_regions(solved.regions, solved.margins));
     must(stage.renderer.set_colours(region_table()));
   }
   expect_golden(stage.draw(), GetParam().name, GetParam().share);

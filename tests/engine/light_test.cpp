@@ -115,6 +115,48 @@ TEST_P(Lit, NothingIsBlackOrBurntOut) {
   EXPECT_GT(seen, 10000);
 }
 
+/// What docs/rendering.md says of the form's share of the light.
+float form_of(float openness, float facing) {
+  const float outline = 1 - std::min(facing / 0.45F, 1.0F);
+  return (1 - 0.65F * (1 - openness)) * (1 - 0.35F * outline * outline);
+}
+
+/// Sphere from the front, dark on its left half; the same without its form.
+TEST_P(Lit, FormDimsWhatIsClosedAndWhatTurnsAway) {
+  const Model model = model_of(sphere(5));
+  std::vector<Openness> openness;
+  for (const glm::vec3& p : model.positions) {
+    openness.push_back({p, p.x < 0 ? 0.25F : 1.0F, 1});
+  }
+  SurfaceGeometry geometry = model.geometry();
+  geometry.openness = openness;
+  for (const bool mapped : {false, true}) {
+    Stage stage(device(), model);
+    must(stage.renderer.set_surface(geometry));
+    stage.scene.light = GetParam();
+    if (mapped) stage.paint(model.values([](const glm::vec3& p) { return p.y; }), -3, 3);
+    const Image plain = stage.draw();
+    stage.scene.surface.form = true;
+    const Image formed = stage.draw();
+    for (const glm::vec2 at :
+         {glm::vec2(-0.5F, 0.1F), {0.5F, 0.1F}, {0.2F, 0.94F}, {-0.3F, 0.9F}}) {
+      const glm::vec3 n(at, std::sqrt(1 - glm::dot(at, at)));
+      const glm::vec3 pixel = stage.scene.camera.project(n);
+      const glm::vec3 before = colour_at(plain, pixel), after = colour_at(formed, pixel);
+      const glm::vec3 ratio = after / before;
+      const float form = form_of(at.x < 0 ? 0.25F : 1.0F, n.z);
+      EXPECT_LE(std::abs(ratio.r - ratio.b), 0.03F) << "the hue is as it was";
+      if (!mapped) {
+        EXPECT_NEAR(ratio.g, form, 0.03F) << at.x << " " << at.y;
+      } else {
+        // Of the light three fifths may be missing, and of the colour only what light dims.
+        EXPECT_GE(ratio.g, 0.4F + 0.6F * form - 0.02F) << at.x << " " << at.y;
+        EXPECT_LE(ratio.g, 1.01F);
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Lit, testing::Values(Light::kHeadlight, Light::kThreePoint),
                          [](const auto& test) {
                            return std::string(test.param == Light::kHeadlight ? "Headlight"
@@ -131,6 +173,13 @@ TEST_F(NoLight, LeavesColoursAsTheyAre) {
   EXPECT_EQ(image.at(160, 120)[1], 102);
   EXPECT_EQ(image.at(160, 120)[2], 153);
   EXPECT_NEAR(darkness_in(image, {{120, 80}, {200, 160}}).deviation, 0, 1e-6);
+}
+
+TEST_F(NoLight, LeavesTheFormAway) {
+  Stage stage(device(), model_of(sphere(3)));
+  const Image bare = stage.draw();
+  stage.scene.surface.form = true;
+  EXPECT_EQ(stage.draw().pixels, bare.pixels);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ class Lines : public GpuTest {
     stage.scene.surface.colour = glm::vec3(1);
     stage.scene.lines.width = kWidth;
     stage.scene.lines.rim = kRimWidth;
+    stage.scene.lines.hidden_opacity = 0;  // but for the tests about that
     set(stage, points);
     return stage;
   }
@@ -166,6 +167,30 @@ TEST_F(Lines, AreHiddenBehindTheSurface) {
   for (float x = -0.27F; x < 0.28F; x += 0.03F) {
     expect_colour(image, on_screen(stage, {x, 0, 0}), glm::vec3(1));
   }
+}
+
+TEST_F(Lines, AreDashedWhereTheSurfaceHidesThem) {
+  Model model = square_model(0.45F, 0.3F);
+  append(model, square_model(0.6F, -0.3F));
+  Stage stage = stage_with(model, {{-0.6F, 0, -0.3F}, {0.6F, 0, -0.3F}});
+  stage.scene.lines.hidden_opacity = 0.5F;
+  stage.scene.lines.hidden_width = 0.6F;
+  stage.scene.lines.dash = 20;
+  stage.scene.lines.rim = 0;
+  const Image image = stage.draw();
+  const glm::ivec2 from(on_screen(stage, {-0.44F, 0, 0})), to(on_screen(stage, {0.44F, 0, 0}));
+  const auto runs = dark_runs(image, from, {1, 0}, to.x - from.x);
+  ASSERT_NEAR(static_cast<double>(runs.size()), (to.x - from.x) / 20.0, 1.5);  // cut at both ends
+  for (std::size_t i = 1; i + 1 < runs.size(); ++i) {
+    EXPECT_NEAR(runs[i].darkness, 0.5 * 0.6 * 20, 1);  // half opaque, three fifths of the way
+  }
+  double across = 0;
+  const int x = static_cast<int>(from.x + (to.x - from.x) / 2);
+  for (int i = -15; i < 15; ++i) {
+    const auto column = dark_runs(image, {x + i, from.y - 10}, {0, 1}, 20);
+    if (!column.empty()) across = std::max(across, static_cast<double>(column[0].darkness));
+  }
+  EXPECT_NEAR(across, 0.5 * 0.6 * kWidth, 0.15);
 }
 
 TEST_F(Lines, OnTheFarSideOfASphereAreNotSeen) {

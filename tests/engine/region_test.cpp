@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/scene/colours.h"
+#include "engine/scene/region_margins.h"
 #include "tests/engine/measure.h"
 #include "tests/engine/stage.h"
 
@@ -18,9 +19,13 @@ glm::vec3 colour_of(int region) { return region_colour(static_cast<std::uint32_t
 
 class Regions : public GpuTest {
  protected:
-  static Stage stage_with(Model model, const Places& regions, int samples = 1) {
-    Stage stage(device(), std::move(model), samples);
-    must(stage.renderer.set_regions(regions));
+  /// `distances`: scene units; empty: not known. The line between regions is as good as none.
+  static Stage stage_with(Model model, const Places& regions,
+                          const std::vector<float>& distances = {}) {
+    Stage stage(device(), std::move(model), 1);
+    must(stage.renderer.set_regions(regions,
+                                    region_margins(stage.model.geometry(), regions, distances)));
+    stage.scene.surface.line_width = 0;
     must(stage.renderer.set_colours(region_table()));
     stage.scene.surface.paint = Paint::kRegions;
     return stage;
@@ -77,14 +82,23 @@ TEST_F(Regions, MeetInSharpBordersHalfWayWhereNothingIsKnownOfDistances) {
 }
 
 TEST_F(Regions, MeetWhereDistancesAlongAnEdgeAreEqual) {
-  Stage stage = stage_with(square_model(0.5F, 0), {3, 7, 7, 3});
-  constexpr float kUnit = 0.25F;  // values are lengths in quarters of scene space
-  stage.scene.surface.scene_per_value = kUnit;
-  const std::vector<float> values = {0.4F / kUnit, 0, 0, 0.4F / kUnit};
-  must(stage.renderer.set_values(values));
+  Stage stage = stage_with(square_model(0.5F, 0), {3, 7, 7, 3}, {0.4F, 0, 0, 0.4F});
   const Image image = stage.draw();
   // The edge is 1 long: 0.4 + x = 1 - x.
   EXPECT_NEAR(border(stage, image, {-0.5F, -0.495F, 0}, {0.5F, -0.495F, 0}, 1), -0.2F, 0.01F);
+}
+
+TEST_F(Regions, HaveALineBetweenThem) {
+  Stage stage = stage_with(square_model(0.5F, 0), {3, 7, 7, 3});
+  stage.scene.surface.line_width = 5;
+  stage.scene.surface.line_colour = {1, 0, 1};
+  const Image image = stage.draw();
+  const glm::vec3 at = stage.scene.camera.project({0, 0.1F, 0});
+  for (const float away : {-2.0F, 0.0F, 2.0F}) {
+    EXPECT_TRUE(is(colour_at(image, at + glm::vec3(away, 0, 0)), {1, 0, 1})) << away;
+  }
+  EXPECT_TRUE(is(colour_at(image, at - glm::vec3(7, 0, 0)), colour_of(3)));
+  EXPECT_TRUE(is(colour_at(image, at + glm::vec3(7, 0, 0)), colour_of(7)));
 }
 
 TEST_F(Regions, ThatTouchAGreyOneAreAsSharp) {
@@ -109,11 +123,10 @@ TEST_F(Regions, OfPointsInThePlaneAreTheirCells) {
   Model model = irregular_plane_model(20);
   Places regions;
   for (const glm::vec3& p : model.positions) regions.push_back(nearest(p));
-  Stage stage = stage_with(model, regions);
-  stage.scene.surface.scene_per_value = 1;
-  must(stage.renderer.set_values(stage.model.values([&](const glm::vec3& p) {
+  const std::vector<float> distances = model.values([&](const glm::vec3& p) {
     return glm::length(p - sources[static_cast<std::size_t>(nearest(p))]);
-  })));
+  });
+  Stage stage = stage_with(model, regions, distances);
   const Image image = stage.draw();
   const glm::ivec2 corner(stage.scene.camera.project({-0.8F, 0.6F, 0}));
   const glm::vec2 origin(stage.scene.camera.project({0, 0, 0}));
@@ -138,21 +151,9 @@ TEST_F(Regions, CarryIsolines) {
   const Image bare = stage.draw();
   must(stage.renderer.set_values(stage.model.values([](const glm::vec3& p) { return p.x + 1; })));
   EXPECT_EQ(stage.draw().pixels, bare.pixels);
+  stage.scene.surface.line_width = 1.4F;
   stage.scene.surface.line_spacing = 0.25F;
   EXPECT_GT(different_pixels(bare, stage.draw(), 50), 0.01);
-}
-
-TEST_F(Regions, FollowValuesThatComeLater) {
-  const auto values = std::vector<float>{0.4F, 0, 0, 0.4F};
-  Stage first = stage_with(square_model(0.5F, 0), {3, 7, 7, 3});
-  first.scene.surface.scene_per_value = 1;
-  must(first.renderer.set_values(values));
-  Stage second(device(), square_model(0.5F, 0));
-  must(second.renderer.set_values(values));
-  must(second.renderer.set_regions(Places{3, 7, 7, 3}));
-  must(second.renderer.set_colours(region_table()));
-  second.scene = first.scene;
-  EXPECT_EQ(first.draw().pixels, second.draw().pixels);
 }
 
 TEST_F(Regions, AreGoneWithTheirModelAndOnRequest) {
@@ -160,9 +161,9 @@ TEST_F(Regions, AreGoneWithTheirModelAndOnRequest) {
   const glm::vec3 at = stage.scene.camera.project({-0.3F, 0.1F, 0});
   stage.scene.surface.colour = glm::vec3(1);
   EXPECT_TRUE(is(colour_at(stage.draw(), at), colour_of(3)));
-  must(stage.renderer.set_regions({}));
+  must(stage.renderer.set_regions({}, {}));
   EXPECT_TRUE(is(colour_at(stage.draw(), at), glm::vec3(1)));
-  must(stage.renderer.set_regions(Places{3, 7, 7, 3}));
+  must(stage.renderer.set_regions(Places{3, 7, 7, 3}, std::vector<float>(4, 1)));
   must(stage.renderer.set_surface(stage.model.geometry()));
   EXPECT_TRUE(is(colour_at(stage.draw(), at), glm::vec3(1)));
 }

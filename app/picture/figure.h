@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/picture/drawing.h"
+#include "app/picture/line_sight.h"
+#include "app/picture/png_file.h"
+
+namespace geotherm::app {
+
+/// What lies over the pixels of a picture in a file that keeps shapes: strokes, boxes on them,
+/// letters on these. Places and widths in pixels from the picture's top left corner.
+struct Figure {
+  using Colour = std::array<float, 4>;  ///< sRGB and alpha
+  struct Stroke {
+    std::vector<Outline> parts;
+    Colour colour{};
+    double width = 1;
+    double dash = 0;  ///< from dash to dash; 0: none
+  };
+  struct Box {
+    Eigen::Vector2d min, max;
+    std::vector<Colour> colours;  ///< from its top down, evenly; 1 or more
+  };
+  struct Letters {
+    Eigen::Vector2d base;  ///< left end of the base line
+    double width = 0;      ///< of the whole text
+    std::string text;
+    Colour colour{};
+  };
+  std::vector<Stroke> strokes;
+  std::vector<Box> boxes;
+  std::vector<Letters> letters;
+  std::span<const std::byte> font;  ///< a TrueType file
+};
+
+/// The same picture has the same bytes.
+enum class FigureFormat { kSvg, kPdf };
+
+/// Dashes and the gaps between them, of what it is from dash to dash.
+inline constexpr double kDashShare = 0.6;
+
+/// A file with the picture's pixels as an image and its shapes over it, one page of its size at 96
+/// pixels an inch. `texts`: Title, Description and others, which a PDF holds.
+/// Precondition: picture.figure. Errors: kOutOfMemory, kBadFile (the font).
+Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
+                                 const std::vector<PngText>& texts);
+
+}  // namespace geotherm::app
