@@ -30,7 +30,7 @@ void main() {
     eye_and_value.xyz = mat3(frame.eye_from_scene) * normal_and_label.xyz;
   }
   float value = max(value_and_region.x * frame.range.z, -1e38);
-  eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? value : 0.0;
+  eye_and_value.w = (features & (kMapped | kIsolines | kLevels)) != 0 ? value : 0.0;
   if ((features & (kWire | kRegions)) != 0) {
     corner = vec2(normal_and_label.w < -0.5, normal_and_label.w > 0.5);
   }

@@ -103,6 +103,8 @@ const char* heading_of(SettingGroup group) {
       return "Accuracy";
     case SettingGroup::kPicture:
       return "Picture";
+    case SettingGroup::kFigure:
+      return "Figure";
     case SettingGroup::kCamera:
       return "Camera";
   }
@@ -285,6 +287,7 @@ void add_picture_options(CLI::App& command, SettingArguments& settings, PictureA
   command.add_option("--device", a.device, "part of a device's name (geotherm devices)")
       ->type_name("NAME")
       ->group("Picture");
+  add_setting_options(command, settings, names_of(SettingGroup::kFigure));
   add_setting_options(command, settings, names_of(SettingGroup::kCamera));
   command
       .add_option("--turntable", a.turntable,
@@ -295,7 +298,7 @@ void add_picture_options(CLI::App& command, SettingArguments& settings, PictureA
 
 void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
   add_setting_options(command, settings,
-                      {"size", "background", "azimuth", "elevation", "zoom", "pan", "projection"});
+                      {"size", "background", "dpi", "azimuth", "elevation", "roll", "up", "zoom", "pan", "projection"});
 }
 
 void complete_bare_fit(std::vector<std::string>& words) {
@@ -306,8 +309,11 @@ void complete_bare_fit(std::vector<std::string>& words) {
 }
 
 void face_head_on(const Model& model, const SettingArguments& typed, PictureSettings& picture) {
+  UpAxis& up = picture.camera.up;
+  const bool says_up = up != UpAxis::kAuto;
+  if (!says_up) up = model.up;
   const auto angles = head_on(model);
-  if (!angles || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation")) return;
+  if (!angles || says_up || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation")) return;
   picture.camera.azimuth = (*angles)[0];
   picture.camera.elevation = (*angles)[1];
 }

@@ -180,6 +180,12 @@ engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
   orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
   orbit.orthographic = camera.orthographic;
   orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
+  const auto axes = axes_of(camera.up == UpAxis::kAuto ? data.up : camera.up);
+  for (int k = 0; k < 3; ++k) {
+    const auto& [x, y, z] = axes[static_cast<std::size_t>(k)];
+    orbit.axes[k] = {x, y, z};
+  }
+  orbit.roll = static_cast<float>(camera.roll);
   if (camera.centre) orbit.centre = scene_centre(data, *camera.centre);
   return engine::make_camera(orbit, points, extent, with_margin(extent, insets));
 }

@@ -35,6 +35,7 @@ struct PictureData {
   std::vector<Vector> framed;                       ///< what the camera fits; empty: `positions`
   Vec3 centre = Vec3::Zero();                       ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
+  UpAxis up = UpAxis::kAuto;  ///< that of the file, for pictures that leave it open
 
   /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.
   std::shared_ptr<const TetMesh> volume;

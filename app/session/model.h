@@ -67,6 +67,7 @@ struct Model {
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each
   /// What distance is computed in, where that is not `mesh` itself.
   std::shared_ptr<const Space> space = {};
+  UpAxis up = UpAxis::kAuto;  ///< what the file says; kAuto: nothing
   bool from_points = false;  ///< `mesh` was made of points without faces
 
   /// Whether the file holds the faces of `mesh`.

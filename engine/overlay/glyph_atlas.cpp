@@ -163,6 +163,15 @@ float GlyphAtlas::width_of(std::string_view text) const {
   return width;
 }
 
+std::vector<char32_t> missing_letters(std::string_view text) {
+  const Font font(4);
+  std::vector<char32_t> missing;
+  for (const char32_t letter : letters_of({std::string(text)})) {
+    if (letter != kMalformed && font.shape(letter).index == 0) missing.push_back(letter);
+  }
+  return missing;
+}
+
 std::span<const std::byte> font_file() { return std::as_bytes(std::span(embedded::legend_font())); }
 
 }  // namespace geotherm::engine

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "engine/scene/camera.h"
 
@@ -13,6 +14,8 @@ namespace geotherm::engine {
 
 /// Value of a vertex that has none; its faces are drawn in neutral grey.
 inline constexpr float kNoValue = -std::numeric_limits<float>::max();
+
+inline constexpr std::size_t kMaxLevels = 64;  ///< of isolines at chosen values
 
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {
@@ -55,7 +58,9 @@ struct SurfaceStyle {
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
   float scene_per_value = 0;              ///< kRegions: lengths in scene space; 0: values are none
+  bool log = false;                       ///< equal ratios of values are equally far apart
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
+  std::vector<float> levels;              ///< isolines there instead, up to kMaxLevels
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
   bool wire = false;        ///< edges of all triangles
