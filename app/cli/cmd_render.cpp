@@ -55,6 +55,34 @@ Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View v
                    "--view smooth"};
 }
 
+/// What cannot be drawn together.
+Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
+                          const RenderArguments& arguments) {
+  const bool is_error = settings.view == View::kExactError;
+  if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale diverging is for differences, and --view " +
+                     geotherm::to_text(settings.view) +
+                     " shows none; choose --view exact-error, or another scale"};
+  }
+  if (settings.colour_scale == ColourScale::kLog && !maps_values(settings.view)) {
+    return Error{ErrorCode::kBadInput, "--colour-scale log is for distances, which --view " +
+                                           geotherm::to_text(settings.view) +
+                                           " does not show in colours; choose --view contours"};
+  }
+  if (settings.colour_scale == ColourScale::kLog && is_error) {
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale log: the errors of --view exact-error have both signs and no "
+                 "logarithm; choose diverging, or another view"};
+  }
+  const bool heat = settings.path_kind == PathKind::kHeat;
+  if (heat && !arguments.targets.empty() && options.method != MethodKind::kHeat) {
+    return Error{ErrorCode::kBadInput, "--path-kind heat: --method " + to_text(options.method) +
+                                           " has no heat to follow; choose geodesic or distance"};
+  }
+  return {};
+}
+
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
@@ -82,7 +110,8 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
     if (auto surface = refuse_space(solved.model, "paths are"); !surface) return surface;
     const auto placed = resolve_sources({&target, 1}, *mesh);
     if (!placed) return placed.error();
-    const auto found = solver.paths_to(placed->set.points.front(), solved, progress);
+    const auto found = solver.paths_to(placed->set.points.front(), solved,
+                                       figures.settings.path_kind, progress);
     if (!found) {
       return about_model(solved.model.name, about(target.where, found.error()));
     }
@@ -114,6 +143,7 @@ Result<PictureData> prepare(const RenderArguments& arguments, const ViewerState&
   warnings = model->notes;
   const std::string unseen = model->space ? model->space->unseen() : "";
   PictureData data = picture_of(*mesh, tets_of(*model));
+  data.up = model->up;
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_view_values(data, *model, view, nullptr);
@@ -176,7 +206,7 @@ Result<void> draw_frames(Drawing& drawing, const PictureData& data, const Progre
   Stopwatch watch;
   const auto take_frame = [&](int frame, const DrawnPicture& picture) -> Result<void> {
     figures.draw_ms += watch.lap();
-    auto bytes = png_bytes(picture, picture_texts(figures, frame));
+    auto bytes = png_bytes(picture, picture_texts(figures, frame), said_dpi(figures.settings));
     if (!bytes) return bytes.error();
     const std::string& path = figures.paths[static_cast<std::size_t>(frame)];
     auto written = outputs.write_text(path, *std::move(bytes), standard_output);
@@ -197,6 +227,37 @@ void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   warnings.push_back({"isolines every " + significant(*asked) +
                           " would be closer together than pixels and are left out",
                       {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
+}
+
+/// Options that have nothing to do in this picture, and letters that it cannot show.
+void note_figure(const RenderArguments& arguments, const PictureFigures& figures,
+                 const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
+  const auto note = [&](std::initializer_list<const char*> names, const std::string& why) {
+    std::vector<std::string> typed;
+    for (const char* name : names) {
+      if (arguments.settings.has(name)) typed.push_back(std::string("--") + name);
+    }
+    if (typed.empty()) return;
+    warnings.push_back({joined(typed) + (typed.size() == 1 ? " is" : " are") + " not used: " + why});
+  };
+  if (!figures.scale.bar) {
+    note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
+  }
+  const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
+  if (!mapped) note({"bands"}, "the picture shows no values in colours");
+  if (!figures.scale.coloured) note({"values", "colour-scale"}, "the picture shows no distances");
+  if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
+  const PictureSettings& s = figures.settings;
+  for (const auto& [name, text] :
+       {std::pair<const char*, std::string>{"--title", s.title},
+        {"--bar-label", s.bar_label},
+        {"--units", s.units},
+        {"the caption", s.caption ? data.caption : std::string()}}) {
+    const std::vector<std::string> missing = drawing.missing_letters(text);
+    if (missing.empty()) continue;
+    warnings.push_back({std::string(name) + ": the font of pictures has no " + joined(missing) +
+                        ", and a box stands there"});
+  }
 }
 
 bool shows_faces(const PictureData& data) {
@@ -234,8 +295,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("FILE");
   command
       .add_option("--path", arguments.targets,
-                  "draws the paths from the nearest source to this point (17, face:ID:b0:b1:b2, "
-                  "xyz:x:y:z): geodesic, and the streamlines of distance and heat; may be repeated")
+                  "draws the path from the nearest source to this point (17, face:ID:b0:b1:b2, "
+                  "xyz:x:y:z), as --path-kind says; may be repeated")
       ->type_name("POINT")
       ->expected(1)
       ->allow_extra_args(false)
@@ -264,6 +325,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
       picture_settings(*asked, arguments.settings, arguments.picture, colour_maps);
   if (!settings) return settings.error();
   const MethodOptions& options = asked->options;
+  if (auto fits = check_figure(*settings, options, arguments); !fits) return fits.error();
   if (needs_fields(settings->view) && options.method != MethodKind::kHeat) {
     return Error{ErrorCode::kBadInput, "--view " + geotherm::to_text(settings->view) +
                                            " shows the heat u, which --method " +
@@ -316,6 +378,7 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   figures.scale = picture_scale(*data, *settings);
   data->caption = caption_of(figures);
   note_scale(figures, out.warnings);
+  note_figure(arguments, figures, *data, drawing, out.warnings);
   note_empty(*data, figures.settings, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
     out.warnings.push_back({"drawing in software, on " + figures.device.name});

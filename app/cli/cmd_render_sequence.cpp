@@ -139,7 +139,7 @@ class FramePainter {
                            figures_.draw_ms += watch.lap();
                            auto texts = picture_texts(figures_, 0);
                            texts.push_back({"geotherm:frame", std::to_string(number)});
-                           auto bytes = png_bytes(picture, texts);
+                           auto bytes = png_bytes(picture, texts, said_dpi(figures_.settings));
                            if (!bytes) return bytes.error();
                            std::string nowhere;
                            auto written = outputs_.write_text(path, *std::move(bytes), nowhere);

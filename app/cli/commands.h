@@ -192,7 +192,7 @@ struct IsolinesArguments {
   std::string model;
   SettingArguments settings;
   SourceArguments sources;
-  std::string spacing, count;  ///< one of them is given
+  std::string spacing, count, values;  ///< one of them is given
   LineFileArguments files;
   CheckArguments check;
   bool quiet = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drawing by the engine: the one place where pictures and the renderer meet.
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,18 @@ class EngineDrawing final : public Drawing {
     std::vector<std::string> names;
     for (const engine::ColourMap& map : engine::colour_maps()) names.emplace_back(map.name);
     return names;
+  }
+
+  std::vector<std::string> missing_letters(const std::string& text) const override {
+    std::vector<std::string> out;
+    for (const std::string_view letter : engine::missing_letters(text)) {
+      std::string_view rest = letter;
+      char number[16];
+      std::snprintf(number, sizeof number, " (U+%04X)",
+                    static_cast<unsigned>(engine::take_letter(rest)));
+      out.push_back('\'' + std::string(letter) + '\'' + number);
+    }
+    return out;
   }
 
   Result<std::vector<DrawingDevice>> devices() override {

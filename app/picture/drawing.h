@@ -36,6 +36,10 @@ class Drawing {
   /// Names of the colour maps, the default first. Needs no device.
   virtual std::vector<std::string> colour_maps() const = 0;
 
+  /// The letters of a text that pictures show as a box, such as "'x' (U+1234)", each once. Needs no
+  /// device.
+  virtual std::vector<std::string> missing_letters(const std::string& /*text*/) const { return {}; }
+
   /// All devices, in the order of preference. Errors: kNoDevice (no loader, no device).
   virtual Result<std::vector<DrawingDevice>> devices() = 0;
 

@@ -36,6 +36,11 @@ int dots_per_inch(const PictureSettings& settings) {
   return settings.dpi.value_or(settings.paper ? kPaperDpi : kScreenDpi);
 }
 
+std::optional<int> said_dpi(const PictureSettings& settings) {
+  if (!settings.dpi && !settings.paper) return std::nullopt;
+  return dots_per_inch(settings);
+}
+
 double pixels_of(const PaperLength& length, const PictureSettings& settings) {
   const double dots = dots_per_inch(settings);
   switch (length.unit) {

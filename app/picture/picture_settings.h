@@ -200,6 +200,13 @@ struct PictureSettings {
   bool operator==(const PictureSettings&) const = default;
 };
 
+/// Where the size is one on paper and nothing else is said.
+inline constexpr PaperLength kTextOnPaper{8, PaperUnit::kPoint};
+inline constexpr PaperLength kLinesOnPaper{0.5, PaperUnit::kPoint};
+
+/// What a picture's file says: `dpi`, or what a size on paper was drawn with.
+std::optional<int> said_dpi(const PictureSettings& settings);
+
 /// Of `dpi` where it is said; else 300 on paper and 96 elsewhere.
 int dots_per_inch(const PictureSettings& settings);
 

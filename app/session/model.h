@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/picture/picture_settings.h"
 #include "app/session/space.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"

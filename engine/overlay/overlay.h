@@ -26,8 +26,8 @@ char32_t take_letter(std::string_view& text);
 /// The font that everything is written in (DejaVu Sans, embedded): a TrueType file.
 std::span<const std::byte> font_file();
 
-/// The letters of a text that the font lacks, each once.
-std::vector<char32_t> missing_letters(std::string_view text);
+/// The letters of a text that the font lacks, each once: pieces of it.
+std::vector<std::string_view> missing_letters(std::string_view text);
 
 /// Letters as one 8-bit coverage image; made for the texts that will be drawn, of any script that
 /// the font (DejaVu Sans, embedded) covers.
