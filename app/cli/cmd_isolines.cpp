@@ -25,12 +25,14 @@ struct Levels {
 };
 
 Result<Levels> levels_in(const IsolinesArguments& arguments) {
-  const int given = !arguments.spacing.empty() + !arguments.count.empty() +
-                    !arguments.values.empty();
+  const int given =
+      !arguments.spacing.empty() + !arguments.count.empty() + !arguments.values.empty();
   if (given != 1) {
     return Error{ErrorCode::kBadInput,
                  std::string("--spacing, --count and --values: ") +
-                     (given == 0 ? "none" : given == 2 ? "two" : "all") +
+                     (given == 0   ? "none"
+                      : given == 2 ? "two"
+                                   : "all") +
                      " of them given; give one, such as --spacing 0.1, --count 20 or --values "
                      "0.1,0.2,0.5"};
   }

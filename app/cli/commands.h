@@ -209,7 +209,10 @@ struct RenderArguments {
   PictureArguments picture;
   CheckArguments check;
   SequenceArguments sequence;
-  std::vector<std::string> targets;  ///< paths lead there from the sources
+  std::vector<std::string> targets;      ///< paths lead there from the sources
+  std::vector<std::string> more_models;  ///< beside `model`
+  std::string columns;                   ///< of several models; empty: as many as suit
+  std::string fps;                       ///< of a film; empty: 25
   std::string output;
   std::string json;
   bool quiet = false;

@@ -47,21 +47,47 @@ std::string ffmpeg_path() {
 }
 
 /// What becomes of the frames, which come as raw RGBA on standard input.
-std::vector<std::string> words_for(const std::string& path, const std::string& into, int width,
-                                   int height, int rate, const std::string& comment) {
-  std::vector<std::string> words = {
-      "ffmpeg", "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo",
-      "-pixel_format", "rgba", "-video_size", std::to_string(width) + "x" + std::to_string(height),
-      "-framerate", std::to_string(rate), "-i", "pipe:0", "-fflags", "+bitexact", "-flags:v",
-      "+bitexact", "-metadata", "comment=" + comment};
+std::vector<std::string> words_for(const std::string& path, const std::string& into,
+                                   const DrawnPicture& first, int rate,
+                                   const std::string& comment) {
+  const std::string size = std::to_string(first.width) + "x" + std::to_string(first.height);
+  char corner[16];  // what an odd side is made even with
+  std::snprintf(corner, sizeof corner, "0x%02X%02X%02X", first.pixels[0], first.pixels[1],
+                first.pixels[2]);
+  std::vector<std::string> words = {"ffmpeg",
+                                    "-hide_banner",
+                                    "-loglevel",
+                                    "error",
+                                    "-nostdin",
+                                    "-y",
+                                    "-f",
+                                    "rawvideo",
+                                    "-pixel_format",
+                                    "rgba",
+                                    "-video_size",
+                                    size,
+                                    "-framerate",
+                                    std::to_string(rate),
+                                    "-i",
+                                    "pipe:0",
+                                    "-fflags",
+                                    "+bitexact",
+                                    "-flags:v",
+                                    "+bitexact",
+                                    "-metadata",
+                                    "comment=" + comment};
   const std::vector<std::string> format =
       io::file_extension(path) == ".gif"
           ? std::vector<std::string>{"-filter_complex",
                                      "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-f", "gif"}
           // Players need even sides and colours at half the resolution.
-          : std::vector<std::string>{"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264",
-                                     "-crf", "18", "-pix_fmt", "yuv420p", "-movflags",
-                                     "+faststart", "-f", "mp4"};
+          : std::vector<std::string>{
+                "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=" + std::string(corner),
+                "-c:v",      "libx264",
+                "-crf",      "18",
+                "-pix_fmt",  "yuv420p",
+                "-movflags", "+faststart",
+                "-f",        "mp4"};
   words.insert(words.end(), format.begin(), format.end());
   words.push_back("file:" + into);
   return words;
@@ -70,8 +96,8 @@ std::vector<std::string> words_for(const std::string& path, const std::string& i
 }  // namespace
 
 struct Film::State {
-  std::string path, into;  ///< where it goes, and where it is until then
-  int frames = -1;         ///< our end of what ffmpeg reads
+  std::string path, into;     ///< where it goes, and where it is until then
+  int frames = -1;            ///< our end of what ffmpeg reads
   std::FILE* said = nullptr;  ///< what ffmpeg says of errors
   pid_t process = 0;          ///< 0: it has ended
   FileGroup unfinished;
@@ -122,7 +148,7 @@ Result<void> find_ffmpeg() {
                {"install it (apt-get install ffmpeg), or give a .png name for pictures"}};
 }
 
-Result<Film> Film::open(const std::string& path, int width, int height, int frames_per_second,
+Result<Film> Film::open(const std::string& path, const DrawnPicture& first, int frames_per_second,
                         const std::string& comment) {
   const std::string program = ffmpeg_path();
   if (program.empty()) return find_ffmpeg().error();
@@ -138,8 +164,7 @@ Result<Film> Film::open(const std::string& path, int width, int height, int fram
   state->unfinished.add(into);
   state->into = into;
 
-  std::vector<std::string> words =
-      words_for(path, into, width, height, frames_per_second, comment);
+  std::vector<std::string> words = words_for(path, into, first, frames_per_second, comment);
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
@@ -148,8 +173,8 @@ Result<Film> Film::open(const std::string& path, int width, int height, int fram
   ::posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   ::posix_spawn_file_actions_adddup2(&actions, ::fileno(state->said), STDERR_FILENO);
-  const int failure = ::posix_spawn(&state->process, program.c_str(), &actions, nullptr,
-                                    pointers.data(), environ);
+  const int failure =
+      ::posix_spawn(&state->process, program.c_str(), &actions, nullptr, pointers.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (failure != 0) {
@@ -186,8 +211,7 @@ Result<void> Film::finish() {
   ::close(std::exchange(state_->frames, -1));
   if (state_->process == 0 || state_->wait() != 0) return state_->failed();
   if (::rename(state_->into.c_str(), state_->path.c_str()) != 0) {
-    return Error{ErrorCode::kBadFile,
-                 one_line(state_->path) + ": cannot be written: " + reason()};
+    return Error{ErrorCode::kBadFile, one_line(state_->path) + ": cannot be written: " + reason()};
   }
   state_->into.clear();
   return {};

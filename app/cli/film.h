@@ -19,10 +19,11 @@ Result<void> find_ffmpeg();
 /// there whole or not at all. Errors of add() and finish(): kBadFile, with what ffmpeg says.
 class Film {
  public:
-  /// Starts ffmpeg. Preconditions: is_film(path), all frames have this size. `comment`: what the
-  /// file says about itself. Errors: those of find_ffmpeg(), kBadFile.
-  static Result<Film> open(const std::string& path, int width, int height, int frames_per_second,
-                           const std::string& comment);
+  /// Starts ffmpeg. Preconditions: is_film(path), all frames have the size of the first, which is
+  /// not added yet. `comment`: what the file says about itself. Errors: those of find_ffmpeg(),
+  /// kBadFile.
+  static Result<Film> open(const std::string& path, const DrawnPicture& first,
+                           int frames_per_second, const std::string& comment);
 
   Film(Film&&) noexcept;
   Film& operator=(Film&&) noexcept;

@@ -310,7 +310,8 @@ void add_picture_options(CLI::App& command, SettingArguments& settings, PictureA
 
 void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
   add_setting_options(command, settings,
-                      {"title", "text-size", "line-width", "dpi", "size", "background", "azimuth", "elevation", "roll", "up", "zoom", "pan", "projection"});
+                      {"title", "text-size", "line-width", "dpi", "size", "background", "azimuth",
+                       "elevation", "roll", "up", "zoom", "pan", "projection"});
 }
 
 void complete_bare_fit(std::vector<std::string>& words) {
@@ -325,7 +326,8 @@ void face_head_on(const Model& model, const SettingArguments& typed, PictureSett
   const bool says_up = up != UpAxis::kAuto;
   if (!says_up) up = model.up;
   const auto angles = head_on(model);
-  if (!angles || says_up || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation")) return;
+  if (!angles || says_up || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation"))
+    return;
   picture.camera.azimuth = (*angles)[0];
   picture.camera.elevation = (*angles)[1];
 }

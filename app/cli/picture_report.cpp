@@ -104,7 +104,8 @@ std::string view_in_words(const PictureFigures& f) {
   if (f.scale.kind == ColourScale::kLog) text += ", logarithmic";
   if (f.settings.bands > 0) text += ", in " + std::to_string(f.settings.bands) + " bands";
   if (!f.scale.levels.empty()) {
-    text += ", isolines at " + counted(static_cast<std::int64_t>(f.scale.levels.size()), "value", "values");
+    text += ", isolines at " +
+            counted(static_cast<std::int64_t>(f.scale.levels.size()), "value", "values");
   }
   if (f.scale.spacing > 0) text += ", isolines every " + significant(f.scale.spacing);
   return text;

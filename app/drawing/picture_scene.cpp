@@ -165,13 +165,15 @@ engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettin
 float line_height_of(const PictureSettings& settings) {
   constexpr double kLineOfEm = 1.164;
   if (!settings.text_size && !settings.paper) return 0;
-  return static_cast<float>(kLineOfEm * pixels_of(settings.text_size.value_or(kTextOnPaper), settings));
+  return static_cast<float>(kLineOfEm *
+                            pixels_of(settings.text_size.value_or(kTextOnPaper), settings));
 }
 
 /// How much wider than usual lines are.
 float line_factor(const PictureSettings& settings, float usual) {
   if (!settings.line_width && !settings.paper) return 1;
-  return static_cast<float>(pixels_of(settings.line_width.value_or(kLinesOnPaper), settings)) / usual;
+  return static_cast<float>(pixels_of(settings.line_width.value_or(kLinesOnPaper), settings)) /
+         usual;
 }
 
 }  // namespace
@@ -205,7 +207,8 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   for (const double level : scale.levels) {
     if (level > scale.min && level < scale.max) legend.lines.push_back(position(level));
   }
-  if (!(scale.spacing > 0) || !scale.levels.empty() || width / scale.spacing > kMaxLinesOnBar) return legend;
+  if (!(scale.spacing > 0) || !scale.levels.empty() || width / scale.spacing > kMaxLinesOnBar)
+    return legend;
   const double first = std::floor(scale.min / scale.spacing) + 1;
   for (double i = first; i * scale.spacing < scale.max; ++i) {
     legend.lines.push_back(position(i * scale.spacing));
@@ -288,8 +291,7 @@ Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
   }
   if (auto done = renderer.set_regions({}); !done) return done;
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
-  return map == nullptr ? Result<void>()
-                        : renderer.set_colours(colours_of(*map, settings));
+  return map == nullptr ? Result<void>() : renderer.set_colours(colours_of(*map, settings));
 }
 
 Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data,

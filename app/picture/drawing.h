@@ -53,6 +53,12 @@ class Drawing {
   using TakeFrame = std::function<Result<void>(int, const DrawnPicture&)>;
   virtual Result<void> draw(const PictureData& data, const PictureSettings& settings,
                             const TakeFrame& frame) = 0;
+
+  /// The same of several models side by side, row after row, each over its caption, with one
+  /// colour bar for all. Preconditions: open(), 1 <= columns, some cells; the settings give all of
+  /// them one scale.
+  virtual Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
+                                  const PictureSettings& settings, const TakeFrame& frame) = 0;
 };
 
 /// What this build draws with: the engine, or a stand-in that says that there is none. Opens

@@ -259,7 +259,8 @@ class SvgDrawing {
     const std::string size = size_text(settings_);
     const std::size_t between = size.find('x');
     svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size.substr(0, between) +
-           "\" height=\"" + size.substr(between + 1) + "\" viewBox=\"0 0 " + width + ' ' + height + "\" stroke-linejoin=\"round\" " +
+           "\" height=\"" + size.substr(between + 1) + "\" viewBox=\"0 0 " + width + ' ' + height +
+           "\" stroke-linejoin=\"round\" " +
            "stroke-linecap=\"round\" font-family=\"system-ui, Helvetica, Arial, sans-serif\">\n";
     if (settings_.background == PictureBackground::kTransparent) return;
     svg_ += "<rect width=\"100%\" height=\"100%\" fill=\"" + text_of(style_.background) + "\"/>\n";

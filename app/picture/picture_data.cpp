@@ -177,8 +177,7 @@ void note_extent(PictureData& data) {
   data.greatest_value = greatest == -kMost ? 0 : greatest;
   data.smallest_positive = positive == kMost ? 0 : positive;
   data.unreached = std::ranges::any_of(data.faces, [&data](const auto& face) {
-    return std::ranges::any_of(face,
-                               [&data](auto v) { return data.values[v] == kNoPictureValue; });
+    return std::ranges::any_of(face, [&data](auto v) { return data.values[v] == kNoPictureValue; });
   });
 }
 

@@ -48,8 +48,8 @@ struct PictureData {
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
   /// Of `values`, where there are some: the ends, and the least one above 0 (0: none is).
   float smallest_value = 0, greatest_value = 0, smallest_positive = 0;
-  bool unreached = false;     ///< some corner of a face has no value
-  bool is_signed = false;     ///< `values` run from -1 to 1: a difference
+  bool unreached = false;          ///< some corner of a face has no value
+  bool is_signed = false;          ///< `values` run from -1 to 1: a difference
   std::vector<float> face_values;  ///< F: of a view with a colour a face (set_face_values())
   float largest_face_value = 0;    ///< where the colours of that view end
   View face_view{};                ///< that view, where there are values of it

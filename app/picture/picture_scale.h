@@ -59,10 +59,10 @@ struct PictureScale {
   ColourScale kind = ColourScale::kLinear;
   double spacing = 0;          ///< of isolines; 0: none
   std::vector<double> levels;  ///< isolines at these values instead, ascending
-  bool coloured = false;    ///< the view shows distances and there are some above 0
-  bool bar = false;         ///< there is something to read off a colour bar, and it is wanted
-  std::string colour_map;   ///< the one that is drawn
-  Ticks ticks;              ///< of the bar
+  bool coloured = false;       ///< the view shows distances and there are some above 0
+  bool bar = false;            ///< there is something to read off a colour bar, and it is wanted
+  std::string colour_map;      ///< the one that is drawn
+  Ticks ticks;                 ///< of the bar
   bool below = false, above = false;  ///< values lie beyond the ends: they have the ends' colours
 
   /// Where a value is on the colour map, 0 to 1 between the ends.
@@ -99,9 +99,6 @@ double nearest_round_number(double x);
 
 /// The smallest round number that is not below x > 0.
 double round_number_above(double x);
-
-/// The largest round number that is not above x > 0.
-double round_number_below(double x);
 
 /// A round number that so many of reach over `range`, and little more.
 double band_width(double range, int bands);

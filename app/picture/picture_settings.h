@@ -106,9 +106,11 @@ inline NamedValues<PathKind> named_values(PathKind) {
 enum class NumberStyle { kAuto, kFixed, kScientific, kSignificant };
 inline NamedValues<NumberStyle> named_values(NumberStyle) {
   using enum NumberStyle;
-  return {
-      "there is no number format '*'",
-      {{kAuto, "auto"}, {kFixed, "fixed"}, {kScientific, "scientific"}, {kSignificant, "significant"}}};
+  return {"there is no number format '*'",
+          {{kAuto, "auto"},
+           {kFixed, "fixed"},
+           {kScientific, "scientific"},
+           {kSignificant, "significant"}}};
 }
 
 struct NumberFormat {
@@ -122,12 +124,9 @@ struct NumberFormat {
 enum class PaperUnit { kPixel, kCentimetre, kMillimetre, kInch, kPoint };
 inline NamedValues<PaperUnit> named_values(PaperUnit) {
   using enum PaperUnit;
-  return {"there is no unit '*'",
-          {{kPixel, "px"},
-           {kCentimetre, "cm"},
-           {kMillimetre, "mm"},
-           {kInch, "in"},
-           {kPoint, "pt"}}};
+  return {
+      "there is no unit '*'",
+      {{kPixel, "px"}, {kCentimetre, "cm"}, {kMillimetre, "mm"}, {kInch, "in"}, {kPoint, "pt"}}};
 }
 
 struct PaperLength {
@@ -185,13 +184,13 @@ struct PictureSettings {
   double slice_at = 0.5;  ///< where it is: 0 to 1 of the model's extent along the normal
   Peel peel;
   // What figures of papers need.
-  std::string title, bar_label, units;  ///< empty: none; what the values are; model units
-  NumberFormat number_format;           ///< of the bar
+  std::string title, bar_label, units;    ///< empty: none; what the values are; model units
+  NumberFormat number_format;             ///< of the bar
   std::optional<PaperLength> text_size;   ///< of letters; absent: suits the picture
   std::optional<PaperLength> line_width;  ///< of isolines; edges and paths keep their proportions
   ColourScale colour_scale = ColourScale::kLinear;
-  int bands = 0;                          ///< colours of the map that are told apart; 0: all
-  std::vector<double> line_values;        ///< ascending; isolines there instead of a spacing
+  int bands = 0;                    ///< colours of the map that are told apart; 0: all
+  std::vector<double> line_values;  ///< ascending; isolines there instead of a spacing
   PathKind path_kind = PathKind::kGeodesic;
   CameraSettings camera;
   int turntable = 0;   ///< frames of one turn; 0: one picture

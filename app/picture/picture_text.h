@@ -47,7 +47,7 @@ struct Pan {
   double right = 0, up = 0;
 };
 
-Result<Size> parse_size(const std::string& text);                         // 1280x720
+Result<Size> parse_size(const std::string& text);                          // 1280x720
 Result<std::array<PaperLength, 2>> parse_paper(const std::string& text);   // 8cmx6cm
 Result<std::optional<PaperLength>> parse_length(const std::string& text);  // 1.5 | 0.5pt | auto
 Result<std::optional<int>> parse_dpi(const std::string& text);             // 10 to 2400 | auto
@@ -55,14 +55,14 @@ Result<NumberFormat> parse_number_format(const std::string& text);         // au
 Result<std::vector<double>> parse_values(const std::string& text);         // V1,V2,... | auto
 Result<int> parse_bands(const std::string& text);                          // 2 to 64 | off
 Result<double> parse_roll(const std::string& text);                        // degrees
-Result<int> parse_samples(const std::string& text);                    // 1 | 4
-Result<Range> parse_range(const std::string& text);                    // MIN:MAX | MIN: | auto
-Result<std::optional<double>> parse_spacing(const std::string& text);  // D | auto
-Result<double> parse_azimuth(const std::string& text);                 // degrees
-Result<double> parse_elevation(const std::string& text);               // degrees
-Result<double> parse_zoom(const std::string& text);                    // factor
-Result<Pan> parse_pan(const std::string& text);                        // RIGHT:UP
-Result<bool> parse_projection(const std::string& text);                // true: orthographic
+Result<int> parse_samples(const std::string& text);                        // 1 | 4
+Result<Range> parse_range(const std::string& text);                        // MIN:MAX | MIN: | auto
+Result<std::optional<double>> parse_spacing(const std::string& text);      // D | auto
+Result<double> parse_azimuth(const std::string& text);                     // degrees
+Result<double> parse_elevation(const std::string& text);                   // degrees
+Result<double> parse_zoom(const std::string& text);                        // factor
+Result<Pan> parse_pan(const std::string& text);                            // RIGHT:UP
+Result<bool> parse_projection(const std::string& text);                    // true: orthographic
 Result<std::optional<std::array<double, 3>>> parse_centre(const std::string& text);  // X:Y:Z | auto
 Result<std::optional<std::array<double, 3>>> parse_slice(
     const std::string& text);                            // x | X:Y:Z | off

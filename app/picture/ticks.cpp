@@ -110,14 +110,6 @@ double round_number_above(double x) {
   return x;
 }
 
-double round_number_below(double x) {
-  double best = x;
-  for (const double value : round_numbers_about(x)) {
-    if (value <= x * (1 + kSlack)) best = value;
-  }
-  return best;
-}
-
 double round_spacing(double range) {
   if (!(range > 0) || !std::isfinite(range)) return 1;
   const double spacing = nearest_round_number(range / kBands);

@@ -34,8 +34,8 @@ PictureScale face_scale(const PictureData& data, const PictureSettings& settings
 /// The scale that a picture can have: differences have no logarithm, distances no other sign.
 ColourScale kind_of(const PictureData& data, const PictureSettings& settings) {
   const ColourScale asked = settings.colour_scale;
-  const bool fits = asked == ColourScale::kDiverging ? data.is_signed
-                                                     : !data.is_signed && data.largest_value > 0;
+  const bool fits =
+      asked == ColourScale::kDiverging ? data.is_signed : !data.is_signed && data.largest_value > 0;
   return fits ? asked : ColourScale::kLinear;
 }
 
@@ -74,11 +74,13 @@ void set_log_ends(const PictureData& data, const PictureSettings& settings, Pict
   const double largest = data.largest_value * data.value_unit;
   const double smallest = data.smallest_positive * data.value_unit;
   const auto is_given = [](const std::optional<double>& end) { return end && *end > 0; };
-  scale.max = is_given(settings.range_max) ? *settings.range_max : round_number_above(largest);
+  // Between numbers that begin with 1, 2 or 5, which are the marks as well.
+  scale.max = is_given(settings.range_max) ? *settings.range_max
+                                           : log_levels(largest, 10 * largest, 3).front();
   const double least = kSmallestRatio * scale.max;
   scale.min = is_given(settings.range_min)
                   ? *settings.range_min
-                  : round_number_below(std::max(smallest > 0 ? smallest : least, least));
+                  : log_levels(std::max(smallest, least) / 10, std::max(smallest, least), 3).back();
   if (!(scale.min < scale.max)) scale.min = scale.max / 10;
 }
 
@@ -155,8 +157,7 @@ PictureScale picture_scale(const PictureData& data, const PictureSettings& setti
   set_ticks(settings, scale);
   const double slack = kSlackOfEnds * (scale.max - scale.min);
   // The distance 0 of sources has no place on a logarithmic scale, and nobody misses it there.
-  const double low =
-      scale.kind == ColourScale::kLog ? data.smallest_positive : data.smallest_value;
+  const double low = scale.kind == ColourScale::kLog ? data.smallest_positive : data.smallest_value;
   scale.below = low * data.value_unit < scale.min - slack;
   scale.above = data.greatest_value * data.value_unit > scale.max + slack;
   return scale;

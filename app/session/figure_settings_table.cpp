@@ -76,8 +76,10 @@ std::vector<Setting> figure_settings_table() {
        .help = "of the numbers at the colour bar",
        .forms = "auto (default), fixed:N, scientific:N or significant:N with N digits",
        .get = [](const ViewerState& s) { return number_format_text(s.picture.number_format); },
-       .set = [](ViewerState& s,
-                 const std::string& t) { return store(parse_number_format(t), s.picture.number_format); },
+       .set =
+           [](ViewerState& s, const std::string& t) {
+             return store(parse_number_format(t), s.picture.number_format);
+           },
        .values =
            [] {
              return std::vector<std::string>{"auto", "fixed:2", "scientific:1", "significant:3"};
@@ -85,7 +87,8 @@ std::vector<Setting> figure_settings_table() {
       length<&PictureSettings::text_size>(
           {.name = "text-size",
            .help = "of letters",
-           .detail = "auto: 1/44 of the picture's shorter side; 8pt where the size is one on paper."}),
+           .detail =
+               "auto: 1/44 of the picture's shorter side; 8pt where the size is one on paper."}),
       length<&PictureSettings::line_width>(
           {.name = "line-width",
            .help = "of isolines; edges and paths keep their proportions",
@@ -130,7 +133,8 @@ std::vector<Setting> figure_settings_table() {
            .group = kFigure,
            .value_name = "KIND",
            .help = "which paths to a point are drawn",
-           .detail = "geodesic: locally shortest; distance, heat: streamlines of what was computed."}),
+           .detail =
+               "geodesic: locally shortest; distance, heat: streamlines of what was computed."}),
   };
 }
 

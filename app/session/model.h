@@ -69,7 +69,7 @@ struct Model {
   /// What distance is computed in, where that is not `mesh` itself.
   std::shared_ptr<const Space> space = {};
   UpAxis up = UpAxis::kAuto;  ///< what the file says; kAuto: nothing
-  bool from_points = false;  ///< `mesh` was made of points without faces
+  bool from_points = false;   ///< `mesh` was made of points without faces
 
   /// Whether the file holds the faces of `mesh`.
   bool is_mesh() const { return !space && !from_points; }

@@ -45,8 +45,8 @@ void draw_isolines(const Legend& legend, const Bar& bar, float stroke, Overlay& 
 
 /// A triangle with smooth sides: row after row from its base at the bar's end to its tip, the
 /// outermost pixels as dense as they are covered.
-void draw_triangle(const Bar& bar, bool beyond_high, float base, float tip,
-                   const glm::vec4& colour, Overlay& overlay) {
+void draw_triangle(const Bar& bar, bool beyond_high, float base, float tip, const glm::vec4& colour,
+                   Overlay& overlay) {
   const float middle = bar.upright ? (bar.min.x + bar.max.x) / 2 : (bar.min.y + bar.max.y) / 2;
   const auto cell = [&](float along, float from, float to, float cover) {
     const float end = beyond_high != bar.upright ? (bar.upright ? bar.max.y : bar.max.x)
@@ -99,8 +99,7 @@ void draw_bar(const Legend& legend, const Bar& bar, float stroke, Overlay& overl
     if (bar.upright) {
       overlay.add_gradient({bar.min.x, edge(i + 1)}, {bar.max.x, edge(i)}, high, low);
     } else {
-      overlay.add_rectangle({edge(i), bar.min.y}, {edge(i + 1), bar.max.y},
-                            (low + high) / 2.0F);
+      overlay.add_rectangle({edge(i), bar.min.y}, {edge(i + 1), bar.max.y}, (low + high) / 2.0F);
     }
   }
   draw_isolines(legend, bar, stroke, overlay);
@@ -128,9 +127,9 @@ std::vector<const Tick*> ticks_with_room(const std::vector<Tick>& ticks, float l
                    [](const Tick* a, const Tick* b) { return a->position < b->position; });
   std::vector<const Tick*> kept;
   for (const Tick* tick : sorted) {
-    const bool fits = kept.empty() || tick->position - kept.back()->position >=
-                                          (extent_of(*kept.back()) + extent_of(*tick)) / 2 /
-                                              std::max(length, 1.0F);
+    const bool fits = kept.empty() ||
+                      tick->position - kept.back()->position >=
+                          (extent_of(*kept.back()) + extent_of(*tick)) / 2 / std::max(length, 1.0F);
     if (fits) kept.push_back(tick);
   }
   return kept;
@@ -168,8 +167,8 @@ Insets draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, fl
   // The column is centred in what is free; labels at the bar's ends reach half a line farther.
   const float half_line = std::ceil(atlas.line_height() / 2);
   const float arrow = arrow_length(bar_width);
-  const float above = (title.empty() ? half_line : title_height(title, m, atlas)) +
-                      (legend.above ? arrow : 0);
+  const float above =
+      (title.empty() ? half_line : title_height(title, m, atlas)) + (legend.above ? arrow : 0);
   const float below = legend.below ? std::max(half_line, arrow) : half_line;
   const float free = bottom - top;
   const float height = std::floor(std::min(18 * m.line, free - above - below));
@@ -178,8 +177,8 @@ Insets draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, fl
   const Bar bar{{left, title_top + above}, {left + bar_width, title_top + above + height}};
 
   draw_paper(legend, {left, title_top},
-             {left + width, bar.max.y + (legend.below ? below : atlas.line_height() / 2)},
-             m.margin, overlay);
+             {left + width, bar.max.y + (legend.below ? below : atlas.line_height() / 2)}, m.margin,
+             overlay);
   const glm::vec4 ink(legend.ink, 1);
   draw_title(title, {left, title_top}, ink, overlay);
   draw_bar(legend, bar, m.stroke, overlay);

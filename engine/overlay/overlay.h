@@ -108,9 +108,9 @@ struct Legend {
   std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
   std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;
-  std::string title;    ///< over the bar: what the values are, and their unit
+  std::string title;                  ///< over the bar: what the values are, and their unit
   bool below = false, above = false;  ///< values lie beyond the bar's ends: arrows there
-  std::string heading;  ///< over the picture
+  std::string heading;                ///< over the picture
   /// One line along the lower edge; cut with an ellipsis where it is too long.
   std::string caption;
   std::vector<Key> keys;        ///< one a line in the upper left corner
@@ -127,8 +127,9 @@ struct LegendLayout {
 
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the
 /// picture. The bar is a column at the right side, or a row along the lower edge of what is higher
-/// than wide, or the other one where that has no room; ticks whose labels would touch are thinned out; a picture that is too small for a bar
-/// or a caption has none. Cost: the glyphs' rasterisation, milliseconds.
+/// than wide, or the other one where that has no room; ticks whose labels would touch are thinned
+/// out; a picture that is too small for a bar or a caption has none. Cost: the glyphs'
+/// rasterisation, milliseconds.
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent);
 
 }  // namespace geotherm::engine
