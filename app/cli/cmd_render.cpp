@@ -151,12 +151,12 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
       return fits.error();
     }
   }
-  if (!arguments.sequence.frames.empty()) {
-    return run_render_sequence(arguments, {*asked, *settings, *check}, drawing, progress);
-  }
   if (!arguments.columns.empty() && arguments.more_models.empty()) {
     return Error{ErrorCode::kBadInput,
                  "--columns is for several models; name them, or leave it out"};
+  }
+  if (!arguments.sequence.frames.empty()) {
+    return run_render_sequence(arguments, {*asked, *settings, *check}, drawing, progress);
   }
   Outputs outputs;
   if (auto expected = expect_outputs(arguments, *settings, outputs); !expected) {

@@ -164,6 +164,7 @@ class FramePainter {
     const View view = figures_.settings.view;
     const bool first = !unit_;
     PictureData data = picture_of_frame(mesh, extent_);
+    data.up = answer.model.up;
     add_sources(data, mesh, answer.sources);
     add_distances(data, answer.result.distances, unit_);
     unit_ = data.value_unit;
