@@ -168,10 +168,11 @@ class EngineDrawing final : public Drawing {
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const std::vector<glm::vec3> positions = scene_vectors(cells[k].positions);
       if (auto done = upload(cells[k], one, positions); !done) return done.error();
-      engine::Legend label = legend_of(cells[k], one, scale);
+      const PictureScale own = picture_scale(cells[k], one);  // the same, without a bar
+      engine::Legend label = legend_of(cells[k], one, own);
       if (label.line_height <= 0) label.line_height = usual_line(extent);
       const engine::LegendLayout below = engine::lay_out(label, room);
-      engine::Scene scene = scene_of(cells[k], one, picture_scale(cells[k], one));
+      engine::Scene scene = scene_of(cells[k], one, own);
       scene.camera =
           camera_of(cells[k], frame_camera(settings, frame), positions, room, below.insets);
       const auto image = engine::draw_picture(*device_, *renderer_, scene, below.overlay);

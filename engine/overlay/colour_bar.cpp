@@ -114,23 +114,41 @@ void draw_bar(const Legend& legend, const Bar& bar, float stroke, Overlay& overl
   draw_arrows(legend, bar, stroke, overlay);
 }
 
-/// Ticks on the bar from its lower end up, such that the labels keep their distance: `extent_of`
-/// one along the bar, pixels.
-template <class ExtentOf>
-std::vector<const Tick*> ticks_with_room(const std::vector<Tick>& ticks, float length,
-                                         const ExtentOf& extent_of) {
+/// Ticks on the bar, from its lower end up.
+std::vector<const Tick*> ticks_on(const std::vector<Tick>& ticks) {
   std::vector<const Tick*> sorted;
   for (const Tick& tick : ticks) {
     if (tick.position >= 0 && tick.position <= 1) sorted.push_back(&tick);
   }
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Tick* a, const Tick* b) { return a->position < b->position; });
+  return sorted;
+}
+
+/// Of these, those whose labels keep `gap` (a share of the bar).
+std::vector<const Tick*> ticks_apart(const std::vector<Tick>& ticks, float gap) {
   std::vector<const Tick*> kept;
-  for (const Tick* tick : sorted) {
-    const bool fits = kept.empty() ||
-                      tick->position - kept.back()->position >=
-                          (extent_of(*kept.back()) + extent_of(*tick)) / 2 / std::max(length, 1.0F);
-    if (fits) kept.push_back(tick);
+  for (const Tick* tick : ticks_on(ticks)) {
+    if (kept.empty() || tick->position - kept.back()->position >= gap) kept.push_back(tick);
+  }
+  return kept;
+}
+
+/// All, or each second, third, ... such that no label touches the next. `width_of` one, pixels.
+template <class WidthOf>
+std::vector<const Tick*> ticks_in_row(const std::vector<Tick>& ticks, float length,
+                                      const WidthOf& width_of) {
+  const std::vector<const Tick*> all = ticks_on(ticks);
+  std::vector<const Tick*> kept;
+  for (std::size_t stride = 1; stride <= all.size(); ++stride) {
+    kept.clear();
+    bool fits = true;
+    for (std::size_t i = 0; i < all.size(); i += stride) {
+      fits = fits && (kept.empty() || length * (all[i]->position - kept.back()->position) >=
+                                          (width_of(*kept.back()) + width_of(*all[i])) / 2);
+      kept.push_back(all[i]);
+    }
+    if (fits) break;
   }
   return kept;
 }
@@ -183,8 +201,7 @@ Insets draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, fl
   draw_title(title, {left, title_top}, ink, overlay);
   draw_bar(legend, bar, m.stroke, overlay);
   const float digit_height = -atlas.glyph(U'0').offset.y;
-  const auto extent_of = [&](const Tick&) { return 0.9F * atlas.line_height(); };
-  for (const Tick* tick : ticks_with_room(legend.ticks, height, extent_of)) {
+  for (const Tick* tick : ticks_apart(legend.ticks, 0.9F * atlas.line_height() / height)) {
     const float y = bar.stroke_at(tick->position, m.stroke);
     overlay.add_rectangle({bar.max.x, y}, {bar.max.x + tick_length, y + m.stroke}, ink);
     overlay.add_text({left + label_offset, y + std::ceil((digit_height + m.stroke) / 2)},
@@ -220,10 +237,10 @@ Insets draw_row(const Legend& legend, const Measures& m, glm::vec2 extent, float
   const glm::vec4 ink(legend.ink, 1);
   draw_title(title, {left, title_top}, ink, overlay);
   draw_bar(legend, bar, m.stroke, overlay);
-  const auto extent_of = [&](const Tick& tick) {
+  const auto width_of = [&](const Tick& tick) {
     return atlas.width_of(tick.label) + 0.6F * m.line;
   };
-  for (const Tick* tick : ticks_with_room(legend.ticks, length, extent_of)) {
+  for (const Tick* tick : ticks_in_row(legend.ticks, length, width_of)) {
     const float x = bar.stroke_at(tick->position, m.stroke);
     overlay.add_rectangle({x, bar.max.y}, {x + m.stroke, bar.max.y + tick_length}, ink);
     overlay.add_text({x + (m.stroke - atlas.width_of(tick->label)) / 2,
