@@ -88,7 +88,8 @@ TEST_F(ProgramFigure, DrawsThePathThatIsAskedFor) {
   const auto fields = [&](std::vector<std::string> more) {
     more.insert(more.begin(), words.begin(), words.end());
     std::vector<std::string> names;
-    for (const Json& path : json(more)["picture"]["paths"]) names.push_back(path["field"]);
+    const Json made = json(more);
+    for (const Json& path : made["picture"]["paths"]) names.push_back(path["field"]);
     return names;
   };
   EXPECT_EQ(fields({}), (std::vector<std::string>{"geodesic"}));

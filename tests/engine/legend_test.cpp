@@ -251,8 +251,8 @@ TEST(Legend, TakesTheOtherShapeWhereItsOwnHasNoRoom) {
   Legend legend = sample();
   for (Tick& tick : legend.ticks) tick.label = "a label that is long";
   EXPECT_GT(lay_out(legend, {420, 400}).insets.right, 0);
-  EXPECT_EQ(lay_out(legend, {330, 320}).insets.right, 0);
-  EXPECT_GT(lay_out(legend, {330, 320}).insets.bottom, 60);
+  EXPECT_EQ(lay_out(legend, {300, 290}).insets.right, 0);
+  EXPECT_GT(lay_out(legend, {300, 290}).insets.bottom, 60);
 }
 
 TEST(Legend, HasArrowsWhereValuesLieBeyondItsEnds) {
