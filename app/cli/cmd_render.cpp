@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+#include <system_error>
+
 #include "app/cli/commands.h"
 #include "app/cli/film.h"
 #include "app/cli/picture_report.h"
@@ -154,6 +157,14 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   if (!arguments.columns.empty() && arguments.more_models.empty()) {
     return Error{ErrorCode::kBadInput,
                  "--columns is for several models; name them, or leave it out"};
+  }
+  for (const std::string& model : arguments.more_models) {
+    std::error_code unknown;
+    if (is_bundled(model) || std::filesystem::exists(model, unknown)) continue;
+    return Error{ErrorCode::kBadInput, "'" + one_line(model) +
+                                           "': there is no such file and no such bundled model "
+                                           "(geotherm models) to draw beside " +
+                                           one_line(arguments.model)};
   }
   if (!arguments.sequence.frames.empty()) {
     return run_render_sequence(arguments, {*asked, *settings, *check}, drawing, progress);

@@ -89,9 +89,8 @@ Result<std::array<PaperLength, 2>> parse_paper(const std::string& text) {
   const auto down = at == text.size() ? std::nullopt : length_in(text.substr(at + 1));
   const auto on_paper = [](const auto& side) { return side && side->unit != PaperUnit::kPixel; };
   if (on_paper(across) && on_paper(down)) return std::array{*across, *down};
-  return bad_value(text, "is no size",
-                   "give WxH in pixels, such as 1920x1080, or both sides in "
-                   "cm, mm, in or pt, such as 8cmx6cm");
+  const auto pixels = parse_size(text);
+  return pixels ? bad_value(text, "is no size on paper") : pixels.error();
 }
 
 std::string length_text(const std::optional<PaperLength>& length) {
