@@ -34,6 +34,12 @@ SHARED_CONSTANT kNoLight = 32;
 SHARED_CONSTANT kRegions = 64;  // painted by the nearest region
 SHARED_CONSTANT kForm = 128;    // darker where little light comes, and towards outlines
 
+SHARED_CONSTANT kLogarithmic = 1024;  // places on the colour map go with the logarithm
+SHARED_CONSTANT kLevels = 2048;       // lines at chosen values
+
+// Chosen values of isolines, four a vector.
+SHARED_CONSTANT kLevelVectors = 16;
+
 // RGBA8, evenly over the colour map.
 SHARED_CONSTANT kColourSteps = 1024;
 
@@ -45,14 +51,17 @@ struct Frame {
   float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1
-  vec4 plain;       // colour of the surface
-  vec4 line;        // colour, width
-  vec4 wire;        // colour, width
-  vec4 marker;      // colour, radius
-  vec4 marker_rim;  // colour, the radius within it as a share
-  vec4 polyline;    // half the width, the same with the rim; the tile's first pixel
-  vec4 sight;       // x and y at depth 1 before the eye = pixel * xy + zw; orthographic: 0
+  vec4 range;        // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
+                     // where kLogarithmic: place = log2(scaled value) * x + y
+  vec4 plain;        // colour of the surface
+  vec4 line;         // colour, width
+  vec4 wire;         // colour, width
+  vec4 marker;       // colour, radius
+  vec4 marker_rim;   // colour, the radius within it as a share
+  vec4 polyline;     // half the width, the same with the rim; the tile's first pixel
+  vec4 sight;        // x and y at depth 1 before the eye = pixel * xy + zw; orthographic: 0
+  vec4 level_count;  // x: of the levels below; -
+  vec4 levels[kLevelVectors];
 };
 
 // Pushed with each draw of arrows.
@@ -80,7 +89,7 @@ struct PanelPush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 2 * 64 + 16 + 9 * 16);
+static_assert(sizeof(Frame) == 2 * 64 + 16 + (10 + kLevelVectors) * 16);
 static_assert(offsetof(Frame, extent) == 128);
 static_assert(offsetof(Frame, near_shift) == 136);
 static_assert(offsetof(Frame, orthographic) == 140);
@@ -93,6 +102,7 @@ static_assert(offsetof(Frame, marker) == 224);
 static_assert(offsetof(Frame, marker_rim) == 240);
 static_assert(offsetof(Frame, polyline) == 256);
 static_assert(offsetof(Frame, sight) == 272);
+static_assert(offsetof(Frame, levels) == 304);
 static_assert(sizeof(ArrowPush) == 20);
 static_assert(sizeof(LinePush) == 24);
 static_assert(sizeof(MarkerPush) == 8);

@@ -72,6 +72,18 @@ float isolines(float phase) {
   return mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
 }
 
+// The same of lines at chosen values, measured from the nearest of them.
+float level_lines(float value) {
+  float dx = dFdx(value);
+  float dy = dFdy(value);
+  float pixels = inversesqrt(dx * dx + dy * dy + 1e-30);  // of a value of 1
+  float away = kLargestValue;
+  for (int i = 0; i < int(frame.level_count.x); ++i) {
+    away = min(away, abs(value - frame.levels[i / 4][i % 4]));
+  }
+  return clamp(0.5 * frame.line.w + 0.5 - away * pixels, 0.0, 1.0);
+}
+
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
 float edges(vec3 b) {
   float width = frame.wire.w;
@@ -120,14 +132,16 @@ void main() {
   float value = eye_and_value.w;
   // Computed first and chosen from then: cheaper than branches.
   bool known = abs(value) < kLargestValue;
-  float place = value * frame.range.x + frame.range.y;  // on the colour map
+  // On the colour map.
+  float measure = (features & kLogarithmic) != 0 ? log2(max(value, 1e-37)) : value;
+  float place = measure * frame.range.x + frame.range.y;
   if ((features & kMapped) != 0) {
     vec3 mapped = map_colour(place);
     c = known ? mapped : kNoValueColour;
   }
   if ((features & kRegions) != 0) c = region_colour();
-  if ((features & kIsolines) != 0) {
-    float cover = isolines(value);
+  if ((features & (kIsolines | kLevels)) != 0) {
+    float cover = (features & kLevels) != 0 ? level_lines(value) : isolines(value);
     bool within = (features & kMapped) == 0 || abs(place - 0.5) < 0.5001;  // the map's range
     lines = known && within ? cover : 0.0;
   }

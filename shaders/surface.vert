@@ -32,7 +32,7 @@ void main() {
   }
   if ((features & kForm) != 0) open = openness;
   float value = max(value_region_margin.x * frame.range.z, -1e38);
-  eye_and_value.w = (features & (kMapped | kIsolines)) != 0 ? value : 0.0;
+  eye_and_value.w = (features & (kMapped | kIsolines | kLevels)) != 0 ? value : 0.0;
   if ((features & (kWire | kRegions)) != 0) {
     corner = vec2(normal_and_label.w < -0.5, normal_and_label.w > 0.5);
   }

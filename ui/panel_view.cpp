@@ -185,6 +185,10 @@ void draw_view_panel(Frame& frame) {
   }
   draw_switches(frame);
   draw_camera(frame);
+  if (!draw_more(frame, "Figure")) return;
+  for (const app::Setting& setting : app::settings()) {
+    if (setting.group == app::SettingGroup::kFigure) draw_setting(frame, setting);
+  }
 }
 
 }  // namespace geotherm::ui

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/cli/commands.h"
+#include "app/picture/picture_text.h"
 #include "app/session/model_solver.h"
 #include "app/session/report.h"
 #include "app/session/sources.h"
@@ -19,17 +20,34 @@ constexpr int kMaxLevels = 100000;
 /// Where the lines are to be, before the distances are known.
 struct Levels {
   double spacing = 0;
-  int count = 0;  ///< 0: by spacing
+  int count = 0;               ///< 0: by spacing
+  std::vector<double> values;  ///< that were asked for, instead of both
 };
 
 Result<Levels> levels_in(const IsolinesArguments& arguments) {
-  if (arguments.spacing.empty() == arguments.count.empty()) {
+  const int given =
+      !arguments.spacing.empty() + !arguments.count.empty() + !arguments.values.empty();
+  if (given != 1) {
     return Error{ErrorCode::kBadInput,
-                 std::string("--spacing and --count: ") +
-                     (arguments.spacing.empty() ? "neither was" : "both were") +
-                     " given; give one of them, such as --spacing 0.1 or --count 20"};
+                 std::string("--spacing, --count and --values: ") +
+                     (given == 0   ? "none"
+                      : given == 2 ? "two"
+                                   : "all") +
+                     " of them given; give one, such as --spacing 0.1, --count 20 or --values "
+                     "0.1,0.2,0.5"};
   }
   Levels levels;
+  if (!arguments.values.empty()) {
+    auto values = parse_values(arguments.values);
+    if (!values) return about("--values", values.error());
+    if (values->empty() || values->front() <= 0) {
+      return Error{ErrorCode::kBadInput, "--values: '" + one_line(arguments.values) +
+                                             "' are no distances of lines; give numbers above 0, "
+                                             "in model units, such as 0.1,0.2,0.5"};
+    }
+    levels.values = *std::move(values);
+    return levels;
+  }
   if (!arguments.count.empty()) {
     const auto count = number_in<int>(arguments.count);
     if (!count || *count < 1 || *count > kMaxLevels) {
@@ -53,6 +71,7 @@ Result<Levels> levels_in(const IsolinesArguments& arguments) {
 /// Multiples of the spacing, or as many as were asked for evenly between 0 and the largest distance
 /// (both left out).
 Result<std::vector<double>> levels_up_to(double largest, const Levels& asked) {
+  if (!asked.values.empty()) return asked.values;
   std::vector<double> levels;
   if (asked.count > 0) {
     for (int i = 1; i <= asked.count; ++i) {
@@ -155,6 +174,11 @@ void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
       .add_option("--count", arguments.count,
                   "of levels, evenly between 0 and the largest distance")
       ->type_name("N");
+  command
+      .add_option("--values", arguments.values,
+                  "of the lines, in model units, such as 0.1,0.2,0.5; up to 64")
+      ->type_name("V1,V2,...");
+  add_setting_options(command, arguments.settings, {"bar-label", "units", "number-format"});
   add_line_file_options(command, arguments.files, arguments.settings, "the lines");
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
@@ -162,6 +186,7 @@ void add_isolines_options(CLI::App& command, IsolinesArguments& arguments) {
   command.footer(
       "Examples:\n"
       "  geotherm isolines bunny -s 0 --count 20 -o lines.obj\n"
+      "  geotherm isolines bunny -s 0 --values 0.1,0.2,0.5 -o lines.csv\n"
       "  geotherm isolines terrain -s boundary --spacing 0.05 -o lines.svg --azimuth 60");
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
+#include "app/cli/render_work.h"
 #include "app/cli/sequence_work.h"
 #include "app/picture/picture_scale.h"
 #include "app/session/explored.h"
@@ -27,6 +28,9 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
     return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + cure};
   };
   const View view = asked.settings.view;
+  if (!arguments.more_models.empty()) {
+    return refuse("a second model", "which moves one; leave the others out");
+  }
   if (asked.settings.turntable > 0) {
     return refuse("--turntable", "whose pictures are those of the frames; leave one of them out");
   }
@@ -45,11 +49,12 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
 
 /// The name with a place for numbers. Errors: kBadInput.
 Result<NumberedPath> numbered_output(const std::string& path) {
+  if (is_film(path)) return NumberedPath::parse("%d.png");  // nobody asks for its names
   auto numbered = NumberedPath::parse(path);
   if (!numbered) return about("--output", numbered.error());
   if (io::file_extension(path) == ".png") return numbered;
   return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
-                                         ".png; give -o 'frame_%04d.png'"};
+                                         ".png, films as .mp4 and .gif; give -o 'frame_%04d.png'"};
 }
 
 /// Points that enclose all frames almost as closely as all of their vertices: the farthest ones in
@@ -120,12 +125,13 @@ Result<std::vector<Vec3>> extent_of(const Sequence& sequence, const Progress& pr
 class FramePainter {
  public:
   FramePainter(Drawing& drawing, const NumberedPath& paths, std::vector<Vec3> extent,
-               Outputs& outputs, PictureFigures& figures)
+               Outputs& outputs, PictureFigures& figures, FrameWriter& film)
       : drawing_(drawing),
         paths_(paths),
         extent_(std::move(extent)),
         outputs_(outputs),
-        figures_(figures) {}
+        figures_(figures),
+        film_(film) {}
 
   Result<void> paint(std::int64_t number, const Answer& answer) {
     figures_.solve = answer;
@@ -136,10 +142,11 @@ class FramePainter {
     Stopwatch watch;
     return drawing_.draw(data, figures_.settings,
                          [&](int, const DrawnPicture& picture) -> Result<void> {
+                           if (is_film(film_.path())) return film_.take(0, picture);
                            figures_.draw_ms += watch.lap();
                            auto texts = picture_texts(figures_, 0);
                            texts.push_back({"geotherm:frame", std::to_string(number)});
-                           auto bytes = png_bytes(picture, texts);
+                           auto bytes = png_bytes(picture, texts, said_dpi(figures_.settings));
                            if (!bytes) return bytes.error();
                            std::string nowhere;
                            auto written = outputs_.write_text(path, *std::move(bytes), nowhere);
@@ -157,6 +164,7 @@ class FramePainter {
     const View view = figures_.settings.view;
     const bool first = !unit_;
     PictureData data = picture_of_frame(mesh, extent_);
+    data.up = answer.model.up;
     add_sources(data, mesh, answer.sources);
     add_distances(data, answer.result.distances, unit_);
     unit_ = data.value_unit;
@@ -176,6 +184,7 @@ class FramePainter {
   std::vector<Vec3> extent_;
   Outputs& outputs_;
   PictureFigures& figures_;
+  FrameWriter& film_;
   std::optional<double> unit_;
   float largest_face_value_ = 0;
   bool solid_ = false;
@@ -185,7 +194,10 @@ Result<void> expect_pictures(const RenderArguments& arguments, const Sequence& s
                              const NumberedPath& paths, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   if (!is_numbered(sequence.path)) outputs.protect(sequence.path, "the sequence itself");
-  for (std::int64_t k = 0; k < sequence.frames.count(); ++k) {
+  if (is_film(arguments.output)) {
+    if (auto expected = outputs.expect(arguments.output, "--output"); !expected) return expected;
+  }
+  for (std::int64_t k = 0; k < sequence.frames.count() && !is_film(arguments.output); ++k) {
     const std::string path = paths.path(sequence.frames.number(k));
     if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   }
@@ -201,6 +213,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   if (auto fits = refuse_other_pictures(arguments, asked); !fits) return fits.error();
   const auto paths = numbered_output(arguments.output);
   if (!paths) return paths.error();
+  if (auto fits = check_film(arguments, asked.settings); !fits) return fits.error();
   const auto named = some_sources_of(arguments.sources);
   if (!named) return named.error();
   auto device = drawing.open(asked.settings);
@@ -229,7 +242,11 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   pictures.command = typed_command();
   pictures.settings = asked.settings;
   pictures.device = *std::move(device);
-  FramePainter painter(drawing, *paths, *std::move(extent), outputs, pictures);
+  if (is_film(arguments.output)) pictures.paths = {arguments.output};
+  CommandOutput out;
+  const Progress silent;
+  FrameWriter film(arguments, outputs, pictures, silent, out.text);
+  FramePainter painter(drawing, *paths, *std::move(extent), outputs, pictures, film);
   const auto paint = [&](std::int64_t k, const Answer* answer) -> Result<void> {
     return answer ? painter.paint(sequence->frames.number(k), *answer) : Result<void>();
   };
@@ -240,7 +257,8 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
   }
 
   note_unused_settings(arguments.settings, asked.state.options, figures->warnings);
-  CommandOutput out{"", figures->warnings, {}};
+  if (auto made = film.finish(); !made) return made.error();
+  out.warnings = figures->warnings;
   pictures.frames = frames_in_words(*sequence, *figures);
   pictures.frame_times = frame_times_in_words(*sequence, *figures);
   if (!arguments.json.empty()) {

@@ -195,6 +195,7 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
   state.reading = asked->reading;
   state.picture = *picture;
   state.picture.device.clear();
+  if (!arguments.settings.has("path-kind")) state.picture.path_kind = PathKind::kAll;
   if (!arguments.settings.has("fit")) state.picture.camera.fit = PictureFit::kSphere;
   if (!arguments.model.empty()) {
     // Opening resets what belongs to a model, so it comes first.
@@ -270,6 +271,7 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   if (save.width > 0 || painter.width > 0) {
     settings.width = save.width > 0 ? save.width : painter.width;
     settings.height = save.width > 0 ? save.height : painter.height;
+    settings.paper = std::nullopt;
   }
   Outputs outputs;
   if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
@@ -288,7 +290,7 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   std::erase_if(texts, [&](const PngText& text) {
     return text.keyword == "Description" && text.text != data.caption;
   });
-  auto bytes = png_bytes(*picture, texts);
+  auto bytes = png_bytes(*picture, texts, said_dpi(figures.settings));
   if (!bytes) return bytes.error();
   std::string unused;
   return outputs.write_text(save.path, *std::move(bytes), unused);

@@ -202,7 +202,7 @@ struct IsolinesArguments {
   std::string model;
   SettingArguments settings;
   SourceArguments sources;
-  std::string spacing, count;  ///< one of them is given
+  std::string spacing, count, values;  ///< one of them is given
   LineFileArguments files;
   CheckArguments check;
   bool quiet = false;
@@ -219,7 +219,10 @@ struct RenderArguments {
   PictureArguments picture;
   CheckArguments check;
   SequenceArguments sequence;
-  std::vector<std::string> targets;  ///< paths lead there from the sources
+  std::vector<std::string> targets;      ///< paths lead there from the sources
+  std::vector<std::string> more_models;  ///< beside `model`
+  std::string columns;                   ///< of several models; empty: as many as suit
+  std::string fps;                       ///< of a film; empty: 25
   std::string output;
   std::string json;
   bool quiet = false;

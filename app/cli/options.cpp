@@ -100,6 +100,8 @@ const char* heading_of(SettingGroup group) {
       return "Accuracy";
     case SettingGroup::kPicture:
       return "Picture";
+    case SettingGroup::kFigure:
+      return "Figure";
     case SettingGroup::kCamera:
       return "Camera";
   }
@@ -264,6 +266,18 @@ Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_m
                                          "'; there are " + joined(colour_maps)};
 }
 
+/// A logarithmic scale has no 0.
+Result<void> check_colour_scale(const PictureSettings& picture) {
+  if (picture.colour_scale != ColourScale::kLog) return {};
+  for (const std::optional<double>& end : {picture.range_min, picture.range_max}) {
+    if (!end || *end > 0) continue;
+    return Error{ErrorCode::kBadInput, "--colour-scale log: --range " + range_text(picture) +
+                                           " has an end that is not above 0; give ends above 0, "
+                                           "such as 0.01:1, or leave them out"};
+  }
+  return {};
+}
+
 /// Chooses the fit when the user did not: a sphere where the model turns or its centre is given.
 Result<void> choose_fit(bool typed, const PictureSettings& picture, CameraSettings& camera) {
   if (!typed) {
@@ -282,6 +296,7 @@ void add_picture_options(CLI::App& command, SettingArguments& settings, PictureA
   command.add_option("--device", a.device, "part of a device's name (geotherm devices)")
       ->type_name("NAME")
       ->group("Picture");
+  add_setting_options(command, settings, names_of(SettingGroup::kFigure));
   add_setting_options(command, settings, names_of(SettingGroup::kCamera));
   command
       .add_option("--turntable", a.turntable,
@@ -292,7 +307,8 @@ void add_picture_options(CLI::App& command, SettingArguments& settings, PictureA
 
 void add_line_picture_options(CLI::App& command, SettingArguments& settings) {
   add_setting_options(command, settings,
-                      {"size", "background", "azimuth", "elevation", "zoom", "pan", "projection"});
+                      {"title", "text-size", "line-width", "dpi", "size", "background", "azimuth",
+                       "elevation", "roll", "up", "zoom", "pan", "projection"});
 }
 
 void complete_bare_fit(std::vector<std::string>& words) {
@@ -303,8 +319,12 @@ void complete_bare_fit(std::vector<std::string>& words) {
 }
 
 void face_head_on(const Model& model, const SettingArguments& typed, PictureSettings& picture) {
+  UpAxis& up = picture.camera.up;
+  const bool says_up = up != UpAxis::kAuto;
+  if (!says_up) up = model.up;
   const auto angles = head_on(model);
-  if (!angles || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation")) return;
+  if (!angles || says_up || picture.turntable > 0 || typed.has("azimuth") || typed.has("elevation"))
+    return;
   picture.camera.azimuth = (*angles)[0];
   picture.camera.elevation = (*angles)[1];
 }
@@ -322,6 +342,7 @@ Result<PictureSettings> picture_settings(const ViewerState& asked, const Setting
     if (!frames) return about("--turntable", frames.error());
     picture.turntable = *frames;
   }
+  if (auto fits = check_colour_scale(picture); !fits) return fits.error();
   if (auto fit = choose_fit(typed.has("fit"), picture, picture.camera); !fit) return fit.error();
   picture.device = a.device;
   return picture;

@@ -89,7 +89,9 @@ Json settings_json(const PictureFigures& f) {
     json.update({{"colour_map", f.scale.colour_map},
                  {"reverse", s.reverse},
                  {"range", {f.scale.min, f.scale.max}},
-                 {"spacing", f.scale.spacing}});
+                 {"spacing", f.scale.spacing},
+                 {"clamped", {f.scale.below, f.scale.above}},
+                 {"levels", f.scale.levels}});
   }
   return json;
 }
@@ -99,6 +101,12 @@ std::string view_in_words(const PictureFigures& f) {
   if (!has_colours(f)) return text;
   text += ", " + f.scale.colour_map + (f.settings.reverse ? " reversed" : "") + " from " +
           significant(f.scale.min) + " to " + significant(f.scale.max);
+  if (f.scale.kind == ColourScale::kLog) text += ", logarithmic";
+  if (f.settings.bands > 0) text += ", in " + std::to_string(f.settings.bands) + " bands";
+  if (!f.scale.levels.empty()) {
+    text += ", isolines at " +
+            counted(static_cast<std::int64_t>(f.scale.levels.size()), "value", "values");
+  }
   if (f.scale.spacing > 0) text += ", isolines every " + significant(f.scale.spacing);
   return text;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drawing by the engine: the one place where pictures and the renderer meet.
 #include <algorithm>
+#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -29,12 +30,43 @@ Result<void> check_address_space() {
                {"raise its limit (ulimit -v)"}};
 }
 
+/// The first of several data with what the legend has to say about all of them.
+PictureData words_about(const std::vector<PictureData>& cells) {
+  PictureData words = cells.front();
+  for (const PictureData& cell : cells) {
+    const auto ratio = static_cast<float>(cell.value_unit / words.value_unit);
+    words.greatest_value = std::max(words.greatest_value, cell.greatest_value * ratio);
+    words.smallest_value = std::min(words.smallest_value, cell.smallest_value * ratio);
+    words.smallest_positive = std::min(words.smallest_positive, cell.smallest_positive * ratio);
+    words.unreached = words.unreached || cell.unreached;
+    if (&cell != &cells.front()) {
+      words.lines.insert(words.lines.end(), cell.lines.begin(), cell.lines.end());
+    }
+  }
+  return words;
+}
+
+/// Of the letters of a picture of this size.
+float usual_line(glm::vec2 extent) { return std::max(13.0F, std::min(extent.x, extent.y) / 38); }
+
 class EngineDrawing final : public Drawing {
  public:
   std::vector<std::string> colour_maps() const override {
     std::vector<std::string> names;
     for (const engine::ColourMap& map : engine::colour_maps()) names.emplace_back(map.name);
     return names;
+  }
+
+  std::vector<std::string> missing_letters(const std::string& text) const override {
+    std::vector<std::string> out;
+    for (const std::string_view letter : engine::missing_letters(text)) {
+      std::string_view rest = letter;
+      char number[16];
+      std::snprintf(number, sizeof number, " (U+%04X)",
+                    static_cast<unsigned>(engine::take_letter(rest)));
+      out.push_back('\'' + std::string(letter) + '\'' + number);
+    }
+    return out;
   }
 
   Result<std::vector<DrawingDevice>> devices() override {
@@ -99,7 +131,79 @@ class EngineDrawing final : public Drawing {
     return {};
   }
 
+  Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
+                          const PictureSettings& settings, const TakeFrame& frame) override {
+    if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
+    for (int i = 0; i < frame_count(settings); ++i) {
+      auto picture = draw_table(cells, columns, settings, i);
+      if (!picture) {
+        if (picture.error().code == ErrorCode::kNoDevice) close();
+        return picture.error();
+      }
+      if (auto taken = frame(i, *picture); !taken) return taken;
+    }
+    return {};
+  }
+
  private:
+  /// The model, or what a cut leaves of it. `positions`: those of the data.
+  Result<void> upload(const PictureData& data, const PictureSettings& settings,
+                      const std::vector<glm::vec3>& positions) {
+    if (!is_cut(data, settings)) return upload_picture(*renderer_, data, settings, positions);
+    const PictureData cut = cut_picture(data, settings).data;
+    return upload_picture(*renderer_, cut, settings, scene_vectors(cut.positions));
+  }
+
+  /// One frame of cells: what is written about all of them, and each in its place.
+  Result<DrawnPicture> draw_table(const std::vector<PictureData>& cells, int columns,
+                                  const PictureSettings& settings, int frame) {
+    const PictureData words = words_about(cells);
+    const PictureScale scale = picture_scale(words, settings);
+    const glm::vec2 extent(settings.width, settings.height);
+    engine::Legend legend = legend_of(words, settings, scale);
+    legend.caption.clear();
+    const engine::LegendLayout layout = engine::lay_out(legend, extent);
+    engine::Scene blank;
+    blank.background = scene_of(words, settings, scale).background;
+    blank.surface.visible = blank.markers.visible = blank.lines.visible = false;
+    blank.camera = engine::make_camera({}, {}, extent);
+    auto whole = engine::draw_picture(*device_, *renderer_, blank, layout.overlay);
+    if (!whole) return whole.error();
+
+    const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
+    const glm::ivec2 corner(glm::ceil(glm::vec2(layout.insets.left, layout.insets.top)));
+    const glm::ivec2 free =
+        glm::ivec2(extent - glm::vec2(layout.insets.right, layout.insets.bottom)) - corner;
+    PictureSettings one = settings;
+    one.width = std::max(free.x / columns, 1);
+    one.height = std::max(free.y / rows, 1);
+    one.bar = false;
+    one.title.clear();
+    const glm::vec2 room(one.width, one.height);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      const std::vector<glm::vec3> positions = scene_vectors(cells[k].positions);
+      if (auto done = upload(cells[k], one, positions); !done) return done.error();
+      const PictureScale own = picture_scale(cells[k], one);  // the same, without a bar
+      engine::Legend label = legend_of(cells[k], one, own);
+      if (label.line_height <= 0) label.line_height = usual_line(extent);
+      const engine::LegendLayout below = engine::lay_out(label, room);
+      engine::Scene scene = scene_of(cells[k], one, own);
+      scene.camera =
+          camera_of(cells[k], frame_camera(settings, frame), positions, room, below.insets);
+      const auto image = engine::draw_picture(*device_, *renderer_, scene, below.overlay);
+      if (!image) return image.error();
+      const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
+      const glm::ivec2 place = corner + glm::ivec2(column * one.width, row * one.height);
+      for (int y = 0; y < image->height; ++y) {
+        const auto from = image->pixels.begin() + std::ptrdiff_t{4} * y * image->width;
+        const auto to =
+            whole->pixels.begin() + std::ptrdiff_t{4} * ((place.y + y) * whole->width + place.x);
+        std::copy_n(from, std::ptrdiff_t{4} * image->width, to);
+      }
+    }
+    return DrawnPicture{whole->width, whole->height, std::move(whole->pixels)};
+  }
+
   void close() {
     renderer_.reset();  // before the device that it draws on
     device_.reset();

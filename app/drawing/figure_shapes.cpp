@@ -25,7 +25,8 @@ Figure::Colour to_colour(const glm::vec3& c, float alpha = 1) { return {c.r, c.g
 Figure::Colour to_colour(const glm::vec4& c) { return {c.r, c.g, c.b, c.a}; }
 
 std::vector<double> isoline_levels(const engine::SurfaceStyle& style, double largest) {
-  std::vector<double> levels;
+  std::vector<double> levels(style.levels.begin(), style.levels.end());
+  if (!levels.empty()) return levels;
   constexpr double kMostLines = 1e5;
   if (!(style.line_spacing > 0) || largest / style.line_spacing > kMostLines) return levels;
   const bool mapped = style.paint == engine::Paint::kMap;
@@ -230,6 +231,7 @@ Figure FigureShapes::of(const PictureData& data, const engine::Scene& scene,
 
 engine::Scene FigureShapes::rest_of(engine::Scene scene) {
   scene.surface.line_spacing = 0;
+  scene.surface.levels.clear();
   scene.lines.visible = false;
   scene.markers.visible = false;
   return scene;

@@ -19,6 +19,10 @@ class NoDrawing final : public Drawing {
   Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&, DrawAs) override {
     return no_renderer();
   }
+  Result<void> draw_cells(const std::vector<PictureData>&, int, const PictureSettings&,
+                          const TakeFrame&) override {
+    return no_renderer();
+  }
 };
 
 }  // namespace

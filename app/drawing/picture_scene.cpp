@@ -26,6 +26,9 @@ constexpr float kMargin = 0.03F;
 /// Colours that stand for those of all regions.
 constexpr std::size_t kMaxPatches = 6;
 
+/// Where there is no value (shaders/surface.frag).
+constexpr glm::vec3 kNoValue{0.62F};
+
 constexpr float kPaperOpacity = 0.75F;
 
 /// Sources in the view that is about them.
@@ -86,7 +89,9 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   if (mapped) style.paint = engine::Paint::kMap;
   style.range_min = value_of(data, scale.min);
   style.range_max = value_of(data, scale.max);
+  style.log = scale.kind == ColourScale::kLog;
   style.line_spacing = value_of(data, scale.spacing);
+  for (const double level : scale.levels) style.levels.push_back(value_of(data, level));
   return style;
 }
 
@@ -126,7 +131,11 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
     }
     keys.push_back(std::move(key));
   }
+  if (maps_values(settings.view) && !data.values.empty() && data.unreached) {
+    keys.push_back({.label = data.is_signed ? "no value" : "not reached", .patches = {kNoValue}});
+  }
   for (const PictureData::Line& line : data.lines) {
+    if (!shows_line(settings, line.name)) continue;
     const glm::vec3 colour(line.colour[0], line.colour[1], line.colour[2]);
     const bool stands = std::any_of(keys.begin(), keys.end(), [&](const engine::Key& key) {
       return key.label == line.name && key.colour == colour;
@@ -137,6 +146,35 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
   return keys;
 }
 
+/// The settings' map in as many colours as they ask for.
+engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings) {
+  engine::ColourTable table = engine::colour_table(map, settings.reverse);
+  if (settings.bands == 0) return table;
+  const engine::ColourTable all = table;
+  const auto last = static_cast<std::size_t>(settings.bands - 1);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::size_t band = i * static_cast<std::size_t>(settings.bands) / table.size();
+    table[i] = all[band * (table.size() - 1) / last];
+  }
+  return table;
+}
+
+/// Of letters: 0 where they suit the picture. Fonts are called by the size of their em, of which a
+/// line is a little more.
+float line_height_of(const PictureSettings& settings) {
+  constexpr double kLineOfEm = 1.164;
+  if (!settings.text_size && !settings.paper) return 0;
+  return static_cast<float>(kLineOfEm *
+                            pixels_of(settings.text_size.value_or(kTextOnPaper), settings));
+}
+
+/// How much wider than usual lines are.
+float line_factor(const PictureSettings& settings, float usual) {
+  if (!settings.line_width && !settings.paper) return 1;
+  return static_cast<float>(pixels_of(settings.line_width.value_or(kLinesOnPaper), settings)) /
+         usual;
+}
+
 }  // namespace
 
 engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
@@ -145,23 +183,31 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   legend.ink = settings.background == PictureBackground::kDark ? kLightInk : kDarkInk;
   legend.paper = background_of(settings.background);
   legend.paper.a *= kPaperOpacity;
+  legend.heading = settings.title;
+  legend.line_height = line_height_of(settings);
   if (settings.caption) legend.caption = data.caption;
   if (settings.bar) legend.keys = keys_of(data, settings);
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;
-  legend.title = face_field(settings.view) ? data.face_title : data.value_title;
-  for (const glm::vec4& colour : engine::colour_table(*map, settings.reverse)) {
+  legend.title = bar_title(data, settings);
+  legend.below = scale.below;
+  legend.above = scale.above;
+  for (const glm::vec4& colour : colours_of(*map, settings)) {
     legend.colours.emplace_back(colour);
   }
   const double width = scale.max - scale.min;
   const auto position = [&](double distance) {
-    return static_cast<float>(std::clamp((distance - scale.min) / width, 0.0, 1.0));
+    return static_cast<float>(std::clamp(scale.place_of(distance), 0.0, 1.0));
   };
   for (std::size_t i = 0; i < scale.ticks.values.size(); ++i) {
     legend.ticks.push_back({position(scale.ticks.values[i]), scale.ticks.labels[i]});
   }
-  if (!(scale.spacing > 0) || width / scale.spacing > kMaxLinesOnBar) return legend;
+  for (const double level : scale.levels) {
+    if (level > scale.min && level < scale.max) legend.lines.push_back(position(level));
+  }
+  if (!(scale.spacing > 0) || !scale.levels.empty() || width / scale.spacing > kMaxLinesOnBar)
+    return legend;
   const double first = std::floor(scale.min / scale.spacing) + 1;
   for (double i = first; i * scale.spacing < scale.max; ++i) {
     legend.lines.push_back(position(i * scale.spacing));
@@ -179,6 +225,12 @@ engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
   orbit.pan = {static_cast<float>(camera.pan_right), static_cast<float>(camera.pan_up)};
   orbit.orthographic = camera.orthographic;
   orbit.fit = camera.fit == PictureFit::kSphere ? engine::Fit::kSphere : engine::Fit::kTight;
+  const auto axes = axes_of(camera.up == UpAxis::kAuto ? data.up : camera.up);
+  for (int k = 0; k < 3; ++k) {
+    const auto& [x, y, z] = axes[static_cast<std::size_t>(k)];
+    orbit.axes[k] = {x, y, z};
+  }
+  orbit.roll = static_cast<float>(camera.roll);
   if (camera.centre) orbit.centre = scene_centre(data, *camera.centre);
   return engine::make_camera(orbit, points, extent, with_margin(extent, insets));
 }
@@ -204,6 +256,11 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   }
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
   scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
+  const float wider = line_factor(settings, scene.surface.line_width * scene.pixel_scale);
+  for (float* width : {&scene.surface.line_width, &scene.surface.wire_width, &scene.lines.width,
+                       &scene.lines.rim}) {
+    *width *= wider;
+  }
   return scene;
 }
 
@@ -246,15 +303,16 @@ Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
   }
   if (auto done = renderer.set_regions({}, {}); !done) return done;
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
-  return map == nullptr ? Result<void>()
-                        : renderer.set_colours(engine::colour_table(*map, settings.reverse));
+  return map == nullptr ? Result<void>() : renderer.set_colours(colours_of(*map, settings));
 }
 
-Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data) {
+Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data,
+                          const PictureSettings& settings) {
   std::vector<std::vector<glm::vec3>> points;
   points.reserve(data.lines.size());
   std::vector<engine::Polyline> lines;
   for (const PictureData::Line& line : data.lines) {
+    if (!shows_line(settings, line.name)) continue;
     points.push_back(scene_vectors(line.points));
     lines.push_back({points.back(), {line.colour[0], line.colour[1], line.colour[2]}});
   }
@@ -292,7 +350,7 @@ Result<void> upload_answer(engine::Renderer& renderer, const PictureData& data,
   }
   if (auto done = renderer.set_face_values(data.face_values); !done) return done;
   if (auto done = upload_colours(renderer, data, settings); !done) return done;
-  if (auto done = upload_lines(renderer, data); !done) return done;
+  if (auto done = upload_lines(renderer, data, settings); !done) return done;
   const auto arrows = renderer.set_arrows(scene_vectors(data.heat_directions),
                                           scene_vectors(data.distance_gradients));
   if (!arrows) return arrows;

@@ -42,6 +42,10 @@ class Drawing {
   /// Names of the colour maps, the default first. Needs no device.
   virtual std::vector<std::string> colour_maps() const = 0;
 
+  /// The letters of a text that pictures show as a box, such as "'x' (U+1234)", each once. Needs no
+  /// device.
+  virtual std::vector<std::string> missing_letters(const std::string& /*text*/) const { return {}; }
+
   /// All devices, in the order of preference. Errors: kNoDevice (no loader, no device).
   virtual Result<std::vector<DrawingDevice>> devices() = 0;
 
@@ -55,6 +59,12 @@ class Drawing {
   using TakeFrame = std::function<Result<void>(int, const DrawnPicture&)>;
   virtual Result<void> draw(const PictureData& data, const PictureSettings& settings,
                             const TakeFrame& frame, DrawAs as = DrawAs::kPixels) = 0;
+
+  /// The same of several models side by side, row after row, each over its caption, with one
+  /// colour bar for all. Preconditions: open(), 1 <= columns, some cells; the settings give all of
+  /// them one scale.
+  virtual Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
+                                  const PictureSettings& settings, const TakeFrame& frame) = 0;
 };
 
 /// What this build draws with: the engine, or a stand-in that says that there is none. Opens

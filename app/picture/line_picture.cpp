@@ -14,6 +14,7 @@
 
 #include "app/picture/line_sight.h"
 #include "app/picture/picture_scale.h"
+#include "app/picture/picture_text.h"
 #include "app/text/text.h"
 #include "geotherm/error.h"
 #include "geotherm/path.h"
@@ -254,8 +255,12 @@ class SvgDrawing {
   void open() {
     const std::string width = std::to_string(settings_.width);
     const std::string height = std::to_string(settings_.height);
-    svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
-           "\" viewBox=\"0 0 " + width + ' ' + height + "\" stroke-linejoin=\"round\" " +
+    // Units of CSS, in which an inch has 96 pixels, whatever the lines are drawn with.
+    const std::string size = size_text(settings_);
+    const std::size_t between = size.find('x');
+    svg_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + size.substr(0, between) +
+           "\" height=\"" + size.substr(between + 1) + "\" viewBox=\"0 0 " + width + ' ' + height +
+           "\" stroke-linejoin=\"round\" " +
            "stroke-linecap=\"round\" font-family=\"system-ui, Helvetica, Arial, sans-serif\">\n";
     if (settings_.background == PictureBackground::kTransparent) return;
     svg_ += "<rect width=\"100%\" height=\"100%\" fill=\"" + text_of(style_.background) + "\"/>\n";
@@ -276,7 +281,7 @@ class SvgDrawing {
 
   void draw_lines() {
     const bool valued = picture_.largest_value > 0;
-    const double width = (valued ? 1.6 : 3.2) * unit_;
+    const double width = (valued ? 1 : 2) * line_width();
     for (const Polyline& line : picture_.lines) {
       const auto points = positions_of(*picture_.mesh, *line.path);
       const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
@@ -316,7 +321,7 @@ class SvgDrawing {
 
   void write(double x, double y, const std::string& text, const char* anchor) {
     svg_ += "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" font-size=\"" +
-            fixed(13 * unit_, 1) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
+            fixed(text_size(), 1) + "\" text-anchor=\"" + anchor + "\" fill=\"" +
             text_of(style_.text) + "\">" + escaped(one_line(text)) + "</text>\n";
   }
 
@@ -334,15 +339,33 @@ class SvgDrawing {
     svg_ += "</linearGradient>\n<rect x=\"" + fixed(right - wide, 1) + "\" y=\"" + fixed(top, 1) +
             "\" width=\"" + fixed(wide, 1) + "\" height=\"" + fixed(bottom - top, 1) +
             "\" fill=\"url(#distance)\"/>\n";
-    const Ticks ticks = make_ticks(0, picture_.largest_value, 8);
+    Ticks ticks = make_ticks(0, picture_.largest_value, 8);
+    format_labels(ticks, settings_.number_format);
     for (std::size_t i = 0; i < ticks.values.size(); ++i) {
       const double y = bottom - (bottom - top) * ticks.values[i] / picture_.largest_value;
-      write(right - wide - 6 * unit_, y + 4.5 * unit_, ticks.labels[i], "end");
+      write(right - wide - 6 * unit_, y + 0.35 * text_size(), ticks.labels[i], "end");
     }
-    write(right, top - 10 * unit_, "distance", "end");
+    PictureData named;
+    named.value_title = "distance";
+    write(right, top - 10 * unit_, bar_title(named, settings_), "end");
   }
 
-  void draw_title() { write(16 * unit_, settings_.height - 14 * unit_, picture_.title, "start"); }
+  void draw_title() {
+    write(16 * unit_, settings_.height - 14 * unit_, picture_.title, "start");
+    if (settings_.title.empty()) return;
+    write(0.5 * settings_.width, 14 * unit_ + text_size(), settings_.title, "middle");
+  }
+
+  /// Of isolines; paths are twice as wide.
+  double line_width() const {
+    if (!settings_.line_width && !settings_.paper) return 1.6 * unit_;
+    return pixels_of(settings_.line_width.value_or(kLinesOnPaper), settings_);
+  }
+
+  double text_size() const {
+    if (!settings_.text_size && !settings_.paper) return 13 * unit_;
+    return pixels_of(settings_.text_size.value_or(kTextOnPaper), settings_);
+  }
 
   const LinePicture& picture_;
   const PictureSettings& settings_;

@@ -32,10 +32,15 @@ LineView::LineView(const TriangleMesh& mesh, const CameraSettings& camera, int w
     : orthographic_(camera.orthographic) {
   const double azimuth = radians(camera.azimuth);
   const double elevation = radians(std::clamp(camera.elevation, -90.0, 90.0));
-  right_ = Vec3(std::cos(azimuth), 0, -std::sin(azimuth));
-  back_ = std::cos(elevation) * Vec3(std::sin(azimuth), 0, std::cos(azimuth)) +
-          std::sin(elevation) * Vec3(0, 1, 0);
-  up_ = back_.cross(right_);
+  const auto axes = axes_of(camera.up);
+  const Vec3 x(axes[0].data()), y(axes[1].data()), z(axes[2].data());
+  const Vec3 level = std::cos(azimuth) * x - std::sin(azimuth) * z;
+  back_ = std::cos(elevation) * (std::sin(azimuth) * x + std::cos(azimuth) * z) +
+          std::sin(elevation) * y;
+  const Vec3 upright = back_.cross(level);
+  const double roll = radians(camera.roll);
+  right_ = std::cos(roll) * level - std::sin(roll) * upright;
+  up_ = std::sin(roll) * level + std::cos(roll) * upright;
 
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
   for (const Face& face : mesh.faces()) {

@@ -15,7 +15,7 @@
 namespace geotherm::app {
 
 /// Where the model lies in a picture: the view of an eye at a fixed distance, fitted tightly into
-/// the middle and then moved and enlarged as the camera says. Model units; Y is up.
+/// the middle and then moved and enlarged as the camera says. Model units.
 class LineView {
  public:
   struct Ray {

@@ -165,6 +165,27 @@ void add_line(PictureData& data, std::span<const Vec3> points, const std::string
   data.lines.push_back(std::move(line));
 }
 
+namespace {
+
+void note_extent(PictureData& data) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  float least = kMost, greatest = -kMost, positive = kMost;
+  for (const float value : data.values) {
+    if (value == kNoPictureValue) continue;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+    if (value > 0) positive = std::min(positive, value);
+  }
+  data.smallest_value = least == kMost ? 0 : least;
+  data.greatest_value = greatest == -kMost ? 0 : greatest;
+  data.smallest_positive = positive == kMost ? 0 : positive;
+  data.unreached = std::ranges::any_of(data.faces, [&data](const auto& face) {
+    return std::ranges::any_of(face, [&data](auto v) { return data.values[v] == kNoPictureValue; });
+  });
+}
+
+}  // namespace
+
 void add_distances(PictureData& data, std::span<const double> distances, std::optional<double> unit,
                    bool times) {
   double most = unit.value_or(0);
@@ -182,6 +203,7 @@ void add_distances(PictureData& data, std::span<const double> distances, std::op
     data.values.push_back(std::isfinite(d) ? static_cast<float>(d / data.value_unit)
                                            : kNoPictureValue);
   }
+  note_extent(data);
 }
 
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title) {
@@ -193,6 +215,7 @@ void add_error(PictureData& data, std::span<const double> signed_error, const st
   for (std::size_t i = 0; i < signed_error.size(); ++i) {
     if (signed_error[i] < 0 && std::isfinite(signed_error[i])) data.values[i] = -data.values[i];
   }
+  note_extent(data);
 }
 
 void add_difference(PictureData& data, std::span<const double> difference, bool times) {

@@ -41,6 +41,7 @@ struct PictureData {
   std::vector<Openness> openness;  ///< V
   Vec3 centre = Vec3::Zero();      ///< model = centre + scene * model_per_scene
   double model_per_scene = 1;
+  UpAxis up = UpAxis::kAuto;  ///< that of the file, for pictures that leave it open
 
   /// The tets that `positions` are the vertices of and `faces` the border; null on surfaces.
   std::shared_ptr<const TetMesh> volume;
@@ -51,7 +52,10 @@ struct PictureData {
   double value_unit = 1;      ///< model units; the largest distance, 1 if there is none above 0, or
                               ///< that of another frame
   double largest_value = 0;   ///< of `values`: 1, or 0 when no distance is above 0
-  bool is_signed = false;     ///< `values` run from -1 to 1: a difference
+  /// Of `values`, where there are some: the ends, and the least one above 0 (0: none is).
+  float smallest_value = 0, greatest_value = 0, smallest_positive = 0;
+  bool unreached = false;          ///< some corner of a face has no value
+  bool is_signed = false;          ///< `values` run from -1 to 1: a difference
   std::vector<float> face_values;  ///< F: of a view with a colour a face (set_face_values())
   float largest_face_value = 0;    ///< where the colours of that view end
   View face_view{};                ///< that view, where there are values of it

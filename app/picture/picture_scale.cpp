@@ -140,28 +140,6 @@ std::optional<double> face_tick_step(View view) {
   return whole ? std::optional<double>(1) : std::nullopt;
 }
 
-namespace {
-
-/// Labels keep their distance on a bar of any length with so many.
-constexpr int kMaxTicks = 7;
-/// Isolines that are not what the picture is about are farther apart by this.
-constexpr double kFewer = 2.5;
-
-/// Views of faces have scales of their own, not those of distances.
-PictureScale face_scale(const PictureData& data, const PictureSettings& settings) {
-  PictureScale scale;
-  scale.colour_map = colour_map_of(data, settings);
-  scale.max = data.face_values.empty() ? 1 : double{data.largest_face_value};
-  scale.bar = settings.bar && !data.face_values.empty();
-  if (scale.bar) {
-    scale.ticks =
-        make_ticks(scale.min, scale.max, kMaxTicks, face_tick_step(settings.view).value_or(0));
-  }
-  return scale;
-}
-
-}  // namespace
-
 std::string colour_map_of(const PictureData& data, const PictureSettings& settings) {
   // From near red to far blue is for distances: there is nothing wrong with a red face.
   if (face_field(settings.view)) {
@@ -183,171 +161,21 @@ bool shows_regions(const PictureData& data, const PictureSettings& settings) {
   return settings.view == View::kRegions && !data.nearest.empty();
 }
 
-PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
-  if (face_field(settings.view)) return face_scale(data, settings);
-  const double largest = data.largest_value * data.value_unit;
-  // A range is one of distances: an error keeps its 0 in the middle of the map.
-  const bool is_error = settings.view == View::kExactError;
-  const std::optional<double> none;
-  const std::optional<double>& range_min = is_error ? none : settings.range_min;
-  const std::optional<double>& range_max = is_error ? none : settings.range_max;
-  const bool has_range = range_min || range_max;
-  PictureScale scale;
-  scale.colour_map = colour_map_of(data, settings);
-  const double smallest = data.is_signed ? -(largest > 0 ? largest : 1) : 0;
-  scale.min = range_min.value_or(smallest);
-  scale.max = range_max.value_or(largest > 0 ? largest : 1);
-  if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
-    const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
-    if (range_max) {
-      scale.min = scale.max - width;
-    } else {
-      scale.max = scale.min + width;
-    }
-  }
-  const bool painted = maps_values(settings.view) && !data.values.empty();
-  const bool shown = painted || (settings.view == View::kRegions && !data.values.empty());
-  // Where all distances are 0 an isoline would be all of the surface.
-  if (shown && largest > 0) {
-    scale.coloured = true;
-    const double width = scale.max - scale.min;
-    const double usual = data.is_signed ? 0 : round_spacing(painted ? width : kFewer * width);
-    scale.spacing = settings.line_spacing.value_or(usual);
-    // More lines than pixels are no lines.
-    const double pixels = std::max(settings.width, settings.height);
-    if (width > pixels * scale.spacing) scale.spacing = 0;
-  }
-  scale.bar = settings.bar && painted && (largest > 0 || has_range);
-  if (scale.bar) scale.ticks = make_ticks(scale.min, scale.max, kMaxTicks, scale.spacing);
-  return scale;
+bool shows_line(const PictureSettings& settings, const std::string& name) {
+  if (settings.path_kind == PathKind::kAll || !parse<PathKind>(name)) return true;
+  return name == geotherm::to_text(settings.path_kind);
 }
 
-namespace {
-
-constexpr std::array kMantissas = {"1", "2", "2.5", "5"};
-constexpr double kBands = 20;
-/// Shares of a step that rounding may take from a tick at the end of its range.
-constexpr double kSlack = 1e-6;
-/// Labels from here on are written with a power of ten.
-constexpr int kLargePower = 6;
-constexpr int kSmallPower = -4;
-constexpr int kMaxDecimals = 12;
-
-/// m * 10^power as the double next to it, which a product would miss.
-double decimal(const char* mantissa, int power) {
-  return number_in<double>(mantissa + ("e" + std::to_string(power))).value_or(0);
-}
-
-/// The power of ten of x's first digit; right for numbers near the ends of the range too.
-int power_of(double x) { return static_cast<int>(std::floor(std::log10(x))); }
-
-/// All round numbers about x, ascending.
-std::vector<double> round_numbers_about(double x) {
-  std::vector<double> out;
-  const int power = power_of(x);
-  for (int p = power - 1; p <= power + 1; ++p) {
-    for (const char* mantissa : kMantissas) {
-      const double value = decimal(mantissa, p);
-      if (value > 0) out.push_back(value);
-    }
+std::string bar_title(const PictureData& data, const PictureSettings& settings) {
+  const bool of_faces = face_field(settings.view).has_value();
+  std::string title = of_faces ? data.face_title : data.value_title;
+  if (settings.bar_label.empty() && (of_faces || settings.units.empty())) return title;
+  // Units of the model make room for those that were asked for.
+  for (const char* own : {" (model\u00a0units)", " (time\u00a0units)"}) {
+    if (title.ends_with(own)) title.erase(title.size() - std::string_view(own).size());
   }
-  return out;
-}
-
-/// Decimals that show multiples of `step` without rounding.
-int decimals_of(double step) {
-  for (int decimals = 0; decimals < kMaxDecimals; ++decimals) {
-    const double scaled = step * std::pow(10.0, decimals);
-    if (scaled >= 0.5 && std::abs(scaled - std::round(scaled)) <= kSlack * scaled) return decimals;
-  }
-  return kMaxDecimals;
-}
-
-void add_labels(Ticks& ticks) {
-  double largest = 0;
-  for (const double value : ticks.values) largest = std::max(largest, std::abs(value));
-  int power = largest > 0 ? power_of(largest * (1 + kSlack)) : 0;
-  if (power < kLargePower && power >= kSmallPower) power = 0;
-  // In two factors: 10^-power alone may lie outside the range of doubles.
-  const auto scaled = [power](double value) {
-    const int half = power / 2;
-    return value * std::pow(10.0, -half) * std::pow(10.0, half - power);
-  };
-  const int decimals = decimals_of(scaled(ticks.step));
-  for (const double value : ticks.values) {
-    std::string label = value == 0 ? "0" : fixed(scaled(value), decimals);
-    if (power != 0 && value != 0) label += "e" + std::to_string(power);
-    ticks.labels.push_back(std::move(label));
-  }
-}
-
-/// How many multiples of `step` lie in the range.
-double count_of(double min, double max, double step) {
-  return std::floor(max / step + kSlack) - std::ceil(min / step - kSlack) + 1;
-}
-
-/// The smallest multiple of the spacing with at most `most` ticks, round where the spacing is.
-double multiple_of(double spacing, double min, double max, int most) {
-  const auto is_round = [](double x) {
-    return std::abs(nearest_round_number(x) - x) <= kSlack * x;
-  };
-  double ten = 1;
-  for (int power = 0; power < 4; ++power, ten *= 10) {
-    for (const double digit : {1.0, 2.0, 4.0, 5.0}) {
-      const double step = digit * ten * spacing;
-      if (is_round(spacing) && !is_round(step)) continue;
-      if (count_of(min, max, step) <= most)
-        return is_round(step) ? nearest_round_number(step) : step;
-    }
-  }
-  return 0;
-}
-
-}  // namespace
-
-double nearest_round_number(double x) {
-  double best = 0;
-  double least = 0;
-  for (const double value : round_numbers_about(x)) {
-    const double away = std::abs(std::log(value / x));
-    if (best > 0 && away >= least) continue;
-    best = value;
-    least = away;
-  }
-  return best > 0 ? best : x;
-}
-
-double round_number_above(double x) {
-  for (const double value : round_numbers_about(x)) {
-    if (value >= x * (1 - kSlack)) return value;
-  }
-  return x;
-}
-
-double round_spacing(double range) {
-  if (!(range > 0) || !std::isfinite(range)) return 1;
-  const double spacing = nearest_round_number(range / kBands);
-  return spacing > 0 ? spacing : range;
-}
-
-Ticks make_ticks(double min, double max, int most, double spacing) {
-  Ticks ticks;
-  if (!(max > min) || !std::isfinite(max - min)) return ticks;
-  if (spacing > 0) ticks.step = multiple_of(spacing, min, max, most);
-  if (!(ticks.step > 0) || count_of(min, max, ticks.step) < 2) {
-    ticks.step = round_number_above((max - min) / most);
-    while (count_of(min, max, ticks.step) > most) {
-      ticks.step = round_number_above(ticks.step * 1.5);
-    }
-  }
-  const double first = std::ceil(min / ticks.step - kSlack);
-  const int count = static_cast<int>(count_of(min, max, ticks.step));
-  for (int i = 0; i < count; ++i) {
-    const double value = (first + i) * ticks.step;
-    ticks.values.push_back(value == 0 ? 0.0 : value);
-  }
-  add_labels(ticks);
-  return ticks;
+  if (!settings.bar_label.empty()) title = settings.bar_label;
+  return settings.units.empty() ? title : title + " (" + settings.units + ")";
 }
 
 }  // namespace geotherm::app

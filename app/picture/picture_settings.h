@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/error.h"
 #include "geotherm/names.h"
 
 // A turntable is a turn of the camera about the vertical axis in equal steps; one picture is a turn
@@ -77,6 +78,74 @@ inline NamedValues<PictureFit> named_values(PictureFit) {
   return {"there is no fit '*'", {{kTight, "tight"}, {kSphere, "sphere"}}};
 }
 
+/// The axis that points up in pictures; the middle of the eye's way round the model.
+enum class UpAxis { kAuto, kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
+inline NamedValues<UpAxis> named_values(UpAxis) {
+  using enum UpAxis;
+  return {"there is no axis '*'",
+          {{kAuto, "auto"},
+           {kX, "x"},
+           {kY, "y"},
+           {kZ, "z"},
+           {kMinusX, "-x"},
+           {kMinusY, "-y"},
+           {kMinusZ, "-z"}}};
+}
+
+/// From values to places on the colour map.
+enum class ColourScale {
+  kLinear,
+  kLog,
+  kDiverging,  ///< 0 in the middle, both ends round and equally far
+};
+inline NamedValues<ColourScale> named_values(ColourScale) {
+  using enum ColourScale;
+  return {"there is no colour scale '*'",
+          {{kLinear, "linear"}, {kLog, "log"}, {kDiverging, "diverging"}}};
+}
+
+/// Which of the paths to a point are drawn.
+enum class PathKind { kGeodesic, kDistance, kHeat, kAll };
+inline NamedValues<PathKind> named_values(PathKind) {
+  using enum PathKind;
+  return {"there is no kind of path '*'",
+          {{kGeodesic, "geodesic"}, {kDistance, "distance"}, {kHeat, "heat"}, {kAll, "all"}}};
+}
+
+/// How numbers on the colour bar are written.
+enum class NumberStyle { kAuto, kFixed, kScientific, kSignificant };
+inline NamedValues<NumberStyle> named_values(NumberStyle) {
+  using enum NumberStyle;
+  return {"there is no number format '*'",
+          {{kAuto, "auto"},
+           {kFixed, "fixed"},
+           {kScientific, "scientific"},
+           {kSignificant, "significant"}}};
+}
+
+struct NumberFormat {
+  NumberStyle style = NumberStyle::kAuto;
+  int digits = 2;  ///< after the point; of kSignificant: all of them
+
+  bool operator==(const NumberFormat&) const = default;
+};
+
+/// Units of length on paper and screen.
+enum class PaperUnit { kPixel, kCentimetre, kMillimetre, kInch, kPoint };
+inline NamedValues<PaperUnit> named_values(PaperUnit) {
+  using enum PaperUnit;
+  return {
+      "there is no unit '*'",
+      {{kPixel, "px"}, {kCentimetre, "cm"}, {kMillimetre, "mm"}, {kInch, "in"}, {kPoint, "pt"}}};
+}
+
+struct PaperLength {
+  double value = 0;
+  PaperUnit unit = PaperUnit::kPixel;
+
+  bool operator==(const PaperLength&) const = default;
+};
+
 /// Which cells are drawn: those with all corners on one side of a share of what is shown.
 enum class PeelSide { kOff, kBelow, kAbove };
 inline NamedValues<PeelSide> named_values(PeelSide) {
@@ -99,6 +168,8 @@ struct CameraSettings {
   PictureFit fit = PictureFit::kTight;
   /// Model units; what is in the middle with PictureFit::kSphere. Absent: the middle of the model.
   std::optional<std::array<double, 3>> centre;
+  UpAxis up = UpAxis::kAuto;  ///< kAuto: as the model's file says, else Y
+  double roll = 0;            ///< degrees; the picture turns counter-clockwise
 
   bool operator==(const CameraSettings&) const = default;
 };
@@ -107,6 +178,9 @@ struct CameraSettings {
 struct PictureSettings {
   View view = View::kContours;
   int width = 1280, height = 720;
+  std::optional<int> dpi;  ///< pixels an inch on paper; absent: not said
+  /// The size on paper that width and height come from (fit_to_paper()); absent: it is in pixels.
+  std::optional<std::array<PaperLength, 2>> paper;
   int samples = 4;  ///< 1 or 4 a pixel
   std::string colour_map = "red-blue";
   bool reverse = false;
@@ -120,12 +194,41 @@ struct PictureSettings {
   std::optional<std::array<double, 3>> slice;
   double slice_at = 0.5;  ///< where it is: 0 to 1 of the model's extent along the normal
   Peel peel;
+  // What figures of papers need.
+  std::string title, bar_label, units;    ///< empty: none; what the values are; model units
+  NumberFormat number_format;             ///< of the bar
+  std::optional<PaperLength> text_size;   ///< of letters; absent: suits the picture
+  std::optional<PaperLength> line_width;  ///< of isolines; edges and paths keep their proportions
+  ColourScale colour_scale = ColourScale::kLinear;
+  int bands = 0;                    ///< colours of the map that are told apart; 0: all
+  std::vector<double> line_values;  ///< ascending; isolines there instead of a spacing
+  PathKind path_kind = PathKind::kGeodesic;
   CameraSettings camera;
   int turntable = 0;   ///< frames of one turn; 0: one picture
   std::string device;  ///< part of its name; empty: the best
 
   bool operator==(const PictureSettings&) const = default;
 };
+
+/// Where the size is one on paper and nothing else is said.
+inline constexpr PaperLength kTextOnPaper{8, PaperUnit::kPoint};
+inline constexpr PaperLength kLinesOnPaper{0.5, PaperUnit::kPoint};
+
+/// What a picture's file says: `dpi`, or what a size on paper was drawn with.
+std::optional<int> said_dpi(const PictureSettings& settings);
+
+/// Of `dpi` where it is said; else 300 on paper and 96 elsewhere.
+int dots_per_inch(const PictureSettings& settings);
+
+double pixels_of(const PaperLength& length, const PictureSettings& settings);
+
+/// Sets width and height from the size on paper, where there is one. Errors: kBadInput (a side is
+/// not 1 to 8192 pixels long; nothing is changed).
+Result<void> fit_to_paper(PictureSettings& settings);
+
+/// What X, Y (up) and Z of a picture whose Y is up become: the shortest turn takes Y to the axis.
+/// Of kAuto those themselves.
+std::array<std::array<double, 3>, 3> axes_of(UpAxis up);
 
 int frame_count(const PictureSettings& settings);
 

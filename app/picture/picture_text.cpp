@@ -84,7 +84,7 @@ Result<Size> parse_size(const std::string& text) {
   }
   return bad_value(text, "is no size",
                    "give WxH in pixels, each 1 to " + std::to_string(kLargestPictureSide) +
-                       ", such as 1920x1080");
+                       ", such as 1920x1080, or in cm, mm, in or pt, such as 8cmx6cm");
 }
 
 Result<int> parse_samples(const std::string& text) {
@@ -214,6 +214,23 @@ Result<bool> parse_switch(const std::string& text) {
   if (text == "on") return true;
   if (text == "off") return false;
   return bad_value(text, "is neither on nor off");
+}
+
+std::array<std::array<double, 3>, 3> axes_of(UpAxis up) {
+  switch (up) {
+    case UpAxis::kX:
+      return {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+    case UpAxis::kMinusX:
+      return {{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}};
+    case UpAxis::kMinusY:
+      return {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+    case UpAxis::kZ:
+      return {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}};
+    case UpAxis::kMinusZ:
+      return {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
+    default:
+      return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  }
 }
 
 int frame_count(const PictureSettings& settings) { return std::max(settings.turntable, 1); }

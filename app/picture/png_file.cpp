@@ -4,6 +4,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <new>
 #include <vector>
@@ -22,6 +23,7 @@ constexpr int kCompression = 4;
 struct PngWriter {
   const DrawnPicture& picture;
   bool opaque = true;
+  png_uint_32 dots_per_metre = 0;  ///< 0: not said
   std::vector<png_text> texts;
   std::vector<std::string> words;  ///< what `texts` points to
   std::string bytes;
@@ -99,6 +101,9 @@ bool write_png(png_structp png, png_infop info, PngWriter& writer) {
                writer.opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  if (writer.dots_per_metre > 0) {
+    png_set_pHYs(png, info, writer.dots_per_metre, writer.dots_per_metre, PNG_RESOLUTION_METER);
+  }
   png_set_text(png, info, writer.texts.data(), static_cast<int>(writer.texts.size()));
   png_write_info(png, info);
   if (writer.opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);  // leaves every fourth byte out
@@ -118,8 +123,11 @@ bool is_opaque(const DrawnPicture& picture) {
 
 }  // namespace
 
-Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts) {
-  PngWriter writer{picture, is_opaque(picture), {}, {}, {}, {}};
+Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts,
+                              std::optional<int> dpi) {
+  constexpr double kInch = 0.0254;  // metres
+  const auto dots = static_cast<png_uint_32>(std::lround(dpi.value_or(0) / kInch));
+  PngWriter writer{picture, is_opaque(picture), dots, {}, {}, {}, {}};
   add_texts(writer, texts);
   png_structp png =
       png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &writer, fail_png, ignore_png_warning,

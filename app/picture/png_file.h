@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,7 +18,9 @@ struct PngText {
 
 /// The bytes of a PNG file: sRGB, 8 bits a channel, RGB where every pixel is opaque and RGBA
 /// elsewhere; texts as tEXt chunks, or iTXt where ASCII does not do. Errors: kOutOfMemory,
-/// kBadInput (what libpng refuses).
-Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts = {});
+/// kBadInput (what libpng refuses). `dpi`: pixels an inch, as whole pixels a metre; absent: not
+/// said.
+Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts = {},
+                              std::optional<int> dpi = {});
 
 }  // namespace geotherm::app

@@ -111,7 +111,7 @@ TargetPathFinder::TargetPathFinder(const std::shared_ptr<const TriangleMesh>& me
       streamlines_(mesh, std::move(shown)) {}
 
 Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const SurfacePoint& target,
-                                           const Progress& progress) const {
+                                           PathKind kind, const Progress& progress) const {
   SourceSet from_target;
   from_target.points = {target};
   const auto distances =
@@ -125,7 +125,8 @@ Result<TargetPaths> TargetPathFinder::find(const SourceSet& sources, const Surfa
   TargetPaths found;
   const SurfacePoint ends[] = {source, target};
   for (const PathField field : {PathField::kGeodesic, PathField::kDistance, PathField::kHeat}) {
-    if (field == PathField::kHeat && !heat_) continue;
+    const bool wanted = kind == PathKind::kAll || to_text(kind) == to_text(field);
+    if (!wanted || (field == PathField::kHeat && !heat_)) continue;
     const PathFinder& finder = field == PathField::kGeodesic ? geodesics_ : streamlines_;
     const double begun = 0.2 + 0.25 * static_cast<double>(found.paths.size());
     auto path = finder.find(ends, {.field = field}, part_of(progress, begun, begun + 0.25));

@@ -38,9 +38,10 @@ class TargetPathFinder {
                    std::shared_ptr<const DistanceMethod> near_exact,
                    std::shared_ptr<const DistanceMethod> shown);
 
-  /// Errors: kBadInput (the target lies in a component without a source), those of PathFinder.
+  /// The paths of a kind, none where the method has no such field. Errors: kBadInput (the target
+  /// lies in a component without a source), those of PathFinder.
   Result<TargetPaths> find(const SourceSet& sources, const SurfacePoint& target,
-                           const Progress& progress = {}) const;
+                           PathKind kind = PathKind::kAll, const Progress& progress = {}) const;
 
  private:
   std::shared_ptr<const TriangleMesh> mesh_;

@@ -333,6 +333,7 @@ ViewerState initial_state() {
   ViewerState state;
   state.options.backend = backend_names().front();
   state.picture.camera.fit = PictureFit::kSphere;
+  state.picture.path_kind = PathKind::kAll;
   return state;
 }
 

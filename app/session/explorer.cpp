@@ -127,6 +127,7 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   if (!report(progress, "inspecting", -1)) return cancelled_error();
   describe(*model);
   auto base = std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
+  base->up = model->model.up;
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);
   Explored first;
@@ -303,8 +304,9 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
                                   const Progress& progress) {
   const Source target{*request.target, "target " + to_text(*request.target), ErrorCode::kBadInput};
   const auto placed = resolve_sources({&target, 1}, *model_->model.mesh);
-  auto found = placed ? solver_->paths_to(placed->set.points.front(), *explored.a, progress)
-                      : Result<TargetPaths>(placed.error());
+  auto found =
+      placed ? solver_->paths_to(placed->set.points.front(), *explored.a, PathKind::kAll, progress)
+             : Result<TargetPaths>(placed.error());
   if (!found && found.error().code == ErrorCode::kCancelled) return found.error();
   if (!found) {
     explored.path_failure = warning_of(found.error());

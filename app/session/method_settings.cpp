@@ -21,8 +21,10 @@ namespace {
 std::vector<Setting>& all() {
   static std::vector<Setting> every = [] {
     std::vector<Setting> joined = method_settings();
-    const std::vector<Setting> of_pictures = picture_settings_table();
-    joined.insert(joined.end(), of_pictures.begin(), of_pictures.end());
+    // Figures first: a size on paper is known to fit when the pixels an inch are.
+    for (const auto& group : {figure_settings_table(), picture_settings_table()}) {
+      joined.insert(joined.end(), group.begin(), group.end());
+    }
     return joined;
   }();
   return every;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/picture/picture_settings.h"
 #include "app/session/space.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
@@ -67,9 +68,8 @@ struct Model {
   std::vector<Warning> notes;  ///< what reading had to do, one sentence each
   /// What distance is computed in, where that is not `mesh` itself.
   std::shared_ptr<const Space> space = {};
-  bool from_points = false;  ///< `mesh` was made of points without faces
-  /// The axis that is up (0: x, 1: y, 2: z) where the file says so.
-  std::optional<int> up_axis = {};
+  UpAxis up = UpAxis::kAuto;  ///< what the file says; kAuto: nothing
+  bool from_points = false;   ///< `mesh` was made of points without faces
 
   /// Whether the file holds the faces of `mesh`.
   bool is_mesh() const { return !space && !from_points; }

@@ -230,7 +230,7 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
 }
 
 Result<TargetPaths> ModelSolver::paths_to(const SurfacePoint& target, const Answer& answer,
-                                          const Progress& progress) {
+                                          PathKind kind, const Progress& progress) {
   if (auto surface = refuse_space(model_, "paths are"); !surface) return surface.error();
   if (!paths_ || paths_->method != answer.method) {
     auto near_exact = make(better_options(answer.options, MethodKind::kWavefront), nullptr,
@@ -239,7 +239,7 @@ Result<TargetPaths> ModelSolver::paths_to(const SurfacePoint& target, const Answ
     paths_ = Paths{answer.method, std::make_shared<const TargetPathFinder>(
                                       model_.mesh, *std::move(near_exact), answer.method)};
   }
-  return paths_->finder->find(answer.sources, target, part_of(progress, 0.2, 1.0));
+  return paths_->finder->find(answer.sources, target, kind, part_of(progress, 0.2, 1.0));
 }
 
 }  // namespace geotherm::app

@@ -92,7 +92,7 @@ class ModelSolver {
 
   /// Paths from the sources of an answer to a point. Errors: those of TargetPathFinder.
   Result<TargetPaths> paths_to(const SurfacePoint& target, const Answer& answer,
-                               const Progress& progress = {});
+                               PathKind kind = PathKind::kAll, const Progress& progress = {});
 
  private:
   Result<std::shared_ptr<const DistanceMethod>> make(const MethodOptions& options,

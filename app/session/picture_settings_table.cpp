@@ -26,10 +26,18 @@ Result<void> set_range(State& s, const Text& text) {
 }
 
 Result<void> set_size(State& s, const Text& text) {
-  const auto size = parse_size(text);
-  if (!size) return size.error();
-  s.picture.width = size->width;
-  s.picture.height = size->height;
+  if (const auto size = parse_size(text)) {
+    s.picture.width = size->width;
+    s.picture.height = size->height;
+    s.picture.paper = std::nullopt;
+    return {};
+  }
+  const auto paper = parse_paper(text);
+  if (!paper) return paper.error();
+  PictureSettings changed = s.picture;
+  changed.paper = *paper;
+  if (auto fits = fit_to_paper(changed); !fits) return fits;
+  s.picture = std::move(changed);
   return {};
 }
 
@@ -75,11 +83,9 @@ std::vector<Setting> picture_settings_table() {
       {.name = "size",
        .group = kPicture,
        .value_name = "WxH",
-       .help = "of the picture, in pixels, up to 8192x8192",
-       .get =
-           [](const State& s) {
-             return std::to_string(s.picture.width) + "x" + std::to_string(s.picture.height);
-           },
+       .help = "of the picture, in pixels, up to 8192x8192, or in cm, mm, in or pt, such as "
+               "8cmx6cm",
+       .get = [](const State& s) { return size_text(s.picture); },
        .set = set_size},
       {.name = "samples",
        .group = kPicture,
@@ -181,6 +187,18 @@ std::vector<Setting> picture_settings_table() {
        .get = [](const State& s) { return number_text(s.picture.camera.elevation); },
        .set = [](State& s,
                  const Text& t) { return store(parse_elevation(t), s.picture.camera.elevation); }},
+      {.name = "roll",
+       .group = kCamera,
+       .kind = kNumber,
+       .value_name = "DEGREES",
+       .help = "of the picture about its middle, counter-clockwise",
+       .get = [](const State& s) { return number_text(s.picture.camera.roll); },
+       .set = [](State& s, const Text& t) { return store(parse_roll(t), s.picture.camera.roll); }},
+      choice<&CameraSettings::up>({.name = "up",
+                                   .group = kCamera,
+                                   .value_name = "AXIS",
+                                   .help = "the axis that points up",
+                                   .detail = "auto: as the model's file says, else y."}),
       {.name = "zoom",
        .group = kCamera,
        .kind = kNumber,

@@ -30,7 +30,8 @@ void note_polygons_and_welding(const MeshFile& file, std::vector<Warning>& notes
 
 Result<Model> model_of(MeshFile file, std::string name, const std::string& path) {
   Model model{std::move(name), path, nullptr, 0, {}};
-  model.up_axis = file.up_axis;
+  constexpr UpAxis kAxes[] = {UpAxis::kX, UpAxis::kY, UpAxis::kZ};
+  if (file.up_axis) model.up = kAxes[*file.up_axis];
   note_polygons_and_welding(file, model.notes);
   for (std::string& note : file.notes) model.notes.push_back({std::move(note)});
   model.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));

@@ -17,7 +17,7 @@
 namespace geotherm::app {
 
 /// What a setting is about; the heading of its options in the help.
-enum class SettingGroup { kModel, kMethod, kCheck, kPicture, kCamera };
+enum class SettingGroup { kModel, kMethod, kCheck, kPicture, kFigure, kCamera };
 
 /// How a setting is written in JSON and drawn in a panel.
 enum class SettingKind {
@@ -46,7 +46,8 @@ struct Setting {
   /// Whether it changes the answer, not only the picture.
   bool of_method() const { return group == SettingGroup::kMethod || group == SettingGroup::kModel; }
   bool of_picture() const {
-    return group == SettingGroup::kPicture || group == SettingGroup::kCamera;
+    return group == SettingGroup::kPicture || group == SettingGroup::kFigure ||
+           group == SettingGroup::kCamera;
   }
 };
 
@@ -102,6 +103,7 @@ Setting choice(Setting setting) {
 
 /// The groups of the table; settings() joins them.
 std::vector<Setting> method_settings();
+std::vector<Setting> figure_settings_table();
 std::vector<Setting> picture_settings_table();
 
 }  // namespace geotherm::app

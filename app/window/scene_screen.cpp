@@ -78,8 +78,9 @@ Result<void> SceneScreen::update_data(const Session& session) {
     uploaded_.reset();
   }
   const PictureSettings& settings = state.picture;
-  const Uploaded now{explored.version, state.shown,    settings.view,     settings.colour_map,
-                     settings.reverse, settings.slice, settings.slice_at, settings.peel};
+  const Uploaded now{explored.version, state.shown,       settings.view,     settings.colour_map,
+                     settings.reverse, settings.slice,    settings.slice_at, settings.peel,
+                     settings.bands,   settings.path_kind};
   if (uploaded_ == now) return {};
   set_explored(data_, explored, state.shown, settings.view);
   if (auto done = upload_data(settings); !done) return done;

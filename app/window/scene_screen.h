@@ -89,6 +89,8 @@ class SceneScreen {
     std::optional<std::array<double, 3>> slice;
     double slice_at = 0;
     Peel peel;
+    int bands = 0;
+    PathKind path_kind{};
     bool operator==(const Uploaded&) const = default;
   };
   std::optional<Uploaded> uploaded_;

@@ -163,6 +163,20 @@ float GlyphAtlas::width_of(std::string_view text) const {
   return width;
 }
 
+std::vector<std::string_view> missing_letters(std::string_view text) {
+  const Font font(4);
+  std::vector<std::string_view> missing;
+  while (!text.empty()) {
+    std::string_view rest = text;
+    const char32_t letter = take_letter(rest);
+    const std::string_view piece = text.substr(0, text.size() - rest.size());
+    const bool lacks = letter != kMalformed && font.shape(letter).index == 0;
+    if (lacks && std::ranges::find(missing, piece) == missing.end()) missing.push_back(piece);
+    text = rest;
+  }
+  return missing;
+}
+
 std::span<const std::byte> font_file() { return std::as_bytes(std::span(embedded::legend_font())); }
 
 }  // namespace geotherm::engine

@@ -26,6 +26,9 @@ char32_t take_letter(std::string_view& text);
 /// The font that everything is written in (DejaVu Sans, embedded): a TrueType file.
 std::span<const std::byte> font_file();
 
+/// The letters of a text that the font lacks, each once: pieces of it.
+std::vector<std::string_view> missing_letters(std::string_view text);
+
 /// Letters as one 8-bit coverage image; made for the texts that will be drawn, of any script that
 /// the font (DejaVu Sans, embedded) covers.
 class GlyphAtlas {
@@ -119,13 +122,16 @@ struct Legend {
   std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
   std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;
-  std::string title;  ///< over the bar: what the values are, and their unit
+  std::string title;                  ///< over the bar: what the values are, and their unit
+  bool below = false, above = false;  ///< values lie beyond the bar's ends: arrows there
+  std::string heading;                ///< over the picture
   /// One line along the lower edge; cut with an ellipsis where it is too long.
   std::string caption;
   std::vector<Key> keys;        ///< one a line in the upper left corner
   glm::vec3 ink{0};             ///< colour of letters and frames
   glm::vec4 paper{1, 1, 1, 0};  ///< under them, so that they can be read where the model lies there
   float scale = 1;              ///< of letters and bar; 1 suits a picture 720 pixels high
+  float line_height = 0;        ///< of letters, pixels; 0: as `scale` says
 };
 
 struct LegendLayout {
@@ -134,8 +140,10 @@ struct LegendLayout {
 };
 
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the
-/// picture; ticks whose labels would touch are thinned out; a picture that is too small for a bar
-/// or a caption has none. Cost: the glyphs' rasterisation, milliseconds.
+/// picture. The bar is a column at the right side, or a row along the lower edge of what is higher
+/// than wide, or the other one where that has no room; ticks whose labels would touch are thinned
+/// out; a picture that is too small for a bar or a caption has none. Cost: the glyphs'
+/// rasterisation, milliseconds.
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent);
 
 }  // namespace geotherm::engine

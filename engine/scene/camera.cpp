@@ -37,7 +37,11 @@ Axes axes_of(const Orbit& orbit) {
   const dvec3 right(std::cos(azimuth), 0, -std::sin(azimuth));
   const dvec3 ahead(std::sin(azimuth), 0, std::cos(azimuth));
   const dvec3 back = std::cos(elevation) * ahead + std::sin(elevation) * dvec3(0, 1, 0);
-  return {right, glm::cross(back, right), back};
+  const dvec3 up = glm::cross(back, right);
+  const glm::dmat3 axes(orbit.axes);
+  const double roll = glm::radians(finite_or(orbit.roll, 0));
+  return {axes * (std::cos(roll) * right - std::sin(roll) * up),
+          axes * (std::sin(roll) * right + std::cos(roll) * up), axes * back};
 }
 
 /// Of the sphere that is fitted, along the axes.

@@ -26,6 +26,9 @@ struct Orbit {
   float field_of_view = 30;  ///< degrees, vertical; perspective only
   Fit fit = Fit::kTight;
   glm::vec3 centre{0};  ///< kSphere alone: what the eye goes round, and what lies in the middle
+  /// Orthonormal, right-handed: what takes the places of X, Y (up) and Z above.
+  glm::mat3 axes{1};
+  float roll = 0;  ///< degrees by which the picture is turned counter-clockwise
 };
 
 /// Matrices of a view. Clip space is Vulkan's: x right, y down, depth 1 at the near plane and 0 at

@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "engine/scene/camera.h"
 
@@ -19,6 +20,7 @@ struct Openness {
   glm::vec3 normal;  ///< tells the sides apart
   float front = 1, back = 1;
 };
+inline constexpr std::size_t kMaxLevels = 64;  ///< of isolines at chosen values
 
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {
@@ -61,7 +63,9 @@ struct SurfaceStyle {
   Paint paint = Paint::kPlain;
   glm::vec3 colour{0.80F, 0.80F, 0.78F};  ///< kPlain, sRGB
   float range_min = 0, range_max = 1;     ///< values at the ends of the colour map
+  bool log = false;                       ///< equal ratios of values are equally far apart
   float line_spacing = 0;                 ///< isolines at its multiples; 0: none
+  std::vector<float> levels;              ///< isolines there instead, up to kMaxLevels
   float line_width = 1.4F;                ///< pixels
   glm::vec3 line_colour{0.05F};
   /// Hollows and what turns away from the eye are darker (SurfaceGeometry::openness).

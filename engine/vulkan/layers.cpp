@@ -144,6 +144,7 @@ namespace {
 constexpr float kClosestLines = 1e-6F;
 
 bool has_isolines(const SurfaceStyle& surface) {
+  if (!surface.levels.empty()) return false;  // lines are those
   const float width = std::abs(surface.range_max - surface.range_min);
   const float reach = std::max({width, std::abs(surface.range_min), std::abs(surface.range_max)});
   return surface.line_spacing > kClosestLines * reach;
@@ -162,9 +163,20 @@ shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 ext
   const glm::vec2 magnified = scene.camera.extent / extent;
   frame.tile = {magnified, magnified - 2.0F * origin / extent - 1.0F};
   frame.orthographic = scene.camera.orthographic ? 1 : 0;
-  const float per_width = width != 0 ? 1 / width : 0;
   const float scale = has_isolines(surface) ? 1 / surface.line_spacing : 1;
-  frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
+  if (surface.log) {
+    const float low = std::log2(surface.range_min), octaves = std::log2(surface.range_max) - low;
+    const float per_octave = octaves != 0 ? 1 / octaves : 0;
+    frame.range = {per_octave, -(low + std::log2(scale)) * per_octave, scale, 0};
+  } else {
+    const float per_width = width != 0 ? 1 / width : 0;
+    frame.range = {per_width / scale, -surface.range_min * per_width, scale, 0};
+  }
+  const std::size_t levels = std::min(surface.levels.size(), kMaxLevels);
+  frame.level_count.x = static_cast<float>(levels);
+  for (std::size_t i = 0; i < levels; ++i) {
+    frame.levels[i / 4][static_cast<int>(i % 4)] = surface.levels[i];
+  }
   frame.plain = {surface.colour, 1};
   frame.line = {surface.line_colour, surface.line_width * scene.pixel_scale};
   frame.wire = {surface.wire_colour, surface.wire_width * scene.pixel_scale};
@@ -192,6 +204,8 @@ std::uint32_t surface_features(const Scene& scene) {
   if (surface.paint == Paint::kMap || surface.paint == Paint::kFaces) features |= shared::kMapped;
   if (surface.paint == Paint::kRegions) features |= shared::kRegions;
   if (has_isolines(surface)) features |= shared::kIsolines;
+  if (!surface.levels.empty()) features |= shared::kLevels;
+  if (surface.log && surface.paint == Paint::kMap) features |= shared::kLogarithmic;
   if (surface.wire) features |= shared::kWire;
   if (surface.form && scene.light != Light::kNone) features |= shared::kForm;
   return features;

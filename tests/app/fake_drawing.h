@@ -62,6 +62,11 @@ class FakeDrawing final : public app::Drawing {
     }
     return {};
   }
+
+  Result<void> draw_cells(const std::vector<app::PictureData>& cells, int,
+                          const app::PictureSettings& settings, const TakeFrame& frame) override {
+    return draw(cells.front(), settings, frame);
+  }
 };
 
 /// A window that notes what it was to begin with.

@@ -210,7 +210,8 @@ TEST(PictureLegend, NamesEachLineOnce) {
   PictureData data = solved();
   const std::vector<Vec3> points = {Vec3::Zero(), Vec3::Ones()};
   for (const char* name : {"heat", "geodesic", "heat", ""}) app::add_line(data, points, name);
-  const PictureSettings settings;
+  PictureSettings settings;
+  settings.path_kind = app::PathKind::kAll;
   const auto scale = app::picture_scale(data, settings);
   const engine::Legend legend = app::legend_of(data, settings, scale);
   ASSERT_EQ(legend.keys.size(), 2U);

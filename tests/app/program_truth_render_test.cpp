@@ -44,7 +44,8 @@ TEST_F(ProgramTruthRender, PathsAreDrawn) {
 }
 
 TEST_F(ProgramTruthRender, SaysHowLongThePathsAre) {
-  const Json drawn = picture({"-s", "3", "--path", "400"})["picture"]["paths"];
+  const Json drawn =
+      picture({"-s", "3", "--path", "400", "--path-kind", "all"})["picture"]["paths"];
   ASSERT_EQ(drawn.size(), 3U);
   EXPECT_EQ(drawn[0]["field"], "geodesic");
   for (const Json& path : drawn) EXPECT_GE(path["length"], drawn[0]["length"]);

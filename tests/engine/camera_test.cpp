@@ -33,6 +33,12 @@ Camera sphere_camera(float azimuth, float elevation, bool orthographic = false) 
                      kOctahedron, kExtent);
 }
 
+void expect_pixel(const Camera& camera, const vec3& point, vec2 away) {
+  const vec2 middle = vec2(camera.project({0, 0, 0}));
+  const vec2 seen = vec2(camera.project(point)) - middle;
+  EXPECT_LE(glm::length(glm::normalize(seen) - away), 1e-4F) << seen.x << " " << seen.y;
+}
+
 void expect_near(const vec3& a, const vec3& b, float tolerance) {
   EXPECT_LE(glm::length(a - b), tolerance)
       << a.x << " " << a.y << " " << a.z << " against " << b.x << " " << b.y << " " << b.z;
@@ -197,6 +203,23 @@ TEST(Camera, PointsToTheEyeFromEachPoint) {
   const vec3 b = a + 0.7F * camera.to_eye(a);  // on the way to the eye: the same pixel
   EXPECT_LE(glm::length(vec2(camera.project(a)) - vec2(camera.project(b))), kPixel);
   EXPECT_GT(camera.project(b).z, camera.project(a).z);
+}
+
+TEST(CameraRoll, TurnsThePictureCounterClockwise) {
+  Orbit orbit{.azimuth = 0, .elevation = 0, .orthographic = true, .fit = Fit::kSphere};
+  orbit.roll = 90;
+  const Camera camera = make_camera(orbit, kOctahedron, kExtent);
+  expect_pixel(camera, {1, 0, 0}, {0, -1});  // to the right is up now; pixels count downwards
+  expect_pixel(camera, {0, 1, 0}, {-1, 0});
+}
+
+TEST(CameraAxes, TakeThePlacesOfRightUpAndEye) {
+  Orbit orbit{.azimuth = 0, .elevation = 0, .orthographic = true, .fit = Fit::kSphere};
+  orbit.axes = glm::mat3(vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));  // Z is up
+  const Camera camera = make_camera(orbit, kOctahedron, kExtent);
+  expect_pixel(camera, {1, 0, 0}, {1, 0});
+  expect_pixel(camera, {0, 0, 1}, {0, -1});
+  EXPECT_GT(camera.project({0, -1, 0}).z, camera.project({0, 1, 0}).z) << "the eye is at -Y";
 }
 
 }  // namespace

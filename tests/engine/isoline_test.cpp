@@ -46,6 +46,21 @@ TEST_F(Isolines, LieWhereThePlaneHasMultiplesOfTheSpacing) {
   for (std::size_t i = 0; i < runs.size(); ++i) EXPECT_NEAR(runs[i].centre, expected[i], 0.1);
 }
 
+TEST_F(Isolines, LieAtChosenValuesAlone) {
+  Stage stage(device(), plane_model(6, 4));
+  const auto value = [](const glm::vec3& p) { return 1.3F * (p.x + 0.85F); };
+  stage.draw_lines(stage.model.values(value), 0.25F);
+  stage.scene.surface.levels = {0.3F, 0.5F, 1.6F};
+  const Image image = stage.draw();
+  const auto runs = dark_runs(image, {0, 100}, {1, 0}, image.width);
+  ASSERT_EQ(runs.size(), 3U);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const float x = stage.scene.surface.levels[i] / 1.3F - 0.85F;
+    EXPECT_NEAR(runs[i].centre, stage.scene.camera.project({x, 0, 0}).x - 0.5, 0.1);
+    EXPECT_NEAR(runs[i].darkness, runs[0].darkness, 0.2) << "all as wide";
+  }
+}
+
 TEST_F(Isolines, AreCirclesOfLatitudeForTheAngleFromThePole) {
   Stage stage(device(), model_of(sphere(4)));
   constexpr int kLines = 8;

@@ -116,7 +116,9 @@ TEST_P(LegendOfSize, HasABarWhereThereIsRoom) {
   const LegendLayout layout = lay_out(sample(), extent());
   if (side() >= 300) {
     EXPECT_EQ(bar_quads(layout.overlay), 2);
-    EXPECT_GT(layout.insets.right, 0);
+    const bool portrait = extent().y > extent().x;
+    EXPECT_EQ(layout.insets.right > 0, !portrait);
+    EXPECT_GT(portrait ? layout.insets.bottom : layout.insets.right, side() / 20);
   } else if (side() < 160) {
     EXPECT_EQ(bar_quads(layout.overlay), 0);
     EXPECT_EQ(layout.insets.right, 0);
@@ -231,6 +233,72 @@ TEST(Legend, WithLabelsTooWideForThePictureHasNoBar) {
   Legend legend = sample();
   legend.ticks[2].label.assign(60, '8');
   EXPECT_EQ(bar_quads(lay_out(legend, {400, 300}).overlay), 0);
+}
+
+TEST(Legend, OfAPictureHigherThanWideRunsToTheRight) {
+  const LegendLayout layout = lay_out(sample(), {600, 900});
+  float left = 600, right = 0;
+  for (const Overlay::Vertex& v : layout.overlay.vertices) {
+    if (vec3(v.colour) == kInk) continue;
+    if (v.colour.r > v.colour.b) left = std::min(left, v.position.x);
+    if (v.colour.b > v.colour.r) right = std::max(right, v.position.x);
+  }
+  EXPECT_GT(right - left, 200) << "from red to blue";
+  EXPECT_EQ(layout.insets.right, 0);
+}
+
+TEST(Legend, TakesTheOtherShapeWhereItsOwnHasNoRoom) {
+  Legend legend = sample();
+  for (Tick& tick : legend.ticks) tick.label = "a label that is long";
+  EXPECT_GT(lay_out(legend, {420, 400}).insets.right, 0);
+  EXPECT_EQ(lay_out(legend, {300, 290}).insets.right, 0);
+  EXPECT_GT(lay_out(legend, {300, 290}).insets.bottom, 60);
+}
+
+TEST(Legend, HasArrowsWhereValuesLieBeyondItsEnds) {
+  const auto reach = [](bool below, bool above) {
+    Legend legend = sample();
+    legend.below = below;
+    legend.above = above;
+    Box box{vec2(1e6F), vec2(0)};
+    for (const Overlay::Vertex& v : lay_out(legend, {1280, 720}).overlay.vertices) {
+      if (vec3(v.colour) == kInk) continue;
+      box.min = glm::min(box.min, v.position);
+      box.max = glm::max(box.max, v.position);
+    }
+    return box;
+  };
+  const Box none = reach(false, false), low = reach(true, false), high = reach(false, true);
+  const float length = none.max.y - none.min.y;
+  EXPECT_GT(low.max.y - low.min.y, length + 4) << "red below";
+  EXPECT_GT(high.max.y - high.min.y, length + 4) << "blue above";
+}
+
+TEST(Legend, HasAHeadingInTheMiddleOfTheUpperEdge) {
+  Legend legend;
+  legend.heading = "A heading";
+  const LegendLayout layout = lay_out(legend, {1000, 600});
+  EXPECT_GT(layout.insets.top, 0);
+  Box box{vec2(1e6F), vec2(0)};
+  for (const Box& letter : quads(layout.overlay, true)) {
+    box = {glm::min(box.min, letter.min), glm::max(box.max, letter.max)};
+  }
+  EXPECT_NEAR((box.min.x + box.max.x) / 2, 500, 3);
+  EXPECT_LT(box.max.y, layout.insets.top);
+}
+
+TEST(Legend, HasLettersOfTheHeightThatIsAskedFor) {
+  Legend legend = sample();
+  legend.line_height = 40;
+  EXPECT_NEAR(lay_out(legend, {1280, 720}).overlay.atlas.line_height(), 40, 4);
+}
+
+TEST(MissingLetters, AreThoseThatTheFontLacksEachOnce) {
+  EXPECT_TRUE(missing_letters("d(x) = \u2207\u03c6 \u2014 \u00e9\u20ac").empty());
+  const auto missing = missing_letters("a\u6f22b\u5b57\u6f22");
+  ASSERT_EQ(missing.size(), 2U);
+  EXPECT_EQ(missing[0], "\u6f22");
+  EXPECT_EQ(missing[1], "\u5b57");
 }
 
 TEST(Legend, SurvivesSizesThatAreNone) {

@@ -133,6 +133,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"sys/", "posix"},
     {"unistd.h", "posix"},
     {"fcntl.h", "posix"},
+    {"spawn.h", "posix"},
     {"dirent.h", "posix"},
     {"dlfcn.h", "posix"},
     {"malloc.h", "posix"},

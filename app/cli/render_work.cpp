@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// A model made ready to be drawn by `geotherm render`, and what there is to say about its picture.
+#include "app/cli/render_work.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/picture/cut_picture.h"
+#include "app/picture/picture_scale.h"
+#include "app/picture/target_paths.h"
+#include "app/session/explored.h"
+#include "app/session/model_solver.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A mesh without any area has no distances but may be looked at all the same.
+bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
+
+/// Adds the paths to all targets, and what is to be said about them to the warnings.
+Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver, Answer& solved,
+                        PictureData& data, const Progress& progress, PictureFigures& figures) {
+  const std::shared_ptr<const TriangleMesh> mesh = solved.model.mesh;
+  for (const Source& target : targets) {
+    if (auto surface = refuse_space(solved.model, "paths are"); !surface) return surface;
+    const auto placed = resolve_sources({&target, 1}, *mesh);
+    if (!placed) return placed.error();
+    const auto found =
+        solver.paths_to(placed->set.points.front(), solved, figures.settings.path_kind, progress);
+    if (!found) {
+      return about_model(solved.model.name, about(target.where, found.error()));
+    }
+    add_paths(data, *mesh, found->paths);
+    for (const TargetPath& path : found->paths) {
+      figures.lines.push_back({to_text(target.spec), to_text(path.field), path.path.length});
+    }
+    for (const auto* more : {&placed->warnings, &found->warnings}) {
+      solved.warnings.insert(solved.warnings.end(), more->begin(), more->end());
+    }
+  }
+  return {};
+}
+
+void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
+  const std::optional<double>& asked = figures.settings.line_spacing;
+  if (!asked || *asked <= 0 || figures.scale.spacing > 0 || !figures.scale.coloured) return;
+  const double room = figures.scale.max - figures.scale.min;
+  warnings.push_back({"isolines every " + significant(*asked) +
+                          " would be closer together than pixels and are left out",
+                      {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
+}
+
+bool shows_faces(const PictureData& data) {
+  return std::ranges::any_of(data.faces, [](const auto& face) {
+    return face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+  });
+}
+
+/// Says that, and why, a picture is empty.
+void note_empty(const PictureData& data, const PictureSettings& settings,
+                std::vector<Warning>& warnings) {
+  if (!shows_faces(data)) {
+    warnings.push_back({"the picture is empty: there is no face with three corners"});
+  } else if (is_cut(data, settings) && !shows_faces(cut_picture(data, settings).data)) {
+    const bool sliced = settings.slice.has_value();
+    warnings.push_back(
+        {std::string("the picture is empty: ") +
+             (sliced ? "nothing of the model lies on this side of the slice"
+                     : "no cell lies on this side of the share of the distance"),
+         {"try ", sliced ? SettingHint{"slice-at", {"0.5"}} : SettingHint{"peel", {"below:0.5"}}}});
+  }
+}
+
+/// Options that have nothing to do in this picture, and letters that it cannot show.
+void note_figure(const RenderArguments& arguments, const PictureFigures& figures,
+                 const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
+  const auto note = [&](std::initializer_list<const char*> names, const std::string& why) {
+    std::vector<std::string> typed;
+    for (const char* name : names) {
+      if (arguments.settings.has(name)) typed.push_back(std::string("--") + name);
+    }
+    if (typed.empty()) return;
+    warnings.push_back(
+        {joined(typed) + (typed.size() == 1 ? " is" : " are") + " not used: " + why});
+  };
+  if (!figures.scale.bar) {
+    note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
+  }
+  const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
+  if (!mapped) note({"bands"}, "the picture shows no values in colours");
+  if (!figures.scale.coloured) note({"values", "colour-scale"}, "the picture shows no distances");
+  if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
+  const PictureSettings& s = figures.settings;
+  for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
+                                   {"--bar-label", s.bar_label},
+                                   {"--units", s.units},
+                                   {"the caption", s.caption ? data.caption : std::string()}}) {
+    const std::vector<std::string> missing = drawing.missing_letters(text);
+    if (missing.empty()) continue;
+    warnings.push_back({std::string(name) + ": the font of pictures has no " + joined(missing) +
+                        ", and a box stands there"});
+  }
+}
+
+}  // namespace
+
+Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
+                          const RenderArguments& arguments) {
+  const bool is_error = settings.view == View::kExactError;
+  if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale diverging is for differences, and --view " +
+                     geotherm::to_text(settings.view) +
+                     " shows none; choose --view exact-error, or another scale"};
+  }
+  if (settings.colour_scale == ColourScale::kLog && !maps_values(settings.view)) {
+    return Error{ErrorCode::kBadInput, "--colour-scale log is for distances, which --view " +
+                                           geotherm::to_text(settings.view) +
+                                           " does not show in colours; choose --view contours"};
+  }
+  if (settings.colour_scale == ColourScale::kLog && is_error) {
+    return Error{ErrorCode::kBadInput,
+                 "--colour-scale log: the errors of --view exact-error have both signs and no "
+                 "logarithm; choose diverging, or another view"};
+  }
+  const bool heat = settings.path_kind == PathKind::kHeat;
+  if (heat && !arguments.targets.empty() && options.method != MethodKind::kHeat) {
+    return Error{ErrorCode::kBadInput, "--path-kind heat: --method " + to_text(options.method) +
+                                           " has no heat to follow; choose geodesic or distance"};
+  }
+  return {};
+}
+
+Result<PictureData> prepare_picture(const RenderArguments& arguments, const ViewerState& asked,
+                                    const RenderPlaces& places, CheckSettings check,
+                                    const Progress& progress, PictureFigures& figures,
+                                    std::vector<Warning>& warnings) {
+  const auto& [sources, targets] = places;
+  const MethodOptions& options = asked.options;
+  auto model = load_model(arguments.model, asked.reading, progress);
+  if (!model) return model.error();
+  const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
+  figures.model = model->name;
+  figures.vertices = mesh->vertex_count();
+  figures.faces = mesh->face_count();
+  figures.size = size_in_words(*model);
+  face_head_on(*model, arguments.settings, figures.settings);
+  warnings = model->notes;
+  const std::string unseen = model->space ? model->space->unseen() : "";
+  PictureData data = picture_of(*mesh, tets_of(*model));
+  data.up = model->up;
+  const View view = figures.settings.view;
+  if (sources.empty()) {
+    set_view_values(data, *model, view, nullptr);
+    if (!unseen.empty()) warnings.push_back({unseen});
+    return data;
+  }
+  QueryOptions query;
+  query.fields = needs_fields(view);
+  query.nearest = view == View::kRegions;
+  if (view == View::kExactError) check.against = Check::kAuto;
+  const auto placed = resolve_sources(sources, *model);
+  if (!placed) return placed.error();
+  ModelSolver solver(*std::move(model));
+  auto solved = solver.solve(options, *placed, {query, check}, progress);
+  if (!solved && (solved.error().code != ErrorCode::kBadFile || has_area(*mesh))) {
+    return solved.error();
+  }
+  if (!solved) {
+    Warning said = warning_of(solved.error());
+    said.message.insert(0, "there are no distances, the surface is drawn in grey: ");
+    warnings.push_back(std::move(said));
+    add_distances(data,
+                  std::vector<double>(static_cast<std::size_t>(figures.vertices), kUnreached));
+    return data;
+  }
+  add_sources(data, *mesh, solved->sources, places_in_cells(solver.model(), solved->sources));
+  add_distances(data, solved->result.distances, {}, measures_time(solved->model));
+  data.nearest = solved->result.nearest_source;
+  if (view == View::kExactError) {
+    const AccuracyReport& report = *solved->error;
+    if (report.values.empty()) {
+      return Error{ErrorCode::kBadInput, "--view exact-error: there is nothing to hold --method " +
+                                             to_text(options.method) + " against: " + told(report) +
+                                             "; choose another view"};
+    }
+    add_error(data, report.values, error_title(report));
+  }
+  if (auto drawn = draw_paths(targets, solver, *solved, data, progress, figures); !drawn) {
+    return drawn.error();
+  }
+  if (!unseen.empty()) solved->warnings.push_back({unseen});
+  warnings = solved->warnings;
+  set_view_values(data, solved->model, view, &solved->result);
+  if (shows_arrows(view)) {
+    add_fields(data, *mesh, solved->result);
+    data.solid = is_solid(*mesh, inspect_mesh(*mesh));
+  }
+  figures.solve = *std::move(solved);
+  return data;
+}
+
+void note_picture(const RenderArguments& arguments, const PictureFigures& figures,
+                  const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
+  note_scale(figures, warnings);
+  note_figure(arguments, figures, data, drawing, warnings);
+  note_empty(data, figures.settings, warnings);
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// What the colours of a picture stand for.
+#include <algorithm>
+#include <cmath>
+
+#include "app/picture/picture_scale.h"
+#include "app/picture/picture_text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Labels keep their distance on a bar of any length with so many.
+constexpr int kMaxTicks = 7, kMaxBandTicks = 10;
+/// Isolines that are not what the picture is about are farther apart by this.
+constexpr double kFewer = 2.5;
+/// A logarithmic scale ends at this share of the largest value.
+constexpr double kSmallestRatio = 1e-6;
+
+/// Views of faces have scales of their own, not those of distances.
+PictureScale face_scale(const PictureData& data, const PictureSettings& settings) {
+  PictureScale scale;
+  scale.colour_map = colour_map_of(data, settings);
+  scale.max = data.face_values.empty() ? 1 : double{data.largest_face_value};
+  scale.bar = settings.bar && !data.face_values.empty();
+  if (!scale.bar) return scale;
+  scale.ticks =
+      make_ticks(scale.min, scale.max, kMaxTicks, face_tick_step(settings.view).value_or(0));
+  format_labels(scale.ticks, settings.number_format);
+  scale.above = std::ranges::any_of(
+      data.face_values, [&](float x) { return x > data.largest_face_value * (1 + kSlackOfEnds); });
+  return scale;
+}
+
+/// The scale that a picture can have: differences have no logarithm, distances no other sign.
+ColourScale kind_of(const PictureData& data, const PictureSettings& settings) {
+  const ColourScale asked = settings.colour_scale;
+  const bool fits =
+      asked == ColourScale::kDiverging ? data.is_signed : !data.is_signed && data.largest_value > 0;
+  return fits ? asked : ColourScale::kLinear;
+}
+
+/// Both ends where neither is given, and round where the scale asks for that.
+void set_linear_ends(const PictureData& data, const PictureSettings& settings,
+                     PictureScale& scale) {
+  const double largest = data.largest_value * data.value_unit;
+  const double usual = largest > 0 ? largest : 1;
+  // A range is one of distances: an error keeps its 0 in the middle of the map.
+  const bool is_error = settings.view == View::kExactError;
+  const std::optional<double> none;
+  const std::optional<double>& range_min = is_error ? none : settings.range_min;
+  const std::optional<double>& range_max = is_error ? none : settings.range_max;
+  if (scale.kind == ColourScale::kDiverging) {
+    const std::optional<double>& end = settings.range_max;
+    scale.max = end && *end > 0 ? *end : round_number_above(usual);
+    scale.min = -scale.max;
+    return;
+  }
+  scale.min = range_min.value_or(data.is_signed ? -usual : 0);
+  scale.max = range_max.value_or(usual);
+  if (settings.bands > 0 && !range_max && !data.is_signed && scale.max > scale.min) {
+    scale.max = scale.min + settings.bands * band_width(scale.max - scale.min, settings.bands);
+  }
+  if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
+    const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
+    if (range_max) {
+      scale.min = scale.max - width;
+    } else {
+      scale.max = scale.min + width;
+    }
+  }
+}
+
+void set_log_ends(const PictureData& data, const PictureSettings& settings, PictureScale& scale) {
+  const double largest = data.largest_value * data.value_unit;
+  const double smallest = data.smallest_positive * data.value_unit;
+  const auto is_given = [](const std::optional<double>& end) { return end && *end > 0; };
+  // Between numbers that begin with 1, 2 or 5, which are the marks as well.
+  scale.max = is_given(settings.range_max) ? *settings.range_max
+                                           : log_levels(largest, 10 * largest, 3).front();
+  const double least = kSmallestRatio * scale.max;
+  scale.min = is_given(settings.range_min)
+                  ? *settings.range_min
+                  : log_levels(std::max(smallest, least) / 10, std::max(smallest, least), 3).back();
+  if (!(scale.min < scale.max)) scale.min = scale.max / 10;
+}
+
+/// Where isolines are: at the values that were asked for, between bands, else at multiples of a
+/// spacing (of a logarithmic scale: at round numbers).
+void set_lines(const PictureData& data, const PictureSettings& settings, bool painted,
+               PictureScale& scale) {
+  const double width = scale.max - scale.min;
+  if (!settings.line_values.empty()) {
+    scale.levels = settings.line_values;
+    return;
+  }
+  if (settings.line_spacing) {
+    scale.spacing = *settings.line_spacing;
+  } else if (settings.bands > 0 && painted) {
+    for (int i = 1; i < settings.bands; ++i) {
+      scale.levels.push_back(scale.value_at(static_cast<double>(i) / settings.bands));
+    }
+  } else if (scale.kind == ColourScale::kLog) {
+    scale.levels = log_levels(scale.min, scale.max, kMaxLineValues);
+  } else if (!data.is_signed) {
+    scale.spacing = round_spacing(painted ? width : kFewer * width);
+  }
+  // More lines than pixels are no lines.
+  const double pixels = std::max(settings.width, settings.height);
+  if (width > pixels * scale.spacing) scale.spacing = 0;
+}
+
+void set_ticks(const PictureSettings& settings, PictureScale& scale) {
+  if (scale.kind == ColourScale::kLog) {
+    scale.ticks = make_log_ticks(scale.min, scale.max, kMaxTicks);
+  } else if (settings.bands > 0) {
+    scale.ticks = make_band_ticks(scale.min, scale.max, settings.bands, kMaxBandTicks);
+  } else {
+    scale.ticks = make_ticks(scale.min, scale.max, kMaxTicks, scale.spacing);
+  }
+  format_labels(scale.ticks, settings.number_format);
+}
+
+}  // namespace
+
+double PictureScale::place_of(double value) const {
+  if (kind != ColourScale::kLog) return (value - min) / (max - min);
+  return value > 0 ? std::log(value / min) / std::log(max / min) : 0;
+}
+
+double PictureScale::value_at(double place) const {
+  if (kind != ColourScale::kLog) return min + place * (max - min);
+  return min * std::pow(max / min, place);
+}
+
+PictureScale picture_scale(const PictureData& data, const PictureSettings& settings) {
+  if (face_field(settings.view)) return face_scale(data, settings);
+  const double largest = data.largest_value * data.value_unit;
+  const bool has_range = settings.view != View::kExactError &&
+                         (settings.range_min.has_value() || settings.range_max.has_value());
+  PictureScale scale;
+  scale.colour_map = colour_map_of(data, settings);
+  scale.kind = kind_of(data, settings);
+  if (scale.kind == ColourScale::kLog) {
+    set_log_ends(data, settings, scale);
+  } else {
+    set_linear_ends(data, settings, scale);
+  }
+  const bool painted = maps_values(settings.view) && !data.values.empty();
+  const bool shown = painted || (settings.view == View::kRegions && !data.values.empty());
+  // Where all distances are 0 an isoline would be all of the surface.
+  if (shown && largest > 0) {
+    scale.coloured = true;
+    set_lines(data, settings, painted, scale);
+  }
+  scale.bar = settings.bar && painted && (largest > 0 || has_range);
+  if (!scale.bar) return scale;
+  set_ticks(settings, scale);
+  const double slack = kSlackOfEnds * (scale.max - scale.min);
+  // The distance 0 of sources has no place on a logarithmic scale, and nobody misses it there.
+  const double low = scale.kind == ColourScale::kLog ? data.smallest_positive : data.smallest_value;
+  scale.below = low * data.value_unit < scale.min - slack;
+  scale.above = data.greatest_value * data.value_unit > scale.max + slack;
+  return scale;
+}
+
+}  // namespace geotherm::app

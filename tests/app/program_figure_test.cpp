@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Figures, several models in one picture, and films, from the built program.
+#include <filesystem>
+#include <fstream>
+
+#include "tests/app/png_reader.h"
+#include "tests/app/program_fixture.h"
+#include "tests/app/variable.h"
+
+namespace geotherm::test {
+namespace {
+
+class ProgramFigure : public DrawingProgram {
+ protected:
+  PngContent picture(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--no-check", "-o", "a.png"});
+    run(arguments);
+    return read_png(bytes_of(folder.path("a.png")));
+  }
+
+  /// A program called ffmpeg in a folder of its own, which becomes PATH.
+  std::string fake_ffmpeg(const std::string& script) {
+    const std::string bin = folder.path("bin");
+    std::filesystem::create_directories(bin);
+    std::ofstream(bin + "/ffmpeg") << "#!/bin/sh\n" << script;
+    std::filesystem::permissions(bin + "/ffmpeg", std::filesystem::perms::owner_all);
+    return bin;
+  }
+
+  std::size_t files() const {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& each :
+         std::filesystem::directory_iterator(folder.path("."))) {
+      ++count;
+    }
+    return count;
+  }
+};
+
+/// The last word of its command is the file, which holds how many bytes came.
+constexpr const char* kCounting =
+    "for last; do :; done\n/bin/sh -c 'exec /usr/bin/wc -c' > \"${last#file:}\"\n";
+
+TEST_F(ProgramFigure, StandsInJsonAndInTheFile) {
+  const Json made = json({"render",
+                          "bunny",
+                          "-s",
+                          "17",
+                          "--size",
+                          "4cmx3cm",
+                          "--title",
+                          "A title",
+                          "--units",
+                          "mm",
+                          "--bands",
+                          "5",
+                          "--range",
+                          "0:2",
+                          "--up",
+                          "z",
+                          "--roll",
+                          "10",
+                          "--number-format",
+                          "fixed:1",
+                          "--no-check",
+                          "-o",
+                          "a.png",
+                          "--json",
+                          "-"})["picture"];
+  EXPECT_EQ(made["width"], 472);
+  EXPECT_EQ(made["title"], "A title");
+  EXPECT_EQ(made["bands"], "5");
+  EXPECT_EQ(made["camera"]["up"], "z");
+  EXPECT_EQ(made["camera"]["roll"], 10);
+  EXPECT_EQ(made["clamped"], Json({false, true}));
+  EXPECT_EQ(made["levels"].size(), 4U);
+  const PngContent content = read_png(bytes_of(folder.path("a.png")));
+  EXPECT_EQ(content.texts.at("geotherm:title"), "A title");
+  EXPECT_EQ(content.texts.at("geotherm:size"), "4cmx3cm");
+  EXPECT_EQ(content.texts.at("geotherm:number-format"), "fixed:1");
+  EXPECT_NE(bytes_of(folder.path("a.png")).find("pHYs"), std::string::npos);
+}
+
+TEST_F(ProgramFigure, DrawsThePathThatIsAskedFor) {
+  const std::vector<std::string> words = {"render", "bunny",   "-s", "3",     "--path", "400",
+                                          "--size", "200x150", "-o", "a.png", "--json", "-"};
+  const auto fields = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    std::vector<std::string> names;
+    const Json made = json(more);
+    for (const Json& path : made["picture"]["paths"]) names.push_back(path["field"]);
+    return names;
+  };
+  EXPECT_EQ(fields({}), (std::vector<std::string>{"geodesic"}));
+  EXPECT_EQ(fields({"--path-kind", "heat"}), (std::vector<std::string>{"heat"}));
+  EXPECT_EQ(fields({"--path-kind", "all"}).size(), 3U);
+}
+
+TEST_F(ProgramFigure, RefusesWhatDoesNotGoTogether) {
+  const auto refused = [&](std::vector<std::string> more, const std::string& says) {
+    more.insert(more.begin(), {"render", "bunny", "-s", "17", "-o", "a.png"});
+    expect_refused(more, says);
+  };
+  refused({"--colour-scale", "log", "--range", "0:2"}, "not above 0");
+  refused({"--colour-scale", "diverging"}, "--view exact-error");
+  refused({"--colour-scale", "log", "--view", "exact-error"}, "both signs");
+  refused({"--path", "4", "--path-kind", "heat", "--method", "wavefront"}, "no heat to follow");
+  refused({"--size", "90cmx90cm"}, "10630");
+  refused({"--bands", "1"}, "2 to 64");
+  refused({"--fps", "20"}, "--fps is for films");
+  refused({"--columns", "2"}, "several models");
+  EXPECT_EQ(files(), 0U);
+}
+
+TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
+  const auto said = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "bunny", "--size", "200x150", "-o", "a.png"});
+    return run(more).err;
+  };
+  EXPECT_NE(said({"--view", "smooth", "--units", "mm"}).find("--units is not used"),
+            std::string::npos);
+  EXPECT_NE(said({"--view", "smooth", "--title", "\u6f22"}).find("(U+6F22)"), std::string::npos);
+  EXPECT_EQ(said({"--view", "smooth", "--title", "\u2207\u03c6"}), "");
+}
+
+TEST_F(ProgramFigure, OfSeveralModelsHasOneScale) {
+  const Json both = json({"render", "bunny", "sleeve", "-s", "17", "--size", "480x240",
+                          "--no-check", "-o", "a.png", "--json", "-"});
+  ASSERT_EQ(both["models"].size(), 2U);
+  double most = 0;
+  for (const Json& model : both["models"]) {
+    most = std::max(most, model["distance"]["max"].get<double>());
+  }
+  EXPECT_DOUBLE_EQ(both["picture"]["range"][1], most);
+  const PngContent content = read_png(bytes_of(folder.path("a.png")));
+  EXPECT_EQ(content.width, 480);
+  // Something is drawn in both halves of what the bar leaves.
+  const auto drawn = [&](int from, int to) {
+    int count = 0;
+    for (int y = 0; y < content.height; ++y) {
+      for (int x = from; x < to; ++x) {
+        count += content.pixels[static_cast<std::size_t>(3 * (y * content.width + x))] < 200;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(drawn(0, 180), 1000);
+  EXPECT_GT(drawn(200, 380), 1000);
+}
+
+TEST_F(ProgramFigure, OfATurnIsAFilmByFfmpeg) {
+  const Variable path("PATH", fake_ffmpeg(kCounting).c_str());
+  run({"render", "bunny", "-s", "17", "--size", "64x48", "--turntable", "5", "--no-check", "-o",
+       "turn.mp4"});
+  EXPECT_EQ(std::stoi(bytes_of(folder.path("turn.mp4"))), 5 * 64 * 48 * 4);
+  EXPECT_EQ(files(), 2U) << "the folder of ffmpeg, and the film";
+}
+
+TEST_F(ProgramFigure, NeedsFfmpegBeforeAnythingIsSolvedAndLeavesNoHalfFilm) {
+  std::filesystem::create_directories(folder.path("empty"));
+  const std::vector<std::string> film = {"render",     "bunny", "-s",          "17",
+                                         "--size",     "64x48", "--turntable", "5",
+                                         "--no-check", "-o",    "turn.gif"};
+  {
+    const Variable path("PATH", folder.path("empty").c_str());
+    expect_refused(film, "apt-get install ffmpeg");
+  }
+  for (const char* script :
+       {"echo no such codec >&2; exit 1\n",
+        "/usr/bin/head -c 100 > /dev/null; echo no such codec >&2; exit 3\n"}) {
+    const Variable path("PATH", fake_ffmpeg(script).c_str());
+    expect_refused(film, "turn.gif: ffmpeg could not make the film: no such codec");
+  }
+  expect_refused({"render", "bunny", "-s", "17", "-o", "turn.mp4"}, "one picture is no film");
+  EXPECT_EQ(files(), 2U) << "the folders made here";
+}
+
+TEST_F(ProgramFigure, IsolinesLieAtTheValuesThatAreAskedFor) {
+  const Json lines =
+      json({"isolines", "bunny", "-s", "17", "--values", "1,0.5", "--no-check", "--json", "-"});
+  EXPECT_EQ(lines["levels"], Json({0.5, 1.0}));
+  for (const Json& line : lines["lines"]) EXPECT_TRUE(line["value"] == 0.5 || line["value"] == 1);
+  expect_refused({"isolines", "bunny", "-s", "17", "--values", "1", "--count", "3"}, "two of them");
+  expect_refused({"isolines", "bunny", "-s", "17", "--values", "0,1"}, "above 0");
+}
+
+}  // namespace
+}  // namespace geotherm::test
