@@ -50,15 +50,15 @@ struct Frame {
   float near_shift;    // of markers and lines towards the eye, in their radii
   float orthographic;  // 1 or 0
   vec4 tile;           // of the picture: scale and shift of its clip coordinates
-  vec4 range;       // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
-                    // w: scene units of a scaled value of 1
-                    // where kLogarithmic: place = log2(scaled value) * x + y
-  vec4 plain;       // colour of the surface
-  vec4 line;        // colour, width
-  vec4 wire;        // colour, width
-  vec4 marker;      // colour, radius
-  vec4 marker_rim;  // colour, -
-  vec4 polyline;    // half the width, the same with the rim; the tile's first pixel
+  vec4 range;        // x, y: place on the colour map = scaled value * x + y; z: scaled value of 1;
+                     // w: scene units of a scaled value of 1
+                     // where kLogarithmic: place = log2(scaled value) * x + y
+  vec4 plain;        // colour of the surface
+  vec4 line;         // colour, width
+  vec4 wire;         // colour, width
+  vec4 marker;       // colour, radius
+  vec4 marker_rim;   // colour, -
+  vec4 polyline;     // half the width, the same with the rim; the tile's first pixel
   vec4 level_count;  // x: of the levels below; -
   vec4 levels[kLevelVectors];
 };
