@@ -3,6 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
+#include "app/cli/scene_output.h"
 #include "app/cli/sequence_work.h"
 #include "app/picture/cut_picture.h"
 #include "app/picture/picture_scale.h"
@@ -24,6 +25,12 @@ namespace {
 
 Result<void> check_output(const RenderArguments& arguments, const PictureSettings& settings) {
   const std::string& path = arguments.output;
+  if (scene_format(path)) {
+    if (settings.turntable == 0) return {};
+    return Error{ErrorCode::kBadInput, "--turntable: " + one_line(path) +
+                                           " is turned by whoever looks at it; leave it out, or "
+                                           "give -o FILE.png"};
+  }
   if (path == "-" && settings.turntable > 0) {
     return Error{ErrorCode::kBadInput,
                  "--turntable: several pictures cannot go to standard output; give -o FILE.png"};
@@ -31,8 +38,8 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
   const std::string extension = io::file_extension(path);
   if (path == "-" || extension == ".png") return {};
   return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
-                                         ".png, not '" + one_line(extension) +
-                                         "'; give -o FILE.png"};
+                                         ".png, scenes as .html and .glb, not '" +
+                                         one_line(extension) + "'; give -o FILE.png"};
 }
 
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
@@ -226,8 +233,9 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   command
       .add_option("-o,--output", arguments.output,
-                  "the picture, .png; - is standard output; with --sequence a name with a place "
-                  "for the frame's number, such as frame_%04d.png")
+                  "the picture, .png; .html is a page that turns it, .glb a glTF scene; - is "
+                  "standard output; with --sequence a name with a place for the frame's number, "
+                  "such as frame_%04d.png")
       ->type_name("FILE")
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
@@ -251,6 +259,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render model.obj -s 17 --view contours -o out.png\n"
       "  geotherm render bunny -s 0 --path 1500 -o path.png\n"
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
+      "  geotherm render bunny -s 0 -o bunny.html\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");
 }
@@ -295,7 +304,8 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
     return Error{ErrorCode::kBadInput,
                  "--path: no source was given, so that no path leads there; add -s"};
   }
-  auto device = drawing.open(*settings);
+  const std::optional<SceneFormat> format = scene_format(arguments.output);
+  auto device = format ? Result<DrawingDevice>(DrawingDevice()) : drawing.open(*settings);
   if (!device) return device.error();
 
   PictureFigures figures;
@@ -320,9 +330,10 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
     out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }
-  if (auto drawn = draw_frames(drawing, *data, progress, outputs, figures, out.text); !drawn) {
-    return drawn.error();
-  }
+  if (format) note_settings_without_use(arguments.settings, *format, out.warnings);
+  const auto drawn = format ? write_scene(drawing, *format, *data, progress, outputs, figures)
+                            : draw_frames(drawing, *data, progress, outputs, figures, out.text);
+  if (!drawn) return drawn.error();
   if (!arguments.json.empty()) {
     const auto written =
         outputs.write_text(arguments.json, to_text(picture_json(figures)), out.text);

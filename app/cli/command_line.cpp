@@ -224,7 +224,12 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
       return run_view(a, drawing, window, progress);
     });
   }
-  if (solve_app->parsed()) return run_with_words(solve, run_solve);
+  if (solve_app->parsed()) {
+    return run_with_words(solve, [&drawing](const SolveArguments& a, const Progress& progress,
+                                            const Announce& announce) {
+      return run_solve(a, drawing, progress, announce);
+    });
+  }
   if (info_app->parsed()) return run_with_bar(info, run_info);
   if (compare_app->parsed()) return run_with_bar(compare, run_compare);
   if (render_app->parsed()) {

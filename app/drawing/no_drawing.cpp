@@ -14,9 +14,14 @@ Error no_renderer() {
 class NoDrawing final : public Drawing {
  public:
   std::vector<std::string> colour_maps() const override { return {"red-blue"}; }
+  Result<Colours> colours(const std::string&) const override { return no_renderer(); }
   Result<std::vector<DrawingDevice>> devices() override { return no_renderer(); }
   Result<DrawingDevice> open(const PictureSettings&) override { return no_renderer(); }
   Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&) override {
+    return no_renderer();
+  }
+  Result<std::string> scene_file(SceneFormat, const PictureData&, const PictureSettings&,
+                                 const std::vector<FileText>&) override {
     return no_renderer();
   }
 };

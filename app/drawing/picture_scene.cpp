@@ -228,8 +228,7 @@ std::vector<std::array<std::uint32_t, 3>> joining_triangles(const PictureData& d
 Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
                             const PictureSettings& settings) {
   if (shows_regions(data, settings)) {
-    const auto places = engine::region_colour_places(joining_triangles(data), data.nearest);
-    if (auto done = renderer.set_regions(places); !done) return done;
+    if (auto done = renderer.set_regions(region_places(data)); !done) return done;
     return renderer.set_colours(engine::region_table());
   }
   if (auto done = renderer.set_regions({}); !done) return done;
@@ -250,6 +249,10 @@ Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data) {
 }
 
 }  // namespace
+
+std::vector<std::int32_t> region_places(const PictureData& data) {
+  return engine::region_colour_places(joining_triangles(data), data.nearest);
+}
 
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all) {
   std::vector<glm::vec3> out;

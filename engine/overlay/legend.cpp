@@ -218,6 +218,7 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   const Measures m = measures_of(legend.scale, extent);
   Overlay& overlay = layout.overlay;
   overlay.atlas = atlas_of(legend, m.line);
+  layout.line = m.line;
 
   float bottom = extent.y - m.margin;
   const std::string caption = cut_to_width(overlay.atlas, legend.caption, extent.x - 2 * m.margin);
@@ -240,6 +241,8 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
                  m.margin, overlay);
       draw_column(legend, column, m.stroke, overlay);
       layout.insets.right = extent.x - column.left + m.margin;
+      layout.bar_min = {column.left, column.bar_top};
+      layout.bar_max = {column.left + column.bar_width, column.bar_bottom};
     }
   }
   return layout;

@@ -13,6 +13,7 @@ namespace geotherm::engine {
 
 /// Value of a vertex that has none; its faces are drawn in neutral grey.
 inline constexpr float kNoValue = -std::numeric_limits<float>::max();
+inline constexpr glm::vec3 kNoValueColour{0.62F};  ///< as in surface.frag
 
 /// A triangle mesh in scene space: within radius 1 of the origin, finite.
 struct SurfaceGeometry {

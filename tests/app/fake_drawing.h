@@ -35,6 +35,10 @@ class FakeDrawing final : public app::Drawing {
 
   std::vector<std::string> colour_maps() const override { return {"red-blue", "viridis"}; }
 
+  Result<Colours> colours(const std::string&) const override {
+    return Colours{{255, 0, 0}, {0, 0, 255}};
+  }
+
   Result<std::vector<app::DrawingDevice>> devices() override {
     if (no_devices) return *no_devices;
     return there_are;
@@ -61,6 +65,15 @@ class FakeDrawing final : public app::Drawing {
       if (auto taken = frame(i, picture); !taken) return taken;
     }
     return {};
+  }
+
+  Result<std::string> scene_file(app::SceneFormat format, const app::PictureData& what,
+                                 const app::PictureSettings& settings,
+                                 const std::vector<app::FileText>&) override {
+    calls.emplace_back(format == app::SceneFormat::kGlb ? "glb" : "page");
+    data = what;
+    drawn = settings;
+    return std::string("a scene");
   }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <regex>
 
 #include "app/cli/commands.h"
@@ -115,6 +116,26 @@ TEST_F(Sequence, EndsAtABadFrameWhichIsNamedAndLeavesNoFile) {
               std::string::npos)
         << said;
   }
+}
+
+TEST_F(Sequence, FilesThatWereThereStayWhatTheyWereUntilAllFramesAreWritten) {
+  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17", "-o", "rows.pvd"});
+  const std::string before = bytes_of(folder.path("rows_0000.vtp"));
+  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "900", "-o", "rows.pvd", "--json",
+       "told.json"});
+  const std::string other = bytes_of(folder.path("rows_0000.vtp"));
+  EXPECT_NE(other, before);
+  const auto files = [this] {
+    return std::distance(std::filesystem::directory_iterator(folder.path(".")), {});
+  };
+  const auto count = files();
+  folder.write(frame(2), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramRun failed =
+      run_program(folder.path("."), {"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17",
+                                     "-o", "rows.pvd", "--json", "told.json"});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_EQ(bytes_of(folder.path("rows_0000.vtp")), other);
+  EXPECT_EQ(files(), count) << "nothing is left beside them";
 }
 
 TEST_F(Sequence, SkipsBadFramesWhereAskedAndCountsThem) {
