@@ -12,7 +12,8 @@ there yet. Says nothing when nothing is missing. Needs root or sudo only when so
 
   --pictures  less: what the command line and its pictures need (the preset demo)
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
-           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers
+           display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
+           a browser for pages (Chromium)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
 TEXT
 }
@@ -29,7 +30,7 @@ for argument in "$@"; do
   case $argument in
     --pictures) others=() ;;
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
-      assimp-testmodels) ;;
+      assimp-testmodels chromium) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;
     *) usage >&2 && exit 2 ;;

@@ -324,13 +324,14 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
     out.warnings = figures.solve->warnings;
   }
   figures.scale = picture_scale(*data, *settings);
+  if (format == SceneFormat::kGlb) figures.scale.spacing = 0;  // lines have no place there
   data->caption = caption_of(figures);
   note_scale(figures, out.warnings);
   note_empty(*data, figures.settings, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
     out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }
-  if (format) note_settings_without_use(arguments.settings, *format, out.warnings);
+  if (format) note_what_has_no_place(arguments.settings, *format, settings->view, out.warnings);
   const auto drawn = format ? write_scene(drawing, *format, *data, progress, outputs, figures)
                             : draw_frames(drawing, *data, progress, outputs, figures, out.text);
   if (!drawn) return drawn.error();

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/picture/picture_scale.h"
+#include "app/session/explored.h"
 #include "app/session/progress.h"
 #include "app/text/text.h"
 #include "solver/core/stopwatch.h"
@@ -31,19 +32,22 @@ std::optional<SceneFormat> scene_format(const std::string& path) {
   return std::nullopt;
 }
 
-void note_settings_without_use(const SettingArguments& typed, SceneFormat format,
-                               std::vector<Warning>& warnings) {
+void note_what_has_no_place(const SettingArguments& typed, SceneFormat format, View view,
+                            std::vector<Warning>& warnings) {
   std::vector<std::string> unused;
   for (const Setting& setting : settings()) {
     if (!setting.of_picture() || !typed.has(setting.name) || has_use(setting, format)) continue;
     unused.push_back(std::string(setting.name));
   }
+  const bool glb = format == SceneFormat::kGlb;
+  if (glb && view == View::kWireframe) unused.emplace_back("the edges of this view");
+  if (glb && view == View::kSources) unused.emplace_back("the marks of this view");
+  if (glb && shows_arrows(view)) unused.emplace_back("the arrows of this view");
   if (unused.empty()) return;
-  warnings.push_back(
-      {(format == SceneFormat::kGlb ? "a .glb file holds the surface, its colours and values, and "
-                                      "paths; it has no place for "
-                                    : "a page is drawn by the browser, which decides about ") +
-       joined(unused)});
+  warnings.push_back({(glb ? "a .glb file holds the surface, its colours and values, and paths; it "
+                             "has no place for "
+                           : "a page is drawn by the browser, which decides about ") +
+                      joined(unused)});
 }
 
 Result<void> write_scene(Drawing& drawing, SceneFormat format, const PictureData& data,

@@ -16,9 +16,10 @@ namespace geotherm::app {
 /// By the extension; nothing where a picture is asked for.
 std::optional<SceneFormat> scene_format(const std::string& path);
 
-/// Settings that were typed and say nothing in such a file become a warning.
-void note_settings_without_use(const SettingArguments& typed, SceneFormat format,
-                               std::vector<Warning>& warnings);
+/// What such a file has no place for, and was asked for, becomes a warning: settings, and what the
+/// view draws beside colours.
+void note_what_has_no_place(const SettingArguments& typed, SceneFormat format, View view,
+                            std::vector<Warning>& warnings);
 
 /// Writes the scene to figures.paths. Errors: those of Drawing::scene_file() and of the file.
 Result<void> write_scene(Drawing& drawing, SceneFormat format, const PictureData& data,

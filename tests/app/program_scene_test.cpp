@@ -167,6 +167,8 @@ TEST_F(ProgramScene, ScenesSayWhatTheyHaveNoPlaceFor) {
       run({"render", "bunny", "-s", "0", "--azimuth", "5", "--no-bar", "-o", "a.glb"});
   EXPECT_NE(glb.err.find("no place for"), std::string::npos) << glb.err;
   EXPECT_NE(glb.err.find("azimuth"), std::string::npos) << glb.err;
+  EXPECT_NE(run({"render", "bunny", "--view", "wireframe", "-o", "a.glb"}).err.find("the edges"),
+            std::string::npos);
   const ProgramRun page =
       run({"render", "bunny", "-s", "0", "--azimuth", "5", "--samples", "1", "-o", "a.html"});
   EXPECT_NE(page.err.find("samples"), std::string::npos) << page.err;

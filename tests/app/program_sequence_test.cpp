@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "app/cli/commands.h"
+#include "tests/app/fake_drawing.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
@@ -249,10 +250,11 @@ TEST(CancelledSequence, LeavesNothing) {
     arguments.sequence.frames = frames.output;
     arguments.outputs = {folder.path(output)};
     bool reached = false;
-    const auto result = app::run_solve(arguments, [&](std::string_view stage, double) {
-      reached = reached || stage.starts_with("frame 3 of 4 frames");
-      return !reached;
-    });
+    const auto result =
+        app::run_solve(arguments, FakeDrawing(), [&](std::string_view stage, double) {
+          reached = reached || stage.starts_with("frame 3 of 4 frames");
+          return !reached;
+        });
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
     EXPECT_TRUE(reached);
