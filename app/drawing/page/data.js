@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the page holds, as numbers: the counterpart of PackedArrays (app/drawing/page_file.cpp).
+// What the page holds, as numbers: the counterpart of PackedArrays (app/drawing/packed_arrays.h).
 
 function bytesOf(base64) {
   const text = atob(base64);
