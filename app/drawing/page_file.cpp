@@ -221,11 +221,15 @@ void pack_surface(const SceneMesh& mesh, const PictureData& data, bool regions,
   arrays.add_floats("markers", numbers_in(data.sources), 6, kFineBits);
 }
 
-std::string escaped(std::string text) {
-  for (std::size_t at = 0; (at = text.find_first_of("<&", at)) != std::string::npos;) {
-    text.replace(at, 1, text[at] == '<' ? "&lt;" : "&amp;");
+std::string html_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') out += "&lt;";
+    if (c == '&') out += "&amp;";
+    if (c == '"') out += "&quot;";
+    if (c != '<' && c != '&' && c != '"') out += c;
   }
-  return text;
+  return out;
 }
 
 /// The template with what its marks, {{name}}, stand for.
@@ -308,7 +312,7 @@ Result<std::string> page_file(const PictureData& shown, const PictureData& whole
     script += text_in(part);
   }
   return filled(text_in(embedded::page_page_html()),
-                {{"title", title == texts.end() ? "geotherm" : escaped(title->text)},
+                {{"title", title == texts.end() ? "geotherm" : html_text(title->text)},
                  {"style", std::string(text_in(embedded::page_page_css()))},
                  {"scene", std::move(head)},
                  {"data", base64(*data)},

@@ -121,7 +121,7 @@ TEST_F(Program, FieldsAreWrittenBesideTheDistancesOrRefusedInOneLine) {
     EXPECT_NE(failed.err.find(words), std::string::npos) << failed.err;
     EXPECT_EQ(std::ranges::count(failed.err, '\n'), 1) << failed.err;
   };
-  refused({"all", "-o", "x.npy"}, "write .csv, .ply or .vtp");
+  refused({"all", "-o", "x.npy"}, "write .ply or .vtp");
   refused({"eikonal-error", "-o", "x.csv"}, "write .ply or .vtp");
   refused({"error", "-o", "x.npy"}, "write .csv, .ply or .vtp");
   refused({"colour", "-o", "x.ply"}, "triangle-quality");

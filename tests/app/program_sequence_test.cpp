@@ -122,10 +122,10 @@ TEST_F(Sequence, EndsAtABadFrameWhichIsNamedAndLeavesNoFile) {
 TEST_F(Sequence, FilesThatWereThereStayWhatTheyWereUntilAllFramesAreWritten) {
   run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17", "-o", "rows.pvd"});
   const std::string before = bytes_of(folder.path("rows_0000.vtp"));
-  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "900", "-o", "rows.pvd", "--json",
+  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "300", "-o", "rows.pvd", "--json",
        "told.json"});
   const std::string other = bytes_of(folder.path("rows_0000.vtp"));
-  EXPECT_NE(other, before);
+  EXPECT_TRUE(other != before);
   const auto files = [this] {
     return std::distance(std::filesystem::directory_iterator(folder.path(".")), {});
   };
@@ -135,7 +135,7 @@ TEST_F(Sequence, FilesThatWereThereStayWhatTheyWereUntilAllFramesAreWritten) {
       run_program(folder.path("."), {"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17",
                                      "-o", "rows.pvd", "--json", "told.json"});
   EXPECT_EQ(failed.code, 1);
-  EXPECT_EQ(bytes_of(folder.path("rows_0000.vtp")), other);
+  EXPECT_TRUE(bytes_of(folder.path("rows_0000.vtp")) == other);
   EXPECT_EQ(files(), count) << "nothing is left beside them";
 }
 
