@@ -14,7 +14,7 @@ there yet. Says nothing when nothing is missing. Needs root or sudo only when so
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
            display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
            shells that complete words, the judges of Debian packages and a maker of bare systems, NumPy,
-           pytest, pip and mypy for the Python package
+           pytest, pip and mypy for the Python package, a browser for pages (Chromium)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
   --package  also what scripts/package.sh needs: help2man
 TEXT
@@ -35,7 +35,7 @@ for argument in "$@"; do
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
       shared-mime-info pkg-config mmdebstrap python3-numpy python3-pytest python3-pip python3-venv
-      mypy) ;;
+      mypy chromium) ;;
     --package) packages+=(help2man dpkg-dev) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;

@@ -13,7 +13,7 @@ layout(location = 3) in float full;   // the length of a full arrow
 
 layout(push_constant) uniform PushBlock { ArrowPush push; };
 
-layout(location = 0) out vec4 colour;
+layout(location = 0) out vec4 tint;
 
 // In lengths of a full arrow: half the shaft's width, the head's length, half its width.
 const float kShaft = 0.037;
@@ -46,5 +46,5 @@ void main() {
   vec4 lifted = frame.clip_from_scene * vec4(nearer, 1.0);
   clip.z = min(lifted.z / lifted.w, 1.0) * clip.w;
   gl_Position = in_tile(clip);
-  colour = push.colour;
+  tint = push.colour;
 }

@@ -8,6 +8,7 @@
 #include "app/cli/film.h"
 #include "app/cli/picture_report.h"
 #include "app/cli/render_work.h"
+#include "app/cli/scene_output.h"
 #include "app/cli/sequence_work.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_settings.h"
@@ -23,16 +24,14 @@
 namespace geotherm::app {
 namespace {
 
-/// Absent: pixels.
-std::optional<FigureFormat> figure_format(const std::string& path) {
-  const std::string extension = io::file_extension(path);
-  if (extension == ".pdf") return FigureFormat::kPdf;
-  if (extension == ".svg") return FigureFormat::kSvg;
-  return std::nullopt;
-}
-
 Result<void> check_output(const RenderArguments& arguments, const PictureSettings& settings) {
   const std::string& path = arguments.output;
+  if (scene_format(path)) {
+    if (settings.turntable == 0) return {};
+    return Error{ErrorCode::kBadInput, "--turntable: " + one_line(path) +
+                                           " is turned by whoever looks at it; leave it out, or "
+                                           "give -o FILE.png"};
+  }
   if (path == "-" && settings.turntable > 0) {
     return Error{ErrorCode::kBadInput,
                  "--turntable: several pictures cannot go to standard output; give -o FILE.png"};
@@ -45,9 +44,11 @@ Result<void> check_output(const RenderArguments& arguments, const PictureSetting
   if (auto fits = check_film(arguments, settings); !fits) return fits;
   const std::string extension = io::file_extension(path);
   if (path == "-" || extension == ".png" || figure_format(path) || is_film(path)) return {};
-  return Error{ErrorCode::kBadInput, "--output: " + one_line(path) + ": pictures are written as " +
-                                         ".png, .pdf or .svg, films as .mp4 and .gif, not '" +
-                                         one_line(extension) + "'; give -o FILE.png"};
+  return Error{ErrorCode::kBadInput,
+               "--output: " + one_line(path) + ": pictures are written as " +
+                   ".png, .pdf or .svg, films as .mp4 and .gif, scenes as .html and "
+                   ".glb, not '" +
+                   one_line(extension) + "'; give -o FILE.png"};
 }
 
 Result<void> expect_outputs(const RenderArguments& arguments, const PictureSettings& settings,
@@ -106,7 +107,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
           "the picture: .png, or .pdf or .svg with lines and letters as shapes; - is standard "
           "output, as PNG; with --sequence a name with a place "
           "for the frame's number, such as frame_%04d.png; with --turntable or --sequence "
-          "also a film, .mp4 or .gif (by ffmpeg)")
+          "also a film, .mp4 or .gif (by ffmpeg); .html is a page that turns it, .glb a glTF "
+          "scene")
       ->type_name("FILE")
       ->required();
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
@@ -135,6 +137,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
       "  geotherm render sleeve bunny -s 17 --title Shapes -o two.png\n"
       "  geotherm render bunny -s 17 --turntable 72 -o turn.mp4\n"
+      "  geotherm render bunny -s 0 -o bunny.html\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");
 }
@@ -193,7 +196,8 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
                  "--path: no source was given, so that no path leads there; add -s"};
   }
   const RenderPlaces places{*sources, *targets};
-  auto device = drawing.open(*settings);
+  const std::optional<SceneFormat> format = scene_format(arguments.output);
+  auto device = format ? Result<DrawingDevice>(DrawingDevice()) : drawing.open(*settings);
   if (!device) return device.error();
   if (!arguments.more_models.empty()) {
     return run_render_models(arguments, {*asked, *settings, *check}, places, *std::move(device),
@@ -215,17 +219,24 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
     out.warnings = figures.solve->warnings;
   }
   figures.scale = picture_scale(*data, *settings);
+  if (format == SceneFormat::kGlb) figures.scale.spacing = 0;  // lines have no place there
   data->caption = caption_of(figures);
   note_picture(arguments, figures, *data, drawing, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {
     out.warnings.push_back({"drawing in software, on " + figures.device.name});
   }
-  FrameWriter writer(arguments, outputs, figures, progress, out.text);
-  Result<void> drawn = drawing.draw(*data, figures.settings, writer.taker(), writer.as());
-  if (drawn) drawn = writer.finish();
-  if (!drawn) {
-    outputs.remove_written();
-    return drawn.error();
+  if (format) {
+    note_what_has_no_place(arguments.settings, *format, settings->view, out.warnings);
+    auto written = write_scene(drawing, *format, *data, progress, outputs, figures);
+    if (!written) return written.error();
+  } else {
+    FrameWriter writer(arguments, outputs, figures, progress, out.text);
+    Result<void> drawn = drawing.draw(*data, figures.settings, writer.taker(), writer.as());
+    if (drawn) drawn = writer.finish();
+    if (!drawn) {
+      outputs.remove_written();
+      return drawn.error();
+    }
   }
   if (!arguments.json.empty()) {
     const auto written =

@@ -267,6 +267,7 @@ Result<CommandOutput> run_render_sequence(const RenderArguments& arguments,
     const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!written) return written.error();
   }
+  if (auto replaced = outputs.replace_all(); !replaced) return replaced.error();
   if (!outputs.uses_stdout()) out.text = picture_table(pictures);
   out.made = outputs.made();
   return out;

@@ -30,6 +30,7 @@ Result<void> refuse_other_answers(const SolveArguments& arguments) {
   if (arguments.symmetric) return refuse("--symmetric", "is about --pairs");
   if (!arguments.fields.empty()) return refuse("--fields", "is about one surface");
   if (arguments.labels) return refuse("--labels", "is about one surface");
+  if (!arguments.bake.empty()) return refuse("--bake-colours", "is about one surface");
   return {};
 }
 
@@ -118,12 +119,14 @@ class CollectionSink final : public FrameSink {
     const std::string file = file_of(k);
     list_ += "<DataSet timestep=\"" + std::to_string(frames_.number(k)) + "\" part=\"0\" file=\"" +
              escaped(std::filesystem::path(file).filename().string()) + "\"/>\n";
-    return outputs_.write(
-        file, [&] { return write_distances(file, *answer->model.mesh, answer->result.distances); });
+    return outputs_.write(file, [&] {
+      return write_distances(outputs_.place_of(file), *answer->model.mesh,
+                             answer->result.distances);
+    });
   }
   Result<void> finish() override {
     return outputs_.write(path_, [this] {
-      return write_file(path_,
+      return write_file(outputs_.place_of(path_),
                         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                         "version=\"0.1\">\n<Collection>\n" +
                             list_ + "</Collection>\n</VTKFile>\n");
@@ -243,6 +246,7 @@ Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progre
     const auto reported = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!reported) return reported.error();
   }
+  if (auto replaced = outputs.replace_all(); !replaced) return replaced.error();
   if (!outputs.uses_stdout()) {
     out.text = sequence_table(*sequence, *figures, sums, path, open->words);
   }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// `geotherm solve` on one source set, and the fields that it writes beside the distances.
+// `geotherm solve` on one source set.
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "app/cli/commands.h"
 #include "app/cli/sequence_work.h"
+#include "app/cli/solve_fields.h"
 #include "app/session/answer.h"
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
@@ -19,145 +19,10 @@
 #include "geotherm/error.h"
 #include "geotherm/heat_method.h"
 #include "geotherm/io.h"
-#include "geotherm/quality_fields.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
 
 namespace geotherm::app {
-
-/// What was asked for, as far as it goes with the method.
-struct WantedFields {
-  std::vector<QualityField> fields;
-  bool all = false;  ///< asked for as "all": what there is none of is left out
-
-  bool has_error() const;  ///< whether the distances have to be checked
-  bool has_heat() const;   ///< whether the answer has to hold u
-};
-
-/// "all", or names with commas between them; empty: none. Each file of `paths` must hold every one.
-/// Errors: kBadInput (unknown, of another method, no file) and kNotAvailable (a file that cannot
-/// hold one), each with what helps.
-Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
-                                   const std::vector<std::string>& paths);
-
-/// The fields of an answer, those of faces on the faces that are drawn of a space. Errors:
-/// kBadInput where there is no error of it.
-Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures);
-
-namespace {
-
-Error about_option(const Error& error) { return about("--fields", error); }
-
-Result<std::vector<QualityField>> named_fields(const std::string& text, MethodKind method) {
-  std::vector<QualityField> fields;
-  std::size_t from = 0;
-  while (from <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const auto field =
-        parse_quality_field(one_line(std::string(trimmed(text.substr(from, comma - from)))));
-    if (!field) return about_option(field.error());
-    if (needs_heat(*field) && method != MethodKind::kHeat) {
-      return Error{ErrorCode::kBadInput, "--fields: " + to_text(*field) +
-                                             " is about the heat u, which --method " +
-                                             to_text(method) + " has not; leave it out"};
-    }
-    if (std::ranges::find(fields, *field) == fields.end()) fields.push_back(*field);
-    from = comma + 1;
-  }
-  return fields;
-}
-
-bool is_of_triangles(QualityField field) {
-  return field == QualityField::kTriangleQuality || field == QualityField::kNonDelaunay;
-}
-
-}  // namespace
-
-bool WantedFields::has_error() const {
-  return std::ranges::find(fields, QualityField::kError) != fields.end();
-}
-
-bool WantedFields::has_heat() const { return std::ranges::any_of(fields, needs_heat); }
-
-Result<WantedFields> wanted_fields(const std::string& text, MethodKind method,
-                                   const std::vector<std::string>& paths) {
-  WantedFields wanted;
-  if (text.empty()) return wanted;
-  if (paths.empty()) {
-    return Error{
-        ErrorCode::kBadInput,
-        "--fields: they are written beside the distances; give -o FILE.ply or -o FILE.vtp"};
-  }
-  wanted.all = text == "all";
-  if (wanted.all) {
-    wanted.fields = all_quality_fields();
-    if (method != MethodKind::kHeat) std::erase_if(wanted.fields, needs_heat);
-  } else {
-    auto named = named_fields(text, method);
-    if (!named) return named.error();
-    wanted.fields = *std::move(named);
-  }
-  for (const std::string& path : paths) {
-    const bool of_tets = io::file_extension(path) == ".vtu";
-    for (const QualityField field : wanted.fields) {
-      if (of_tets && !wanted.all && is_of_triangles(field)) {
-        return Error{ErrorCode::kBadInput, "--fields: " + to_text(field) +
-                                               " is of triangles, and " + one_line(path) +
-                                               " holds tets; leave it out, or write .ply or .vtp"};
-      }
-      const auto held = check_field(path, described(field));
-      if (!held) return about_option(held.error());
-    }
-  }
-  return wanted;
-}
-
-Result<std::vector<DataField>> make_fields(const WantedFields& wanted, Answer& figures) {
-  std::vector<DataField> made;
-  for (const QualityField field : wanted.fields) {
-    std::span<const double> error;
-    if (field == QualityField::kError) {
-      const bool known = figures.error && !figures.error->values.empty();
-      const std::string why = known           ? std::string()
-                              : figures.error ? told(*figures.error)
-                                              : "the distances were not checked";
-      if (!known && !wanted.all) {
-        return Error{ErrorCode::kBadInput,
-                     "--fields: there is no error: " + why + "; leave the field error out"};
-      }
-      if (!known) {
-        figures.warnings.push_back({"--fields: the field error is left out: " + why});
-        continue;
-      }
-      error = figures.error->values;
-    }
-    const auto& space = figures.model.space;
-    if (space && is_of_cells(field)) {
-      DataField& of_cells = made.emplace_back(described(field));
-      of_cells.values = cell_field(*space, field, figures.result, space->cells_of_faces());
-    } else {
-      made.push_back(quality_field(field, *figures.model.mesh, figures.result, error));
-    }
-  }
-  return made;
-}
-
-/// The same for a file that holds the tets themselves: what is of triangles is left out.
-std::vector<DataField> fields_of_tets(const WantedFields& wanted, const Answer& figures,
-                                      const std::vector<DataField>& of_faces) {
-  std::vector<Index> cells(static_cast<std::size_t>(figures.model.space->cell_count()));
-  std::iota(cells.begin(), cells.end(), 0);
-  std::vector<DataField> made;
-  for (const DataField& field : of_faces) {
-    if (field.place == DataField::Place::kVertices) made.push_back(field);
-  }
-  for (const QualityField field : wanted.fields) {
-    if (!is_of_cells(field)) continue;
-    made.push_back(described(field));
-    made.back().values = cell_field(*figures.model.space, field, figures.result, cells);
-  }
-  return made;
-}
 
 namespace {
 
@@ -178,6 +43,19 @@ Result<void> check_outputs_of(const Model& model, const std::vector<std::string>
     if (auto fits = check_answer_path(model, path); !fits) return about("--output", fits.error());
   }
   return {};
+}
+
+bool is_ply(const std::string& path) { return io::file_extension(path) == ".ply"; }
+
+/// Before the work: whether there will be colours, and a file for them.
+Result<void> check_bake(const SolveArguments& arguments, const Drawing& drawing) {
+  if (arguments.bake.empty()) return {};
+  if (std::ranges::none_of(arguments.outputs, is_ply)) {
+    return Error{ErrorCode::kBadInput,
+                 "--bake-colours: colours are written into .ply files; give -o FILE.ply"};
+  }
+  const auto known = drawing.colours(arguments.bake);
+  return known ? Result<void>() : about("--bake-colours", known.error());
 }
 
 bool needs_nearest(const std::vector<std::string>& paths) {
@@ -219,6 +97,11 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
           "triangle-quality, non-delaunay; .ply and .vtp hold all, .vtu those of tets, .csv "
           "and .vti error alone")
       ->type_name("NAMES");
+  command.add_flag(
+      "--bake-colours{red-blue},--bake-colors{red-blue}", arguments.bake,
+      "colours of the distances in .ply files as well (red, green, blue), for programs "
+      "that show nothing else, such as Blender; --bake-colours=viridis takes another "
+      "map");
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
@@ -290,8 +173,8 @@ Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodO
 
 }  // namespace
 
-Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress,
-                                const Announce& announce) {
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
+                                const Progress& progress, const Announce& announce) {
   if (arguments.each && arguments.pairs) {
     return Error{ErrorCode::kBadInput,
                  "--each and --pairs were both given; --each writes whole rows, --pairs those of "
@@ -311,6 +194,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
   const auto wanted = wanted_fields(arguments.fields, options.method, arguments.outputs);
   if (!wanted) return wanted.error();
+  if (auto fits = check_bake(arguments, drawing); !fits) return fits.error();
   const auto check = settings_of(arguments, options, *wanted);
   if (!check) return check.error();
   const auto named = some_sources_of(arguments.sources);
@@ -332,9 +216,14 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
   const auto fields = make_fields(*wanted, *figures);
   if (!fields) return fields.error();
 
+  const std::vector<double>& distances = figures->result.distances;
+  const auto colours = arguments.bake.empty()
+                           ? Result<std::vector<DataField>>(std::vector<DataField>())
+                           : baked_colours(drawing, arguments.bake, distances);
+  if (!colours) return colours.error();
+
   CommandOutput out;
   out.warnings = figures->warnings;
-  const std::vector<double>& distances = figures->result.distances;
   for (const std::string& path : arguments.outputs) {
     if (!report(progress, "writing " + path, 1.0)) {
       outputs.remove_written();
@@ -348,8 +237,10 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress&
         const auto of_tets = fields_of_tets(*wanted, *figures, *fields);
         return write_answer(path, figures->model, distances, nearest, of_tets);
       }
-      if (path != "-") return write_answer(path, figures->model, distances, nearest, *fields);
-      out.text = io::csv_bytes(distances, nearest, *fields);
+      std::vector<DataField> held = fields_of_file(path, *fields, out.warnings);
+      if (is_ply(path)) held.insert(held.end(), colours->begin(), colours->end());
+      if (path != "-") return write_answer(path, figures->model, distances, nearest, held);
+      out.text = io::csv_bytes(distances, nearest, held);
       return {};
     });
     if (!written) return written.error();

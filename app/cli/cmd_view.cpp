@@ -285,9 +285,9 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   figures.scale = picture_scale(data, settings);
   figures.device = painter.device();
   figures.paths = {save.path};
-  std::vector<PngText> texts = picture_texts(figures, 0);
+  std::vector<FileText> texts = picture_texts(figures, 0);
   texts.push_back({"Description", data.caption});
-  std::erase_if(texts, [&](const PngText& text) {
+  std::erase_if(texts, [&](const FileText& text) {
     return text.keyword == "Description" && text.text != data.caption;
   });
   auto bytes = png_bytes(*picture, texts, said_dpi(figures.settings));

@@ -175,6 +175,10 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
   const auto view = [&drawing, &window](const ViewArguments& arguments, const Progress& progress) {
     return run_view(arguments, drawing, window, progress);
   };
+  const auto solve = [&drawing](const SolveArguments& arguments, const Progress& progress,
+                                const Announce& announce) {
+    return run_solve(arguments, drawing, progress, announce);
+  };
   const auto render = [&drawing](const RenderArguments& arguments, const Progress& progress) {
     return run_render(arguments, drawing, progress);
   };
@@ -182,7 +186,7 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
       {"view", "A window to explore a model in; geotherm MODEL does the same.",
        options(add_view_options, a.view), with_bar(a.view, view)},
       {"solve", "Distance from a source set to every vertex.", options(add_solve_options, a.solve),
-       with_words(a.solve, run_solve)},
+       with_words(a.solve, solve)},
       {"info", "What a model is, and what is wrong with it.", options(add_info_options, a.info),
        with_bar(a.info, run_info)},
       {"compare", "The same work through several backends, side by side.",

@@ -91,6 +91,7 @@ struct SolveArguments {
   std::string json;
   CheckArguments check;
   std::string fields;      ///< quality fields beside the distances, empty: none
+  std::string bake;        ///< the colour map that .ply files have colours of; empty: none
   bool labels = false;     ///< nearest sources in .csv and .npy, too
   bool each = false;       ///< a row of distances for each source
   bool pairs = false;      ///< distances between the sources alone
@@ -103,8 +104,8 @@ struct SolveArguments {
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
 /// `announce`: for what --each, --pairs and --sequence say before their work.
-Result<CommandOutput> run_solve(const SolveArguments& arguments, const Progress& progress = {},
-                                const Announce& announce = {});
+Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
+                                const Progress& progress = {}, const Announce& announce = {});
 
 /// `solve --each`: one row of distances for each source, streamed into a .npy array of K x V.
 Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& progress,

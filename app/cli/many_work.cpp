@@ -65,6 +65,7 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
   if (arguments.check.check) return refuse("--check");
   if (!arguments.fields.empty()) return refuse("--fields");
   if (arguments.labels) return refuse("--labels");
+  if (!arguments.bake.empty()) return refuse("--bake-colours");
   return {};
 }
 

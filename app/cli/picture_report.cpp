@@ -24,7 +24,7 @@ bool has_colours(const PictureFigures& f) {
 }
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
-void add(std::vector<PngText>& texts, std::string_view name, const std::string& value) {
+void add(std::vector<FileText>& texts, std::string_view name, const std::string& value) {
   if (!value.empty()) texts.push_back({"geotherm:" + std::string(name), value});
 }
 
@@ -32,7 +32,7 @@ bool is_one_of(std::initializer_list<std::string_view> names, const Setting& set
   return std::ranges::count(names, setting.name) > 0;
 }
 
-void add_solve_texts(const Answer& solve, std::vector<PngText>& texts) {
+void add_solve_texts(const Answer& solve, std::vector<FileText>& texts) {
   add(texts, "method", to_text(solve.method->kind()));
   add(texts, "largest-distance", number_text(solve.distance.max));
   const HeatMethod* heat = solve.method->heat();
@@ -121,10 +121,10 @@ std::string caption_of(const PictureFigures& f) {
   return picture_caption(f.model, f.size, f.solve ? f.solve->method.get() : nullptr);
 }
 
-std::vector<PngText> picture_texts(const PictureFigures& f, int frame) {
-  std::vector<PngText> texts = {{"Software", "geotherm " GEOTHERM_VERSION},
-                                {"Title", f.model + ", " + geotherm::to_text(f.settings.view)},
-                                {"Description", caption_of(f)}};
+std::vector<FileText> picture_texts(const PictureFigures& f, int frame) {
+  std::vector<FileText> texts = {{"Software", "geotherm " GEOTHERM_VERSION},
+                                 {"Title", f.model + ", " + geotherm::to_text(f.settings.view)},
+                                 {"Description", caption_of(f)}};
   add(texts, "version", GEOTHERM_VERSION);
   add(texts, "command", f.command);
   add(texts, "model", f.model_argument);
@@ -150,8 +150,12 @@ Json picture_json(const PictureFigures& f) {
               : Json{{"model", {{"name", f.model}, {"vertices", f.vertices}, {"faces", f.faces}}}};
   Json picture = settings_json(f);
   picture["files"] = f.paths;
-  picture["device"] = {
-      {"name", f.device.name}, {"kind", f.device.kind}, {"software", f.device.software}};
+  if (f.scene_bytes > 0) {
+    picture["bytes"] = f.scene_bytes;
+  } else {
+    picture["device"] = {
+        {"name", f.device.name}, {"kind", f.device.kind}, {"software", f.device.software}};
+  }
   picture["timing_ms"] = {{"draw", f.draw_ms}, {"write", f.write_ms}};
   for (const PictureFigures::Line& line : f.lines) {
     picture["paths"].push_back(
@@ -165,11 +169,19 @@ std::string picture_table(const PictureFigures& f) {
   const PictureSettings& s = f.settings;
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   const bool several = f.paths.size() > 1;
-  table.add_row({several ? "pictures" : "picture",
-                 one_line(f.paths.front()) + (several ? " to " + one_line(f.paths.back()) : "") +
-                     ": " + (several ? std::to_string(f.paths.size()) + " of " : "") +
-                     std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels, " +
-                     counted(s.samples, "sample", "samples") + " a pixel"});
+  const bool scene = f.scene_bytes > 0;
+  constexpr double kMegabyte = 1e6;
+  if (scene) {
+    table.add_row({"scene", one_line(f.paths.front()) + ": " +
+                                significant(static_cast<double>(f.scene_bytes) / kMegabyte) +
+                                " MB"});
+  }
+  if (!scene)
+    table.add_row({several ? "pictures" : "picture",
+                   one_line(f.paths.front()) + (several ? " to " + one_line(f.paths.back()) : "") +
+                       ": " + (several ? std::to_string(f.paths.size()) + " of " : "") +
+                       std::to_string(s.width) + " x " + std::to_string(s.height) + " pixels, " +
+                       counted(s.samples, "sample", "samples") + " a pixel"});
   table.add_row({"view", view_in_words(f)});
   table.add_row({"model", caption_of(f)});
   if (f.solve && f.solve->error) table.add_row({"error", told(accuracy_line(*f.solve->error))});
@@ -178,7 +190,7 @@ std::string picture_table(const PictureFigures& f) {
                                significant(line.length, 6) + " long"});
   }
   if (!f.frames.empty()) table.add_row({"frames", f.frames});
-  table.add_row({"device", device_in_words(f.device)});
+  if (!scene) table.add_row({"device", device_in_words(f.device)});
   std::string time;
   if (!f.frame_times.empty()) {
     time = f.frame_times + "; all: ";
@@ -186,8 +198,8 @@ std::string picture_table(const PictureFigures& f) {
     time = "set-up " + milliseconds(f.solve->method->timing().setup) + " ms, query " +
            milliseconds(f.solve->result.timing.query) + " ms, ";
   }
-  table.add_row({"time", time + "drawing " + milliseconds(f.draw_ms) + " ms, writing " +
-                             milliseconds(f.write_ms) + " ms"});
+  table.add_row({"time", time + (scene ? "making " : "drawing ") + milliseconds(f.draw_ms) +
+                             " ms, writing " + milliseconds(f.write_ms) + " ms"});
   return table.text();
 }
 

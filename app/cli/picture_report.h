@@ -25,6 +25,7 @@ struct PictureFigures {
   PictureScale scale;
   DrawingDevice device;
   std::vector<std::string> paths;  ///< one a frame
+  std::size_t scene_bytes = 0;     ///< of a file that others draw; 0: pictures
   struct Line {
     std::string target, field;
     double length = 0;  ///< model units
@@ -39,7 +40,7 @@ std::string caption_of(const PictureFigures& figures);
 
 /// What the file of frame i says about itself: software, title, the command line, and every option
 /// of solve and picture with its value.
-std::vector<PngText> picture_texts(const PictureFigures& figures, int frame);
+std::vector<FileText> picture_texts(const PictureFigures& figures, int frame);
 
 /// The keys of solve_json where there was a solve, and `picture`.
 Json picture_json(const PictureFigures& figures);

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Drawing by the engine: the one place where pictures and the renderer meet.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <new>
 #include <optional>
 #include <string>
 
 #include "app/drawing/figure_shapes.h"
 #include "app/drawing/picture_scene.h"
+#include "app/drawing/scene_files.h"
 #include "app/picture/cut_picture.h"
 #include "app/picture/drawing.h"
 #include "app/picture/picture_settings.h"
+#include "app/text/text.h"
 #include "engine/device.h"
 #include "engine/renderer.h"
 #include "solver/core/memory.h"
@@ -67,6 +71,21 @@ class EngineDrawing final : public Drawing {
       out.push_back('\'' + std::string(letter) + '\'' + number);
     }
     return out;
+  }
+
+  Result<Colours> colours(const std::string& name) const override {
+    const engine::ColourMap* map = engine::find_colour_map(name);
+    if (map == nullptr) {
+      return Error{ErrorCode::kNotAvailable,
+                   "there is no colour map '" + one_line(name) + "'",
+                   {"there are " + joined(colour_maps())}};
+    }
+    Colours bytes;
+    for (const glm::vec4& colour : engine::colour_table(*map)) {
+      const auto byte = [](float x) { return static_cast<std::uint8_t>(std::lround(x * 255.0F)); };
+      bytes.push_back({byte(colour.r), byte(colour.g), byte(colour.b)});
+    }
+    return bytes;
   }
 
   Result<std::vector<DrawingDevice>> devices() override {
@@ -143,6 +162,21 @@ class EngineDrawing final : public Drawing {
       if (auto taken = frame(i, *picture); !taken) return taken;
     }
     return {};
+  }
+
+  Result<std::string> scene_file(SceneFormat format, const PictureData& data,
+                                 const PictureSettings& settings,
+                                 const std::vector<FileText>& texts) override {
+    std::optional<PictureData> cut;
+    if (is_cut(data, settings)) cut = cut_picture(data, settings).data;
+    const PictureData& shown = cut ? *cut : data;
+    try {
+      return format == SceneFormat::kGlb ? glb_file(shown, data, settings, texts)
+                                         : page_file(shown, data, settings, texts);
+    } catch (const std::bad_alloc&) {
+      return Error{ErrorCode::kOutOfMemory,
+                   "not enough memory to write " + std::to_string(data.faces.size()) + " faces"};
+    }
   }
 
  private:

@@ -14,6 +14,7 @@ Error no_renderer() {
 class NoDrawing final : public Drawing {
  public:
   std::vector<std::string> colour_maps() const override { return {"red-blue"}; }
+  Result<Colours> colours(const std::string&) const override { return no_renderer(); }
   Result<std::vector<DrawingDevice>> devices() override { return no_renderer(); }
   Result<DrawingDevice> open(const PictureSettings&) override { return no_renderer(); }
   Result<void> draw(const PictureData&, const PictureSettings&, const TakeFrame&, DrawAs) override {
@@ -21,6 +22,10 @@ class NoDrawing final : public Drawing {
   }
   Result<void> draw_cells(const std::vector<PictureData>&, int, const PictureSettings&,
                           const TakeFrame&) override {
+    return no_renderer();
+  }
+  Result<std::string> scene_file(SceneFormat, const PictureData&, const PictureSettings&,
+                                 const std::vector<FileText>&) override {
     return no_renderer();
   }
 };

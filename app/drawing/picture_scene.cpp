@@ -294,11 +294,9 @@ std::vector<float> scene_distances(const PictureData& data) {
 Result<void> upload_colours(engine::Renderer& renderer, const PictureData& data,
                             const PictureSettings& settings) {
   if (shows_regions(data, settings)) {
-    const auto places = engine::region_colour_places(joining_triangles(data), data.nearest);
-    const std::vector<glm::vec3> positions = scene_vectors(data.positions);
-    const auto margins =
-        engine::region_margins({positions, data.faces}, data.nearest, scene_distances(data));
-    if (auto done = renderer.set_regions(places, margins); !done) return done;
+    if (auto done = renderer.set_regions(region_places(data), region_margins_of(data)); !done) {
+      return done;
+    }
     return renderer.set_colours(engine::region_table());
   }
   if (auto done = renderer.set_regions({}, {}); !done) return done;
@@ -320,6 +318,15 @@ Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data,
 }
 
 }  // namespace
+
+std::vector<std::int32_t> region_places(const PictureData& data) {
+  return engine::region_colour_places(joining_triangles(data), data.nearest);
+}
+
+std::vector<float> region_margins_of(const PictureData& data) {
+  const std::vector<glm::vec3> positions = scene_vectors(data.positions);
+  return engine::region_margins({positions, data.faces}, data.nearest, scene_distances(data));
+}
 
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all) {
   std::vector<glm::vec3> out;

@@ -35,6 +35,12 @@ glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets);
 engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
                        const PictureScale& scale);
 
+/// Each vertex' place in engine::region_table(), -1 where no source is. Precondition:
+/// shows_regions().
+std::vector<std::int32_t> region_places(const PictureData& data);
+/// And its margin there (engine/scene/region_margins.h).
+std::vector<float> region_margins_of(const PictureData& data);
+
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
 std::vector<engine::Openness> scene_openness(const PictureData& data);

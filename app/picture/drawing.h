@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,6 +25,11 @@ struct DrawnPicture {
 
 /// All of a picture as pixels, or its lines, markers and letters apart, as shapes.
 enum class DrawAs { kPixels, kFigure };
+/// A word about a picture that travels in its file.
+struct FileText {
+  std::string keyword;  ///< 1 to 79 letters of ASCII
+  std::string text;     ///< UTF-8; bytes that are not become '?'
+};
 
 /// A device on which pictures can be drawn, for `geotherm devices`.
 struct DrawingDevice {
@@ -31,6 +37,12 @@ struct DrawingDevice {
   double memory_mb = 0;
   bool software = false, chosen = false;
   std::vector<std::string> lacks;  ///< why it cannot be used; empty: it can
+};
+
+/// A file that others draw and turn.
+enum class SceneFormat {
+  kGlb,   ///< glTF 2.0: surface, colours, distances, paths
+  kPage,  ///< HTML that draws by itself, without any other file
 };
 
 /// What draws: the program's one link to the engine, which this folder does not know. main() hands
@@ -45,6 +57,10 @@ class Drawing {
   /// The letters of a text that pictures show as a box, such as "'x' (U+1234)", each once. Needs no
   /// device.
   virtual std::vector<std::string> missing_letters(const std::string& /*text*/) const { return {}; }
+  /// The colours of a map, near to far, as sRGB bytes. Needs no device. Errors: kNotAvailable (no
+  /// such map), kNoDevice (this build has no renderer).
+  using Colours = std::vector<std::array<std::uint8_t, 3>>;
+  virtual Result<Colours> colours(const std::string& map) const = 0;
 
   /// All devices, in the order of preference. Errors: kNoDevice (no loader, no device).
   virtual Result<std::vector<DrawingDevice>> devices() = 0;
@@ -65,6 +81,13 @@ class Drawing {
   /// them one scale.
   virtual Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
                                   const PictureSettings& settings, const TakeFrame& frame) = 0;
+
+  /// The bytes of a file of what draw() would show. `texts`: what it says about itself. Needs no
+  /// device. Errors: kBadInput (coordinates beyond what the format holds), kOutOfMemory, kNoDevice
+  /// (this build has no renderer).
+  virtual Result<std::string> scene_file(SceneFormat format, const PictureData& data,
+                                         const PictureSettings& settings,
+                                         const std::vector<FileText>& texts) = 0;
 };
 
 /// What this build draws with: the engine, or a stand-in that says that there is none. Opens

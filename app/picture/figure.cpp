@@ -147,10 +147,10 @@ class FigurePainter {
   cairo_t* on_;
 };
 
-void describe(cairo_surface_t* pdf, const std::vector<PngText>& texts) {
+void describe(cairo_surface_t* pdf, const std::vector<FileText>& texts) {
   // A date would be all in which two files of one picture differ.
   cairo_pdf_surface_set_metadata(pdf, CAIRO_PDF_METADATA_CREATE_DATE, "");
-  for (const PngText& text : texts) {
+  for (const FileText& text : texts) {
     const auto set = [&](const char* key, cairo_pdf_metadata_t as) {
       if (text.keyword == key) cairo_pdf_surface_set_metadata(pdf, as, text.text.c_str());
     };
@@ -164,7 +164,7 @@ void describe(cairo_surface_t* pdf, const std::vector<PngText>& texts) {
 }  // namespace
 
 Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
-                                 const std::vector<PngText>& texts) {
+                                 const std::vector<FileText>& texts) {
   const MemoryFont font(picture.figure->font);
   if (font.face() == nullptr) return Error{ErrorCode::kBadFile, "the font cannot be read"};
   std::string bytes;

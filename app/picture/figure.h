@@ -49,6 +49,6 @@ inline constexpr double kDashShare = 0.6;
 /// pixels an inch. `texts`: Title, Description and others, which a PDF holds.
 /// Precondition: picture.figure. Errors: kOutOfMemory, kBadFile (the font).
 Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
-                                 const std::vector<PngText>& texts);
+                                 const std::vector<FileText>& texts);
 
 }  // namespace geotherm::app

@@ -75,9 +75,9 @@ bool is_ascii(std::string_view text) {
                      [](char c) { return static_cast<signed char>(c) >= 0; });
 }
 
-void add_texts(PngWriter& writer, std::span<const PngText> texts) {
+void add_texts(PngWriter& writer, std::span<const FileText> texts) {
   writer.words.reserve(2 * texts.size());  // `texts` holds pointers to these
-  for (const PngText& text : texts) {
+  for (const FileText& text : texts) {
     std::string& keyword = writer.words.emplace_back(text.keyword);
     std::string& value = writer.words.emplace_back(one_line(text.text));
     png_text chunk{};
@@ -123,7 +123,7 @@ bool is_opaque(const DrawnPicture& picture) {
 
 }  // namespace
 
-Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts,
+Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const FileText> texts,
                               std::optional<int> dpi) {
   constexpr double kInch = 0.0254;  // metres
   const auto dots = static_cast<png_uint_32>(std::lround(dpi.value_or(0) / kInch));

@@ -10,17 +10,11 @@
 
 namespace geotherm::app {
 
-/// A word about a picture that travels in its file.
-struct PngText {
-  std::string keyword;  ///< 1 to 79 letters of ASCII
-  std::string text;     ///< UTF-8; bytes that are not become '?'
-};
-
 /// The bytes of a PNG file: sRGB, 8 bits a channel, RGB where every pixel is opaque and RGBA
 /// elsewhere; texts as tEXt chunks, or iTXt where ASCII does not do. Errors: kOutOfMemory,
 /// kBadInput (what libpng refuses). `dpi`: pixels an inch, as whole pixels a metre; absent: not
 /// said.
-Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const PngText> texts = {},
+Result<std::string> png_bytes(const DrawnPicture& picture, std::span<const FileText> texts = {},
                               std::optional<int> dpi = {});
 
 }  // namespace geotherm::app

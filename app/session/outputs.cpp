@@ -105,20 +105,48 @@ bool Outputs::uses_stdout() const {
 
 Result<void> Outputs::write(const std::string& path, const std::function<Result<void>()>& write) {
   const auto file = std::ranges::find(files_, path, &File::path);
-  if (group_ && file != files_.end() && file->is_new) group_->add(path);
+  const std::string place = place_of(path);
+  if (group_ && file != files_.end() && path != "-") group_->add(place);
   Result<void> done = write();
   if (!done) {
     remove_written();
     return with_hint(done.error(), {"make room there, or choose another place"});
   }
   if (file != files_.end()) file->written = true;
+  if (file != files_.end()) file->waits = place != path;
   return done;
+}
+
+std::string Outputs::place_of(const std::string& path) const {
+  const auto file = std::ranges::find(files_, path, &File::path);
+  if (!group_ || path == "-" || file == files_.end() || file->is_new) return path;
+  std::error_code unknown;
+  if (!fs::is_regular_file(path, unknown)) return path;  // a device stays what it is
+  // A link stays a link; the ending says what is written.
+  const fs::path target(file->resolved);
+  const std::string name = target.stem().string() + ".tmp-" + std::to_string(::getpid());
+  return (target.parent_path() / (name + target.extension().string())).string();
+}
+
+Result<void> Outputs::replace_all() {
+  for (File& file : files_) {
+    if (!file.waits) continue;
+    std::error_code failed;
+    fs::rename(place_of(file.path), file.resolved, failed);
+    if (failed) {
+      Error error = cannot_write(file.path, failed.message(), "choose another place");
+      remove_written();
+      return error;
+    }
+    file.waits = false;
+  }
+  return {};
 }
 
 Result<void> Outputs::write_text(const std::string& path, std::string text,
                                  std::string& standard_output) {
   return write(path, [&]() -> Result<void> {
-    if (path != "-") return write_file(path, text);
+    if (path != "-") return write_file(place_of(path), text);
     standard_output = std::move(text);
     return {};
   });
@@ -134,6 +162,9 @@ std::vector<std::string> Outputs::made() const {
 
 void Outputs::remove_written() {
   for (const std::string& path : made()) ::unlink(path.c_str());
+  for (File& file : files_) {
+    if (std::exchange(file.waits, false)) ::unlink(place_of(file.path).c_str());
+  }
 }
 
 bool holds_mesh(const std::string& path) {

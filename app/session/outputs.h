@@ -28,15 +28,22 @@ class Outputs {
   /// True when an output goes to standard output, which is then for nothing else.
   bool uses_stdout() const;
 
-  /// Runs `write`, which writes `path`.
+  /// Runs `write`, which writes place_of(path).
   Result<void> write(const std::string& path, const std::function<Result<void>()>& write);
 
   /// The same for `text` as a whole; where `path` is "-" it ends up in `standard_output`.
   Result<void> write_text(const std::string& path, std::string text, std::string& standard_output);
 
-  /// From here on files that are new are of use together alone: until this object goes, a signal
-  /// that ends the program removes them.
+  /// From here on files are of use together alone. New ones: until this object goes, a signal that
+  /// ends the program removes them. Those that were there before are replaced by replace_all(),
+  /// when all are written, and until then they are what they were.
   void keep_together() { group_.emplace(); }
+
+  /// Where the bytes of `path` go: there, or beside it where replace_all() is to move them.
+  std::string place_of(const std::string& path) const;
+
+  /// Errors: kBadFile, with nothing removed of what is in its place.
+  Result<void> replace_all();
 
   /// The files that were written and were not there before.
   std::vector<std::string> made() const;
@@ -50,6 +57,7 @@ class Outputs {
     std::string resolved;  ///< the same for all names of a file, but for hard links
     bool is_new;
     bool written = false;
+    bool waits = false;  ///< beside its place
   };
   struct Input {
     std::string path, resolved, called;

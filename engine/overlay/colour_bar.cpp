@@ -168,8 +168,8 @@ float title_height(const std::vector<std::string>& title, const Measures& m,
 }
 
 /// At the right side; nothing where it does not fit.
-Insets draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
-                   float bottom, Overlay& overlay) {
+BarPlace draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
+                     float bottom, Overlay& overlay) {
   const GlyphAtlas& atlas = overlay.atlas;
   const float bar_width = m.line;
   const float tick_length = std::round(0.3F * m.line);
@@ -207,12 +207,12 @@ Insets draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, fl
     overlay.add_text({left + label_offset, y + std::ceil((digit_height + m.stroke) / 2)},
                      tick->label, ink);
   }
-  return {.right = extent.x - left + m.margin};
+  return {{.right = extent.x - left + m.margin}, bar.min, bar.max};
 }
 
 /// Along the lower edge; nothing where it does not fit.
-Insets draw_row(const Legend& legend, const Measures& m, glm::vec2 extent, float top, float bottom,
-                Overlay& overlay) {
+BarPlace draw_row(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
+                  float bottom, Overlay& overlay) {
   const GlyphAtlas& atlas = overlay.atlas;
   const float tick_length = std::round(0.3F * m.line);
   float half_label = 0;
@@ -247,7 +247,7 @@ Insets draw_row(const Legend& legend, const Measures& m, glm::vec2 extent, float
                       bar.max.y + tick_length + atlas.ascent()},
                      tick->label, ink);
   }
-  return {.bottom = extent.y - title_top + m.margin};
+  return {{.bottom = extent.y - title_top + m.margin}, bar.min, bar.max};
 }
 
 }  // namespace
@@ -259,12 +259,12 @@ void draw_paper(const Legend& legend, glm::vec2 min, glm::vec2 max, float margin
   overlay.add_rectangle(min - room, max + room, legend.paper);
 }
 
-Insets draw_colour_bar(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
-                       float bottom, Overlay& overlay) {
+BarPlace draw_colour_bar(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
+                         float bottom, Overlay& overlay) {
   const bool portrait = extent.y > extent.x;
   for (const bool row : {portrait, !portrait}) {
-    const Insets taken = (row ? draw_row : draw_column)(legend, m, extent, top, bottom, overlay);
-    if (taken.right > 0 || taken.bottom > 0) return taken;
+    const BarPlace place = (row ? draw_row : draw_column)(legend, m, extent, top, bottom, overlay);
+    if (place.max.x > 0) return place;
   }
   return {};
 }

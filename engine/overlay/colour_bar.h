@@ -19,9 +19,16 @@ struct Measures {
 /// Something to write on, a little larger than what will be written.
 void draw_paper(const Legend& legend, glm::vec2 min, glm::vec2 max, float margin, Overlay& overlay);
 
+/// What the bar takes of the picture's sides, and its corners; nothing, all 0, where it has no
+/// room.
+struct BarPlace {
+  Insets insets;
+  glm::vec2 min{0}, max{0};
+};
+
 /// Draws the bar between the lines `top` and `bottom` where it leaves room to the model: first as
-/// the picture's shape suggests, else the other way. Returns what it takes of the picture's sides.
-Insets draw_colour_bar(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
-                       float bottom, Overlay& overlay);
+/// the picture's shape suggests, else the other way.
+BarPlace draw_colour_bar(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
+                         float bottom, Overlay& overlay);
 
 }  // namespace geotherm::engine

@@ -101,6 +101,7 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   const Measures m = measures_of(legend, extent);
   Overlay& overlay = layout.overlay;
   overlay.atlas = atlas_of(legend, m.line);
+  layout.line = m.line;
 
   float bottom = extent.y - m.margin;
   const std::string caption = cut_to_width(overlay.atlas, legend.caption, extent.x - 2 * m.margin);
@@ -117,9 +118,11 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
   const float keys = draw_keys(legend, m, extent, top, overlay);
   if (keys > 0 || top > m.margin) layout.insets.top = top + keys;
   if (legend.bar && legend.colours.size() >= 2 && side >= kSmallestForBar) {
-    const Insets taken = draw_colour_bar(legend, m, extent, top, bottom, overlay);
-    layout.insets.right = taken.right;
-    layout.insets.bottom = std::max(layout.insets.bottom, taken.bottom);
+    const BarPlace bar = draw_colour_bar(legend, m, extent, top, bottom, overlay);
+    layout.insets.right = bar.insets.right;
+    layout.insets.bottom = std::max(layout.insets.bottom, bar.insets.bottom);
+    layout.bar_min = bar.min;
+    layout.bar_max = bar.max;
   }
   return layout;
 }

@@ -136,7 +136,9 @@ struct Legend {
 
 struct LegendLayout {
   Overlay overlay;
-  Insets insets;  ///< what the legend takes of the picture's sides; 0 where it has nothing
+  Insets insets;   ///< what the legend takes of the picture's sides; 0 where it has nothing
+  float line = 0;  ///< height of a line of text that letters and bar are sized by, pixels
+  glm::vec2 bar_min{0}, bar_max{0};  ///< corners of the bar; the same where there is none
 };
 
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the

@@ -14,6 +14,7 @@ namespace geotherm::engine {
 
 /// Value of a vertex that has none; its faces are drawn in neutral grey.
 inline constexpr float kNoValue = -std::numeric_limits<float>::max();
+inline constexpr glm::vec3 kNoValueColour{0.62F};  ///< as in surface.frag
 
 /// How much light comes to a vertex, 0 to 1 on either side.
 struct Openness {

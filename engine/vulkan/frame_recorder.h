@@ -11,6 +11,7 @@
 #include "engine/scene/draw_mesh.h"
 #include "engine/scene/line_set.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/uniforms.h"
 #include "engine/target.h"
 #include "engine/vulkan/device_state.h"
 #include "engine/vulkan/pipelines.h"
@@ -18,13 +19,6 @@
 #include "shaders/shared.h"
 
 namespace geotherm::engine {
-
-/// A scene as the shaders read it.
-/// `origin`, `extent`: the part of the picture that is drawn, pixels.
-shared::Frame frame_uniforms(const Scene& scene, glm::vec2 origin, glm::vec2 extent);
-
-/// The features (shared.h) that the surface needs: what is off is not compiled in.
-std::uint32_t surface_features(const Scene& scene);
 
 /// What a scene is drawn into before it reaches the target: depth, and with several samples a pixel
 /// their colours. Kept from frame to frame while size and format stay.

@@ -30,20 +30,25 @@ void append_numbers(std::string& text, const Vec3& p, char between) {
   }
 }
 
+/// Lines are written piece by piece: some programs (Blender) read the first two points of an
+/// element alone.
 std::string obj_bytes(const TriangleMesh& mesh, std::span<const Polyline> lines) {
   std::string text, elements;
-  std::size_t number = 1;
+  std::size_t first = 1;
   for (const Polyline& line : lines) {
-    const std::size_t first = number, count = point_count(*line.path);
-    elements += count > 1 ? 'l' : 'p';
+    const std::size_t count = point_count(*line.path);
     for (std::size_t i = 0; i < count; ++i) {
       text += "v ";
       append_numbers(text, position_at(mesh, line.path->points[i]), ' ');
       text += '\n';
-      elements += ' ' + std::to_string(number++);
     }
-    if (line.path->closed && count > 1) elements += ' ' + std::to_string(first);
-    elements += '\n';
+    const std::size_t pieces = count > 1 ? count - (line.path->closed ? 0 : 1) : 0;
+    for (std::size_t i = 0; i < pieces; ++i) {
+      elements +=
+          "l " + std::to_string(first + i) + ' ' + std::to_string(first + (i + 1) % count) + '\n';
+    }
+    if (count == 1) elements += "p " + std::to_string(first) + '\n';
+    first += count;
   }
   return text + elements;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/cli/commands.h"
+#include "tests/app/fake_drawing.h"
 #include "tests/mesh/mesh_files.h"
 
 namespace geotherm::test {
@@ -16,7 +17,7 @@ TEST(CancelledSolve, BetweenTwoFilesIsNoSuccessAndLeavesNone) {
   arguments.sources.sources = {"1"};
   arguments.outputs = {folder.path("a.csv"), folder.path("b.csv")};
   bool first_was_there = false;
-  const auto result = run_solve(arguments, [&](std::string_view stage, double) {
+  const auto result = run_solve(arguments, FakeDrawing(), [&](std::string_view stage, double) {
     if (stage.find("b.csv") == std::string_view::npos) return true;
     first_was_there = folder.names() == std::vector<std::string>{"a.csv"};
     return false;

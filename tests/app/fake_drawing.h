@@ -35,6 +35,10 @@ class FakeDrawing final : public app::Drawing {
 
   std::vector<std::string> colour_maps() const override { return {"red-blue", "viridis"}; }
 
+  Result<Colours> colours(const std::string&) const override {
+    return Colours{{255, 0, 0}, {0, 0, 255}};
+  }
+
   Result<std::vector<app::DrawingDevice>> devices() override {
     if (no_devices) return *no_devices;
     return there_are;
@@ -66,6 +70,15 @@ class FakeDrawing final : public app::Drawing {
   Result<void> draw_cells(const std::vector<app::PictureData>& cells, int,
                           const app::PictureSettings& settings, const TakeFrame& frame) override {
     return draw(cells.front(), settings, frame);
+  }
+
+  Result<std::string> scene_file(app::SceneFormat format, const app::PictureData& what,
+                                 const app::PictureSettings& settings,
+                                 const std::vector<app::FileText>&) override {
+    calls.emplace_back(format == app::SceneFormat::kGlb ? "glb" : "page");
+    data = what;
+    drawn = settings;
+    return std::string("a scene");
   }
 };
 

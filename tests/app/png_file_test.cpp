@@ -53,7 +53,7 @@ TEST(PngFile, OfAnOpaquePictureHasThreeChannels) {
 
 TEST(PngFile, KeepsItsTexts) {
   const auto bytes = png_bytes(
-      gradient(1, 1, 255), std::vector<app::PngText>{{"Software", "geotherm"},
+      gradient(1, 1, 255), std::vector<app::FileText>{{"Software", "geotherm"},
                                                      {"geotherm:model", "M\u00f6bius \u2202.obj"},
                                                      {"Broken",
                                                       "a\xff\xc3"

@@ -121,11 +121,30 @@ TEST_F(Program, FieldsAreWrittenBesideTheDistancesOrRefusedInOneLine) {
     EXPECT_NE(failed.err.find(words), std::string::npos) << failed.err;
     EXPECT_EQ(std::ranges::count(failed.err, '\n'), 1) << failed.err;
   };
-  refused({"all", "-o", "x.csv"}, "write .ply or .vtp");
+  refused({"all", "-o", "x.npy"}, "write .ply or .vtp");
+  refused({"eikonal-error", "-o", "x.csv"}, "write .ply or .vtp");
   refused({"error", "-o", "x.npy"}, "write .csv, .ply or .vtp");
   refused({"colour", "-o", "x.ply"}, "triangle-quality");
   refused({"error"}, "give -o");
   refused({"gradient-angle", "--method", "exact", "-o", "x.ply"}, "leave it out");
+}
+
+TEST_F(Program, AllFieldsGoWhereTheyHaveAPlace) {
+  const ProgramRun done = run({"solve", "bunny", "-s", "0", "--fields", "all", "-o", "a.vtp", "-o",
+                               "b.csv", "-o", "c.npy", "-o", "d.ply"});
+  for (const char* file : {"a.vtp", "d.ply"}) {
+    EXPECT_NE(bytes_of(folder.path(file)).find("triangle_quality"), std::string::npos) << file;
+    EXPECT_EQ(done.err.find(file), std::string::npos) << done.err;
+  }
+  EXPECT_TRUE(bytes_of(folder.path("b.csv")).starts_with("vertex,distance,error\n"));
+  const auto said = [&done](const std::string& file) {
+    const std::size_t at = done.err.find(file + " has no place for ");
+    return at == std::string::npos ? std::string()
+                                   : done.err.substr(at, done.err.find('\n', at) - at);
+  };
+  EXPECT_NE(said("b.csv").find("eikonal_error"), std::string::npos) << done.err;
+  EXPECT_EQ(said("b.csv").find(" error,"), std::string::npos) << done.err;
+  EXPECT_NE(said("c.npy").find(" error,"), std::string::npos) << done.err;
 }
 
 }  // namespace

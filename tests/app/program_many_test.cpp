@@ -9,6 +9,7 @@
 #include "app/cli/many_work.h"
 #include "app/session/settings.h"
 #include "solver/core/stopwatch.h"
+#include "tests/app/fake_drawing.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
@@ -125,7 +126,7 @@ TEST(CancelledEach, LeavesNothing) {
   arguments.outputs = {folder.path("a.npy")};
   arguments.each = true;
   int calls = 0;
-  const auto result = app::run_solve(arguments, [&](std::string_view stage, double) {
+  const auto result = app::run_solve(arguments, FakeDrawing(), [&](std::string_view stage, double) {
     return stage.find("500 sources") == std::string_view::npos || ++calls < 3;
   });
   ASSERT_FALSE(result);

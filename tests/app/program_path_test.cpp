@@ -76,7 +76,7 @@ TEST_F(Program, PathWritesEveryFormat) {
   const ProgramRun table = run({"path", "square.obj", "--from", "0", "--to", "2", "-o", "a.obj",
                                 "-o", "a.csv", "-o", "a.vtp", "-o", "a.svg"});
   EXPECT_NE(table.out.find("from vertex 0 to vertex 2"), std::string::npos) << table.out;
-  EXPECT_EQ(bytes_of(folder.path("a.obj")), "v 0 0 0\nv 1 1 0\nv 2 2 0\nl 1 2 3\n");
+  EXPECT_EQ(bytes_of(folder.path("a.obj")), "v 0 0 0\nv 1 1 0\nv 2 2 0\nl 1 2\nl 2 3\n");
   EXPECT_TRUE(bytes_of(folder.path("a.csv")).starts_with("line,point,x,y,z,face,b0,b1,b2\n"));
   EXPECT_NE(bytes_of(folder.path("a.vtp")).find("NumberOfLines=\"1\""), std::string::npos);
   EXPECT_TRUE(bytes_of(folder.path("a.svg")).starts_with("<svg "));

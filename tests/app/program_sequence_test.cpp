@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <regex>
 
 #include "app/cli/commands.h"
+#include "tests/app/fake_drawing.h"
 #include "tests/app/npy_file.h"
 #include "tests/app/program_fixture.h"
 #include "tests/support/compare.h"
@@ -115,6 +117,26 @@ TEST_F(Sequence, EndsAtABadFrameWhichIsNamedAndLeavesNoFile) {
               std::string::npos)
         << said;
   }
+}
+
+TEST_F(Sequence, FilesThatWereThereStayWhatTheyWereUntilAllFramesAreWritten) {
+  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17", "-o", "rows.pvd"});
+  const std::string before = bytes_of(folder.path("rows_0000.vtp"));
+  run({"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "300", "-o", "rows.pvd", "--json",
+       "told.json"});
+  const std::string other = bytes_of(folder.path("rows_0000.vtp"));
+  EXPECT_TRUE(other != before);
+  const auto files = [this] {
+    return std::distance(std::filesystem::directory_iterator(folder.path(".")), {});
+  };
+  const auto count = files();
+  folder.write(frame(2), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const ProgramRun failed =
+      run_program(folder.path("."), {"solve", "body.obj", "--sequence", "f_%04d.obj", "-s", "17",
+                                     "-o", "rows.pvd", "--json", "told.json"});
+  EXPECT_EQ(failed.code, 1);
+  EXPECT_TRUE(bytes_of(folder.path("rows_0000.vtp")) == other);
+  EXPECT_EQ(files(), count) << "nothing is left beside them";
 }
 
 TEST_F(Sequence, SkipsBadFramesWhereAskedAndCountsThem) {
@@ -228,10 +250,11 @@ TEST(CancelledSequence, LeavesNothing) {
     arguments.sequence.frames = frames.output;
     arguments.outputs = {folder.path(output)};
     bool reached = false;
-    const auto result = app::run_solve(arguments, [&](std::string_view stage, double) {
-      reached = reached || stage.starts_with("frame 3 of 4 frames");
-      return !reached;
-    });
+    const auto result =
+        app::run_solve(arguments, FakeDrawing(), [&](std::string_view stage, double) {
+          reached = reached || stage.starts_with("frame 3 of 4 frames");
+          return !reached;
+        });
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::kCancelled);
     EXPECT_TRUE(reached);

@@ -79,8 +79,8 @@ TEST(SettingsOptions, OfAPictureStandInItsFileAndItsJson) {
                                  .get = [](const ViewerState&) { return std::string("on"); }});
   app::PictureFigures figures;
   figures.model = "square";
-  const std::vector<app::PngText> texts = app::picture_texts(figures, 0);
-  const auto glow = std::ranges::find(texts, "geotherm:test-glow", &app::PngText::keyword);
+  const std::vector<app::FileText> texts = app::picture_texts(figures, 0);
+  const auto glow = std::ranges::find(texts, "geotherm:test-glow", &app::FileText::keyword);
   ASSERT_NE(glow, texts.end());
   EXPECT_EQ(glow->text, "yes");
   EXPECT_EQ(app::picture_json(figures)["picture"]["test_glow"], true);

@@ -57,9 +57,14 @@ TEST_F(DistanceFile, npy_is_a_version_1_array_of_doubles_aligned_to_64_bytes) {
 TEST_F(DistanceFile, ply_reads_back_as_the_mesh_and_holds_the_distances_as_doubles) {
   const std::string bytes = written("a.ply");
   EXPECT_NE(bytes.find("property double distance\n"), std::string::npos);
+  EXPECT_NE(bytes.find("property float quality\n"), std::string::npos);
   const std::size_t start = bytes.find("end_header\n") + 11;
+  const double largest = std::numeric_limits<float>::max();  // the largest distance is above it
   for (std::size_t v = 0; v < 5; ++v) {
-    EXPECT_EQ(values_at<double>(bytes, start + 32 * v + 24, 1)[0], kDistances[v]);
+    EXPECT_EQ(values_at<double>(bytes, start + 36 * v + 24, 1)[0], kDistances[v]);
+    EXPECT_EQ(values_at<float>(bytes, start + 36 * v + 32, 1)[0],
+              static_cast<float>(std::min(kDistances[v], largest)))
+        << "finite for programs that make a scale of it";
   }
   const Result<MeshFile> file = read_mesh(directory.path("a.ply"));
   ASSERT_TRUE(file) << file.error().message;

@@ -118,7 +118,7 @@ struct Polyline {
 Result<void> check_polyline_path(const std::string& path);
 
 /// Writes lines by the ending of `path`:
-/// - .obj: `v` and one `l` a line (`p` for a single point); a closed line ends where it begins.
+/// - .obj: `v` and an `l` of two points for each straight piece (`p` for a single point).
 /// - .csv: polyline_csv().
 /// - .vtp: VTK PolyData with the cell data `length`, `closed` and, where there are any, `value`.
 /// Errors: kNotAvailable (another ending), kBadFile.

@@ -2,6 +2,7 @@
 #include "solver/mesh/io/format_writers.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -168,12 +169,26 @@ std::string npy_bytes(std::span<const double> distances, std::span<const Index> 
   return bytes;
 }
 
+namespace {
+
+/// What the quality of an unreached vertex is: programs make a scale of it, which must end. Within
+/// the range of its 32 bits.
+double largest_finite(std::span<const double> values) {
+  double largest = 0;
+  for (const double x : values) {
+    if (std::isfinite(x)) largest = std::max(largest, x);
+  }
+  return std::min(largest, double{std::numeric_limits<float>::max()});
+}
+
+}  // namespace
+
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
                       std::span<const Index> nearest, std::span<const DataField> fields) {
   std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                       std::to_string(mesh.vertex_count()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
-  if (!distances.empty()) bytes += "property double distance\n";
+  if (!distances.empty()) bytes += "property double distance\nproperty float quality\n";
   if (!nearest.empty()) bytes += "property int nearest_source\n";
   bytes += ply_properties(fields, kOnVertices);
   bytes += "element face " + std::to_string(mesh.face_count()) +
@@ -181,10 +196,14 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distance
   bytes += ply_properties(fields, kOnFaces) + "end_header\n";
   std::size_t values = 0;
   for (const DataField& field : fields) values += length_of(field);
-  bytes.reserve(bytes.size() + 36 * mesh.positions().size() + 13 * mesh.faces().size() + values);
+  bytes.reserve(bytes.size() + 40 * mesh.positions().size() + 13 * mesh.faces().size() + values);
+  const double largest = largest_finite(distances);
   for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
     append_little(bytes, mesh.positions()[v]);
-    if (!distances.empty()) append_little(bytes, distances[v]);
+    if (!distances.empty()) {
+      append_little(bytes, distances[v]);
+      append_little(bytes, static_cast<float>(std::min(distances[v], largest)));
+    }
     if (!nearest.empty()) append_little(bytes, nearest[v]);
     append_fields(bytes, fields, kOnVertices, v);
   }

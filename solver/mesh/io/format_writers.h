@@ -24,7 +24,9 @@ std::string npy_header(const std::string& type, std::span<const std::uint64_t> s
 /// Shape V, or V x 2 with `nearest`.
 std::string npy_bytes(std::span<const double> distances, std::span<const Index> nearest = {});
 
-/// Binary little endian with the vertex property `double distance`, unless there are none.
+/// Binary little endian with the vertex properties `double distance`, `inf` where unreached, and
+/// `float quality`, the same for programs that show that name (MeshLab), there the largest
+/// distance; with neither where there are no distances.
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances = {},
                       std::span<const Index> nearest = {}, std::span<const DataField> fields = {});
 
