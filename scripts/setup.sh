@@ -35,7 +35,7 @@ for argument in "$@"; do
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
       shared-mime-info pkg-config mmdebstrap python3-numpy python3-pytest python3-pip python3-venv
-      mypy chromium) ;;
+      mypy chromium python3-jsonschema) ;;
     --package) packages+=(help2man dpkg-dev) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;
     -h | --help) usage && exit 0 ;;

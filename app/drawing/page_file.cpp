@@ -84,13 +84,12 @@ PageJson legend_json(const engine::Legend& legend, const engine::LegendLayout& l
     for (const glm::vec3& patch : key.patches) one["patches"].push_back(colour_json(patch));
     keys.push_back(std::move(one));
   }
-  PageJson json = {{"line", layout.line}, {"keys", std::move(keys)}};
+  PageJson json = {{"line", layout.line}, {"heading", legend.heading}, {"keys", std::move(keys)}};
   if (legend.bar) {
     const glm::vec2 &a = layout.bar_min, &b = layout.bar_max;
-    json["bar"] = {{"box", {a.x, a.y, b.x, b.y}},
-                   {"title", legend.title},
-                   {"ticks", std::move(ticks)},
-                   {"lines", legend.lines}};
+    json["bar"] = {{"box", {a.x, a.y, b.x, b.y}}, {"title", legend.title},
+                   {"below", legend.below},       {"above", legend.above},
+                   {"ticks", std::move(ticks)},   {"lines", legend.lines}};
   }
   return json;
 }
@@ -143,7 +142,7 @@ PageJson view_json(const PictureData& whole, const PictureData& shown,
   if (regions) {
     json["table"] = tables.place_of(engine::region_table());
   } else if (map != nullptr) {
-    json["table"] = tables.place_of(engine::colour_table(*map, settings.reverse));
+    json["table"] = tables.place_of(colours_of(*map, settings));
   }
   const engine::ArrowStyle& arrows = scene.arrows;
   if (arrows.primary) json["arrows"].push_back(colour_json(arrows.primary_colour));

@@ -146,19 +146,6 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
   return keys;
 }
 
-/// The settings' map in as many colours as they ask for.
-engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings) {
-  engine::ColourTable table = engine::colour_table(map, settings.reverse);
-  if (settings.bands == 0) return table;
-  const engine::ColourTable all = table;
-  const auto last = static_cast<std::size_t>(settings.bands - 1);
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const std::size_t band = i * static_cast<std::size_t>(settings.bands) / table.size();
-    table[i] = all[band * (table.size() - 1) / last];
-  }
-  return table;
-}
-
 /// Of letters: 0 where they suit the picture. Fonts are called by the size of their em, of which a
 /// line is a little more.
 float line_height_of(const PictureSettings& settings) {
@@ -321,6 +308,18 @@ Result<void> upload_lines(engine::Renderer& renderer, const PictureData& data,
 
 std::vector<std::int32_t> region_places(const PictureData& data) {
   return engine::region_colour_places(joining_triangles(data), data.nearest);
+}
+
+engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings) {
+  engine::ColourTable table = engine::colour_table(map, settings.reverse);
+  if (settings.bands == 0) return table;
+  const engine::ColourTable all = table;
+  const auto last = static_cast<std::size_t>(settings.bands - 1);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::size_t band = i * static_cast<std::size_t>(settings.bands) / table.size();
+    table[i] = all[band * (table.size() - 1) / last];
+  }
+  return table;
 }
 
 std::vector<float> region_margins_of(const PictureData& data) {

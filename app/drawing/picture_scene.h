@@ -41,6 +41,9 @@ std::vector<std::int32_t> region_places(const PictureData& data);
 /// And its margin there (engine/scene/region_margins.h).
 std::vector<float> region_margins_of(const PictureData& data);
 
+/// The settings' map in as many colours as they ask for.
+engine::ColourTable colours_of(const engine::ColourMap& map, const PictureSettings& settings);
+
 std::vector<glm::vec3> scene_vectors(const std::vector<PictureData::Vector>& all);
 
 std::vector<engine::Openness> scene_openness(const PictureData& data);

@@ -69,7 +69,7 @@ class FakeDrawing final : public app::Drawing {
 
   Result<void> draw_cells(const std::vector<app::PictureData>& cells, int,
                           const app::PictureSettings& settings, const TakeFrame& frame) override {
-    return draw(cells.front(), settings, frame);
+    return draw(cells.front(), settings, frame, app::DrawAs::kPixels);
   }
 
   Result<std::string> scene_file(app::SceneFormat format, const app::PictureData& what,

@@ -54,13 +54,13 @@ TEST(PngFile, OfAnOpaquePictureHasThreeChannels) {
 TEST(PngFile, KeepsItsTexts) {
   const auto bytes = png_bytes(
       gradient(1, 1, 255), std::vector<app::FileText>{{"Software", "geotherm"},
-                                                     {"geotherm:model", "M\u00f6bius \u2202.obj"},
-                                                     {"Broken",
-                                                      "a\xff\xc3"
-                                                      "b\xe2\x88"},
-                                                     {"Lines", "one\ntwo"},
-                                                     {"Long", std::string(100'000, 'x')},
-                                                     {"Empty", ""}});
+                                                      {"geotherm:model", "M\u00f6bius \u2202.obj"},
+                                                      {"Broken",
+                                                       "a\xff\xc3"
+                                                       "b\xe2\x88"},
+                                                      {"Lines", "one\ntwo"},
+                                                      {"Long", std::string(100'000, 'x')},
+                                                      {"Empty", ""}});
   ASSERT_TRUE(bytes) << bytes.error().message;
   PngContent read = read_png(*bytes);
   ASSERT_TRUE(read.valid);

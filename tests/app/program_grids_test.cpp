@@ -123,7 +123,8 @@ TEST_F(ProgramOnGrids, OptionsOfReadingDecide) {
   expect_refused({"info", "bunny", "--domain", "grid"}, "unknown extension \".ply\"");
   expect_refused({"info", "bunny", "--grid", "mask"}, "asked of grids");
   expect_refused({"info", "maze.npy", "--domain", "tets"}, "unknown extension \".npy\"");
-  expect_refused({"info", "maze.npy", "--format", "obj", "--domain", "grid"}, "of grids; there are .png");
+  expect_refused({"info", "maze.npy", "--format", "obj", "--domain", "grid"},
+                 "of grids; there are .png");
 }
 
 TEST_F(ProgramOnGrids, WhatIsOfSurfacesIsRefusedInOneLine) {

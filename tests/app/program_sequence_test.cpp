@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kFrames = 4;
 /// Of the largest distance: parts of the frame before may be used, which rounds otherwise.
-constexpr double kRoundOff = 1e-9;
+constexpr double kRoundOffOfFrames = 1e-9;
 
 class Sequence : public Program {
  protected:
@@ -69,7 +69,7 @@ TEST_F(Sequence, HasTheRowsOfSeparateSolvesInTheOrderOfTheFrames) {
     one.insert(one.end(), sources.begin(), sources.end());
     run(one);
     const auto single = npy_values<double>(bytes_of(folder.path("one.npy")));
-    EXPECT_LE(relative_difference(solved[k], single), kRoundOff) << k;
+    EXPECT_LE(relative_difference(solved[k], single), kRoundOffOfFrames) << k;
     if (k > 0) EXPECT_GT(relative_difference(solved[k - 1], single), 1e-3) << k;
   }
   expect_keys(report,
@@ -156,7 +156,7 @@ TEST_F(Sequence, SkipsBadFramesWhereAskedAndCountsThem) {
   }
   run({"solve", frame(3), "-s", "17", "-o", "one.npy"});
   EXPECT_LE(relative_difference(solved[3], npy_values<double>(bytes_of(folder.path("one.npy")))),
-            kRoundOff);
+            kRoundOffOfFrames);
   const Json report = Json::parse(bytes_of(folder.path("rows.json")));
   EXPECT_EQ(report["frames"]["bad"], 2);
   ASSERT_EQ(report["frames"]["bad_frames"].size(), 2U);

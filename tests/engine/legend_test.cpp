@@ -85,13 +85,16 @@ TEST_P(LegendOfSize, LeavesTheModelWhatItsInsetsSay) {
   for (const float scale : {0.5F, 1.0F, 2.0F}) {
     Legend legend = sample();
     legend.scale = scale;
-    const auto [overlay, insets] = lay_out(legend, extent());
+    const LegendLayout layout = lay_out(legend, extent());
+    const auto& insets = layout.insets;
     const Box model{{insets.left, insets.top},
                     {extent().x - insets.right, extent().y - insets.bottom}};
     EXPECT_GE(model.max.x, extent().x / 3);
     EXPECT_GE(model.max.y, extent().y / 2);
     for (const bool letters : {false, true}) {
-      for (const Box& box : quads(overlay, letters)) ASSERT_FALSE(overlap(box, model)) << scale;
+      for (const Box& box : quads(layout.overlay, letters)) {
+        ASSERT_FALSE(overlap(box, model)) << scale;
+      }
     }
   }
 }

@@ -45,7 +45,8 @@ TEST(WritePolylines, ObjHasOneElementALine) {
   const Lines lines;
   const Polyline both[] = {{&lines.open, {}}, {&lines.closed, {}}};
   EXPECT_EQ(written(".obj", *lines.mesh, both),
-            "v 0 0 0\nv 0.5 0 0\nv 1 1 0\nv 0 0 0\nv 0.5 0 0\nv 1 1 0\nl 1 2\nl 2 3\nl 4 5\nl 5 6\nl 6 4\n");
+            "v 0 0 0\nv 0.5 0 0\nv 1 1 0\nv 0 0 0\nv 0.5 0 0\nv 1 1 0\nl 1 2\nl 2 3\nl 4 5\nl 5 "
+            "6\nl 6 4\n");
 }
 
 TEST(WritePolylines, CsvSaysFaceAndWeightsAndValueWhereThereIsOne) {

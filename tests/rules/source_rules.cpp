@@ -165,9 +165,7 @@ constexpr LibraryPrefix kLibraries[] = {
     {"GLFW/", "glfw"},
     {"glm/", "glm"},
     {"imgui_impl_", "imgui end"},
-    {"imgui.h", "imgui"},
-    {"imgui_stdlib.h", "imgui"},
-    {"imgui_internal.h", "imgui"},
+    {"imgui", "imgui"},
     {"CLI/", "cli11"},
     {"nlohmann/", "json"},
     {"png.h", "png"},
@@ -321,11 +319,9 @@ std::vector<Violation> check_lone_users(std::span<const SourceFile> files) {
 }
 
 std::vector<Violation> check_licence(const SourceFile& file) {
-  bool said = false;
-  for_each_line(file.text, [&](int number, const std::string& line) {
-    said |= number <= 2 && line.find("SPDX-License-Identifier: MIT") != std::string::npos;
-  });
-  if (said) return {};
+  const std::size_t second = file.text.find('\n', file.text.find('\n') + 1);
+  const std::string_view begin = std::string_view(file.text).substr(0, second);
+  if (begin.find("SPDX-License-Identifier: MIT") != begin.npos) return {};
   return {{file.path, 1, "has no line SPDX-License-Identifier: MIT"}};
 }
 

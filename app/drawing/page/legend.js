@@ -24,56 +24,80 @@ function layOutLegend(scene, view, ink) {
     row.append(key.label);
     return row;
   }));
+  element('heading').textContent = legend.heading;
+  keys.style.marginTop = legend.heading ? '1.6em' : 0;
   const [left, top, right, bottom] = legend.bar?.box ?? [0, 0, 0, 0];
   element('bar').hidden = right <= left;
   if (right <= left) return;
   const scale = line / legend.line;
   const [width, height] = scene.size;
-  const tall = Math.min((bottom - top) * scale, 0.7 * innerHeight);
-  const middle = (top + bottom) / 2 / height * innerHeight;
+  const row = right - left > bottom - top;  // along the lower edge; else at the right side
+  const room = row ? innerWidth - 4 * line : 0.7 * innerHeight;
+  const length = Math.round(Math.min((row ? right - left : bottom - top) * scale, room));
+  const thick = Math.round((row ? bottom - top : right - left) * scale);
   const box = element('bar').style;
-  box.left = innerWidth - (width - left) * scale + 'px';
-  box.top = Math.round(middle - tall / 2) + 'px';
-  box.height = Math.round(tall) + 'px';
-  drawBar(legend.bar, scene.tables[view.table], ink, Math.round((right - left) * scale), Math.round(tall), line);
+  const middle = (top + bottom) / 2 / height * innerHeight;
+  box.left = row ? Math.round((innerWidth - length) / 2) + 'px' : innerWidth - (width - left) * scale + 'px';
+  box.top = (row ? innerHeight - (height - top) * scale : Math.round(middle - length / 2)) + 'px';
+  box.height = (row ? thick : length) + 'px';
+  element('bar').classList.toggle('row', row);
+  drawBar(legend.bar, scene.tables[view.table], ink, row, length, thick, line);
 }
 
-function drawBar(legend, colours, ink, width, height, line) {
+// Along the bar from its lower end, across it: so it is drawn, whichever way it stands.
+function drawBar(legend, colours, ink, row, length, thick, line) {
   const bar = element('bar');
-  const ratio = devicePixelRatio;
+  const tip = Math.round(0.6 * thick);  // of the arrows beyond its ends
   bar.querySelector('.title').textContent = legend.title;
+  bar.querySelector('.title').style.marginBottom = (!row && legend.above ? tip : 0) + 'px';
   const canvas = bar.querySelector('canvas');
-  canvas.style.width = width + 'px';
-  canvas.style.height = height + 'px';
-  canvas.width = width * ratio;
-  canvas.height = height * ratio;
+  const ratio = devicePixelRatio;
+  const [wide, tall] = row ? [length + 2 * tip, thick] : [thick, length + 2 * tip];
+  Object.assign(canvas.style, { width: wide + 'px', height: tall + 'px', position: 'absolute',
+                                left: (row ? -tip : 0) + 'px', top: (row ? 0 : -tip) + 'px' });
+  canvas.width = Math.round(wide * ratio);
+  canvas.height = Math.round(tall * ratio);
   const context = canvas.getContext('2d');
+  const [whole, across, end] = [length, thick, tip].map((x) => Math.round(x * ratio));
+  if (row) context.setTransform(1, 0, 0, 1, end, 0);
+  else context.setTransform(0, -1, 1, 0, 0, whole + end);
   const table = bytesOf(colours);
   const steps = table.length / 3;
-  for (let y = 0; y < canvas.height; ++y) {
-    const i = 3 * clamp(Math.floor((1 - (y + 0.5) / canvas.height) * steps), 0, steps - 1);
-    context.fillStyle = `rgb(${table[i]} ${table[i + 1]} ${table[i + 2]})`;
-    context.fillRect(0, y, canvas.width, 1);
+  const colourAt = (step) => `rgb(${[0, 1, 2].map((k) => table[3 * clamp(step, 0, steps - 1) + k]).join(' ')})`;
+  for (let i = 0; i < whole; ++i) {
+    context.fillStyle = colourAt(Math.floor((i + 0.5) / whole * steps));
+    context.fillRect(i, 0, 1, across);
   }
   const stroke = Math.max(1, Math.round(line / 18)) * ratio;
-  const topOf = (at) => clamp(Math.round(canvas.height * (1 - at) - stroke / 2), 0, canvas.height - stroke);
-  const tops = legend.lines.map(topOf).sort((a, b) => a - b);
-  if (tops.every((top, i) => i === 0 || top - tops[i - 1] >= 3 * stroke)) {
+  const places = legend.lines.map((at) => clamp(Math.round(whole * at - stroke / 2), 0, whole - stroke))
+    .sort((a, b) => a - b);
+  if (places.every((place, i) => i === 0 || place - places[i - 1] >= 3 * stroke)) {
     context.fillStyle = css(ink, 0.55);
-    for (const top of tops) context.fillRect(0, top, canvas.width, stroke);
+    for (const place of places) context.fillRect(place, 0, stroke, across);
   }
   context.strokeStyle = css(ink);
   context.lineWidth = stroke;
-  context.strokeRect(stroke / 2, stroke / 2, canvas.width - stroke, canvas.height - stroke);
-  let last = Infinity;
+  context.strokeRect(stroke / 2, stroke / 2, whole - stroke, across - stroke);
+  for (const [there, base, away, step] of [[legend.below, 0, -end, 0], [legend.above, whole, end, steps - 1]]) {
+    if (!there) continue;
+    context.beginPath();
+    context.moveTo(base, stroke / 2);
+    context.lineTo(base + away - Math.sign(away) * stroke, across / 2);
+    context.lineTo(base, across - stroke / 2);
+    context.closePath();
+    context.fillStyle = colourAt(step);
+    context.fill();
+    context.stroke();
+  }
+  const room = (label) => row ? 0.7 * line * label.length + 0.6 * line : 0.9 * line;
+  let last = -Infinity;
   bar.querySelector('.ticks').replaceChildren(...legend.ticks.flatMap(([at, label]) => {
-    const top = (1 - at) * height;
-    if (last - top < 0.9 * line) return [];  // they would touch
-    last = top;
+    if (at * length - last < room(label)) return [];  // they would touch
+    last = at * length;
     const tick = document.createElement('div');
     tick.append(document.createElement('i'), label);
-    tick.style.left = width + 'px';
-    tick.style.top = top + 'px';
+    tick.style.left = (row ? at * length : thick) + 'px';
+    tick.style.top = (row ? thick : (1 - at) * length) + 'px';
     return [tick];
   }));
 }

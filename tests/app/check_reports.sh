@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check_reports.sh PROGRAM SCHEMA: runs each command that writes a report, and holds what it wrote
+# against the schema, in which every key must be. Exits 77 where python3-jsonschema is not installed.
+set -euo pipefail
+program=$(realpath "$1") schema=$(realpath "$2")
+/usr/bin/python3 -c 'import jsonschema' 2>/dev/null || {
+  echo "SKIPPED: python3-jsonschema is not installed; scripts/setup.sh --dev installs it"
+  exit 77
+}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+report() { "$program" "${@:2}" --json "$1.json" >/dev/null 2>said || { cat said; exit 1; }; }
+"$program" generate ball-tets --tets 3000 -o ball.mesh >/dev/null
+"$program" generate bunny --frames 3 -o waving.npy >/dev/null
+printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n5 5 5\n3 0 1 2\n3 0 1 1\n' >poor.ply
+
+report solve solve bunny -s 17
+report waves solve bunny -s 17 -s 99@0.5 --method wavefront --labels -o d.csv
+report better solve bunny -s 3,9 -m 40 --on-poor better
+report border solve terrain -s boundary --boundary dirichlet --backend cg
+report point solve bunny -s face:3:0.2:0.3:0.5 --no-check --time-step absolute:0.01
+report curve solve bunny -s curve:0,9 -s 5
+report tets solve ball.mesh -s xyz:0:0:0
+report poor solve poor.ply -s 0
+report each solve bunny -s random:5 --each -o rows.npy
+report pairs solve bunny -s 3,9,40 --pairs -o pairs.csv
+report sequence solve bunny -s 0 --sequence waving.npy -o frames.npy
+report info info bunny
+report info_tets info ball.mesh
+report info_poor info poor.ply
+report compare compare bunny
+report study study bunny -s 0
+report path path bunny --from 0 --to 99
+report tree path bunny --from face:3:0.2:0.3:0.5 --to 99 --to 300
+report streamline path bunny --from 0 --to 99 --field distance
+report isolines isolines bunny -s 0 --count 5 -o lines.csv
+report sample sample bunny -n 5 -o samples.ply
+report backends backends
+report models models
+if "$program" devices >/dev/null 2>&1; then
+  report devices devices
+  report render render bunny -s 0 --path 99 --size 160x120 -o a.png
+  report flat render bunny --view flat --size 160x120 -o b.png
+  report page render bunny -s 0 -o page.html
+  report several render bunny cube -s 0 --size 160x120 -o several.png
+  report moving render bunny -s 0 --sequence waving.npy --size 160x120 -o 'f_%03d.png'
+fi
+
+/usr/bin/python3 - "$schema" ./*.json <<'PYTHON'
+import json, sys
+import jsonschema
+
+def strict(schema):
+    """The schema with every key in it and no other."""
+    if isinstance(schema, dict):
+        schema = {key: strict(value) for key, value in schema.items()}
+        if "properties" in schema:
+            schema["additionalProperties"] = False
+    return schema
+
+schema = json.load(open(sys.argv[1]))
+jsonschema.Draft7Validator.check_schema(schema)
+validator = jsonschema.Draft7Validator(strict(schema))
+wrong = 0
+for path in sys.argv[2:]:
+    for error in validator.iter_errors(json.load(open(path))):
+        wrong += 1
+        print(f"{path}: {'/'.join(map(str, error.absolute_path))}: {error.message[:200]}")
+print(f"{len(sys.argv) - 2} reports, {wrong} errors")
+sys.exit(wrong > 0)
+PYTHON
