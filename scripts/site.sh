@@ -15,6 +15,12 @@ case ${1:-} in
     build release geotherm_c
     ;;
 esac
+for tool in "doxygen --version" "/usr/bin/python3 -c 'import sphinx, myst_parser, breathe, furo, numpy'"; do
+  if ! eval "$tool" >/dev/null 2>&1; then
+    echo "skipped: scripts/setup.sh --site installs what makes the site" >&2
+    exit 77
+  fi
+done
 built=$(realpath "${1:-$root/build/release}")
 site=$(realpath -m "${2:-$root/build/site}")
 work=$site.work

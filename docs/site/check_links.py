@@ -38,6 +38,7 @@ for path, page in pages.items():
         name = urllib.parse.unquote(parts.fragment)
         if not target.exists() or (target in pages and name not in pages[target].names):
             dead.append(f"{path.relative_to(folder)}: {link}")
-print("\n".join(sorted(dead)))
+for link in sorted(dead):
+    print(link)
 if dead or not followed:
     sys.exit(f"check_links.py: error: {len(dead)} of {followed} links lead nowhere")

@@ -32,9 +32,21 @@ autodoc_typehints_description_target = "documented"
 napoleon_google_docstring = True
 add_module_names = False
 
-# Names of other projects, and words of comments and annotations that name nothing with a page.
+# Names of other projects, of the library's inside, and words of annotations that have no page.
 nitpick_ignore_regex = [
-    (r"cpp:.*", r"(std|Eigen)(::.*)?|.*_t|Index|Vec[23]|Face|Tet|[TE]|Enum|Named"),
+    (r"cpp:.*", r"(std|Eigen)(::.*)?|.*_t|Vec3::Zero|[TE]|Enum|Named"),
+    (r"cpp:.*", r"EliminationTree|NodeOrder|BufferPool|(Wave|Path|Intrinsic)Surface|State"),
     (r"c:.*", r"u?int\d+_t"),
     (r"py:.*", r"(np|npt|numpy|os|collections|ctypes|typing)\..*|.*AnyArray|Progress|optional"),
 ]
+
+
+def keep_sentences(app, what, name, thing, options, lines) -> None:
+    """The first line of a property is a sentence, whatever its colons; napoleon would look for a
+    type in it."""
+    if what == "property":
+        lines[:0] = ["..", ""]
+
+
+def setup(app) -> None:
+    app.connect("autodoc-process-docstring", keep_sentences, priority=400)

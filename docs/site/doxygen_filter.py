@@ -83,6 +83,7 @@ def main() -> None:
     plain_c = text.startswith("/*")
     if plain_c:
         text = documented_c(text)
+    text = re.sub(r"(?<=[ (/])(\w+\.h)(?=[^\w\">])", r"%\1", text)  # a file's name is no link
     print("\n".join(each_documented(text.split("\n"), plain_c)))
 
 

@@ -59,18 +59,16 @@ def python() -> str:
 
 
 def cpp() -> str:
-    """Every public header, with the words above its namespace."""
+    """What each public header is about, and all that is in them."""
     page = "# C++\n\n`#include <geotherm/geotherm.h>` is all of it. Programs: [examples]"
-    page += "(../docs/examples.md).\n"
+    page += "(../docs/examples.md).\n\n| header | is about |\n| --- | --- |\n"
     for header in sorted((ROOT / "solver/include/geotherm").glob("*.h")):
         text = header.read_text(encoding="utf-8")
-        if "namespace geotherm" not in text:
-            continue
-        above = re.search(r"((?:^//(?!/).*\n)+)namespace geotherm", text, flags=re.M)
-        words = re.sub(r"^// ?", "", above[1], flags=re.M) if above else ""
-        page += f"\n## geotherm/{header.name}\n\n{words}\n"
-        page += f"```{{doxygenfile}} {header.name}\n:project: cpp\n```\n"
-    return page
+        about = re.search(r"((?:^//(?!/).*\n)+)namespace geotherm", text, flags=re.M)
+        if about:
+            words = " ".join(line.lstrip("/ ") for line in about[1].splitlines())
+            page += f"| `geotherm/{header.name}` | {words.replace('|', chr(92) + '|')} |\n"
+    return page + "\n```{doxygennamespace} geotherm\n:project: cpp\n:members:\n```\n"
 
 
 def examples() -> str:
