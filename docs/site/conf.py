@@ -10,8 +10,11 @@ author = "the geotherm authors"
 release = version = geotherm.__version__
 copyright = "the geotherm authors, MIT licence"
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+highlight_language = "text"
 html_theme = "furo"
 html_title = "geotherm"
+html_static_path = ["static"]
+html_css_files = ["site.css"]
 html_copy_source = False
 html_show_sphinx = False
 pygments_dark_style = "monokai"

@@ -26,6 +26,7 @@ def documented_c(text: str) -> str:
     text = re.sub(r"(?<=\S) +/\* (.*?) ?\*/",
                   lambda found: " ///< " + re.sub(r"\s+", " ", found[1]), text, flags=re.S)
     text = re.sub(r"^(  [\w *]+[\w\]\[]+(?:, [\w\[\]]+)*;)$", r"\1 ///< See above.", text, flags=re.M)
+    text = re.sub(r"(?<=\.\n)/// (?=[A-Z]\w+: )", "///\n/// ", text)  # a paragraph
     text = re.sub(r"^///   (?=\S)", "///     ", text, flags=re.M)  # an example
     return text.replace("/// ", "/// \\file\n/// ", 1)
 

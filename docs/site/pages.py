@@ -67,7 +67,8 @@ def cpp() -> str:
         about = re.search(r"((?:^//(?!/).*\n)+)namespace geotherm", text, flags=re.M)
         if about:
             words = " ".join(line.lstrip("/ ") for line in about[1].splitlines())
-            page += f"| `geotherm/{header.name}` | {words.replace('|', chr(92) + '|')} |\n"
+            words = re.sub(r"([|<_])", r"\\\1", words)
+            page += f"| `geotherm/{header.name}` | {words} |\n"
     return page + "\n```{doxygennamespace} geotherm\n:project: cpp\n:members:\n```\n"
 
 
