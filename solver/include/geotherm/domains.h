@@ -43,8 +43,7 @@ struct CellComplex {
   std::vector<Index> numbers;     ///< C, ascending: what sources call each cell; empty: 0 to C - 1
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
-  /// No way is shorter than the straight line between `positions`: a query counts the distances
-  /// below it.
+  /// No way is shorter than the straight line between `positions`: queries count what is below.
   bool lengths_are_straight = true;
   std::vector<Warning> notes;  ///< about what was left out: HeatMethod::warnings() begins with them
   std::string cell_name = "cell", cells_name = "cells";  ///< in messages
@@ -80,11 +79,10 @@ Result<CellComplex> cells_of(const Graph& graph);
 
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of
-/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with
-/// fewer than three corners or with one twice; sources keep the numbers of the mesh. Errors
-/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, a face
-/// with more than 1,000 corners, no face that can be used. Cost: one pass, k^2 numbers for a face
-/// of k corners.
+/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with fewer than
+/// three corners or with one twice; sources keep the numbers of the mesh. Errors (kBadInput, with
+/// the number): a corner out of range, a coordinate that is not finite, a face with more than 1,000
+/// corners, no face that can be used. Cost: one pass, k^2 numbers for a face of k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
@@ -102,21 +100,18 @@ struct Grid {
   bool three_axes = false;  ///< arrays that are written have three, also where size[2] is 1
 
   Index sample_count() const { return size[0] * size[1] * size[2]; }  ///< of all three axes
-  /// Of the sample at these steps along x, y, z.
+  /// The sample at these steps along x, y, z; the steps of a sample; its place in model units.
   Index number(const std::array<Index, 3>& at) const {
     return at[0] + size[0] * (at[1] + size[1] * at[2]);
   }
-  /// Steps along x, y, z of a sample.
   std::array<Index, 3> place(Index sample) const {
     return {sample % size[0], sample / size[0] % size[1], sample / size[0] / size[1]};
   }
-  /// Model units.
   Vec3 position(Index sample) const {
     const auto at = place(sample);
     return origin + Vec3(at[0] * spacing[0], at[1] * spacing[1], at[2] * spacing[2]);
   }
-  /// At a sample; 0 where nothing passes.
-  double speed(Index sample) const { return speeds.empty() ? 1 : speeds[sample]; }
+  double speed(Index sample) const { return speeds.empty() ? 1 : speeds[sample]; }  ///< 0: wall
 };
 
 /// Errors (kBadInput, with the numbers): sizes that are not positive, are above a billion samples

@@ -42,7 +42,7 @@ class ModelInput {
   /// One of model_formats(), or what else stands behind the point; empty: it has not been found.
   std::string format() const;
 
-  const io::InputFile& file() const { return *file_; }
+  const io::InputFile& file() const { return *file_; }  ///< for the readers of the library
 
  private:
   explicit ModelInput(std::shared_ptr<const io::InputFile> file) : file_(std::move(file)) {}
