@@ -45,9 +45,12 @@ def each_documented(lines: list[str], plain_c: bool) -> list[str]:
     comment: list[str] = []  # of the group, while it lasts
     inside = False  # a declaration that goes on
     above = ""  # where the declaration before began
+    end = ""  # of the body of a function, while it lasts
     for line in lines:
         text = line.strip()
-        if not text or text.startswith(("#", "}", "public:", "private:", "protected:")):
+        if end:
+            end = "" if line == end else end
+        elif not text or text.startswith(("#", "}", "public:", "private:", "protected:")):
             comment, inside = [], False
         elif text.startswith("///") and not text.startswith("///<"):
             if inside or (found and not found[-1].strip().startswith("///")):
@@ -56,13 +59,17 @@ def each_documented(lines: list[str], plain_c: bool) -> list[str]:
             inside = False
         elif not text.startswith(("//", "template")):
             first = not found or found[-1].strip().startswith(("///", "template"))
-            if not inside and not first and (plain_c or belongs(above, line)):
+            bare = not inside and not first and "///<" not in line
+            if bare and (plain_c or belongs(above, line)):
                 found.extend(comment)
             if not inside:
                 above = line
             inside = not re.search(r"[;}](\s*//.*)?$", text)
-            if text.endswith("{"):
-                comment = []  # a body, or a type, whose members have comments of their own
+            if text.endswith("{") and "(" in above:
+                end = line[:len(line) - len(line.lstrip())] + "}"
+                inside = False
+            elif text.endswith("{"):
+                comment = []  # of a type, whose members have comments of their own
         if OBVIOUS.match(line):
             continue
         members = MEMBERS.match(line)
