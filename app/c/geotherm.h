@@ -44,6 +44,7 @@ GEOTHERM_API const char* geotherm_version(void);
 
 /* ---- Errors -----------------------------------------------------------------------------------*/
 
+/* What became of a call. */
 typedef enum geotherm_status {
   GEOTHERM_OK = 0,
   GEOTHERM_BAD_INPUT = 1,         /* the arguments or the model itself; another input would work */
@@ -62,6 +63,7 @@ GEOTHERM_API geotherm_status geotherm_last_error(const char** message, const cha
 
 /* ---- Arrays -----------------------------------------------------------------------------------*/
 
+/* Of the numbers of an array. */
 typedef enum geotherm_type {
   GEOTHERM_FLOAT64 = 0,
   GEOTHERM_FLOAT32 = 1,
@@ -93,6 +95,7 @@ typedef struct geotherm_watch {
 
 /* ---- Options ----------------------------------------------------------------------------------*/
 
+/* A handle: how models are read, solved and checked. */
 typedef struct geotherm_options geotherm_options;
 
 /* Every option of the command line that is about models, methods and checks, by its name there
@@ -110,6 +113,7 @@ GEOTHERM_API geotherm_status geotherm_features(const char** json);
 
 /* ---- Models -----------------------------------------------------------------------------------*/
 
+/* A handle: where distances are wanted. */
 typedef struct geotherm_model geotherm_model;
 
 /* Reads a file, or a bundled model by its name. Of `options` (or NULL) those about models count:
@@ -118,6 +122,7 @@ GEOTHERM_API geotherm_status geotherm_model_read(const char* path, const geother
                                                  const geotherm_watch* watch,
                                                  geotherm_model** model);
 
+/* What a model is made of. */
 typedef enum geotherm_kind {
   GEOTHERM_TRIANGLES = 0, /* positions V x 3, cells F x 3 */
   GEOTHERM_POLYGONS = 1,  /* positions, cells: corners of all faces, one after the other; starts */
@@ -129,6 +134,7 @@ typedef enum geotherm_kind {
                           side opposite each corner; the heat method alone, not checked */
 } geotherm_kind;
 
+/* A model as arrays. */
 typedef struct geotherm_shape {
   geotherm_kind kind;
   geotherm_array positions, cells, values;
@@ -147,6 +153,7 @@ GEOTHERM_API geotherm_status geotherm_model_build(const geotherm_shape* shape,
 
 /* ---- Solvers ----------------------------------------------------------------------------------*/
 
+/* A handle: a model made ready for sources. */
 typedef struct geotherm_solver geotherm_solver;
 
 /* A model made ready for sources by the method of `options` (or NULL: the heat method). Cost: with
@@ -166,12 +173,14 @@ GEOTHERM_API geotherm_status geotherm_solver_move(const geotherm_solver* solver,
 
 /* ---- Sources ----------------------------------------------------------------------------------*/
 
+/* How a source is given. */
 typedef enum geotherm_place {
   GEOTHERM_VERTEX = 0, /* id */
   GEOTHERM_FACE = 1,   /* id; at: weights of its corners, not negative, with the sum 1 */
   GEOTHERM_XYZ = 2     /* at: a place; the nearest point of the model */
 } geotherm_place;
 
+/* A point from which distance is measured. */
 typedef struct geotherm_source {
   int64_t kind; /* geotherm_place */
   int64_t id;
@@ -218,6 +227,7 @@ GEOTHERM_API geotherm_status geotherm_distances(const geotherm_solver* solver,
 
 /* ---- Answers ----------------------------------------------------------------------------------*/
 
+/* A handle: what a call has found. */
 typedef struct geotherm_answer geotherm_answer;
 
 /* From one set with all that there is to say: what `solve` of the command line reports. `wanted`:

@@ -41,7 +41,8 @@ class Solver:
         check: what solve() holds its answers against: "on", "off", "auto", "wavefront-fine",
             "exact".
         progress: a callable(stage, share), or True.
-        The others are the command line's options (`geotherm solve --help`, features()).
+
+    The others are the command line's options (`geotherm solve --help`, features()).
 
     Raises: InputError (an option's value), Error (the model has no area, memory, ...).
 

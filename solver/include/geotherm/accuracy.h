@@ -28,7 +28,7 @@ DistanceError distance_error(std::span<const double> d, std::span<const double> 
 
 /// The same over several source sets: the mean of the mean errors, the largest of the largest.
 struct JointError {
-  DistanceError figures;
+  DistanceError figures;      ///< mean of the means, largest of the largest
   std::size_t worst_set = 0;  ///< of DistanceError::worst
 };
 /// Preconditions: as many of both, the same size in each pair.
@@ -60,9 +60,10 @@ std::vector<double> signed_error(std::span<const double> d, std::span<const doub
 
 /// How many values of a signed error lie in each of `bins` equal parts of [low, high].
 struct ErrorHistogram {
-  double low = 0, high = 0;
-  std::vector<Index> count;
+  double low = 0, high = 0;  ///< the ends, model units
+  std::vector<Index> count;  ///< of each part
 };
+/// From the smallest to the largest value that is finite. Precondition: at least one bin.
 ErrorHistogram error_histogram(std::span<const double> signed_error, int bins);
 
 /// The more accurate method that a mesh of so many faces can be held against within a few seconds:
@@ -100,6 +101,7 @@ using Remedy = TriedSetting;
 /// What to set.
 SettingHint setting_of(const TriedSetting& tried);
 
+/// What diagnose() has found.
 struct Diagnosis {
   std::optional<ErrorCause> cause;  ///< absent: no option of the heat method lowers the error much
   std::optional<Remedy> remedy;     ///< absent: all that could be tried failed
@@ -108,9 +110,9 @@ struct Diagnosis {
 
 /// Answers of a method, and what it was asked.
 struct CheckedAnswers {
-  const DistanceMethod& method;
-  const MethodOptions& options;  ///< that the method was made with
-  std::span<const SourceSet> sources;
+  const DistanceMethod& method;                    ///< that gave them
+  const MethodOptions& options;                    ///< that the method was made with
+  std::span<const SourceSet> sources;              ///< that it was asked for
   std::span<const std::vector<double>> distances;  ///< one for each source set, V each
 };
 
@@ -148,17 +150,18 @@ enum class RemedySearch {
   kWhereNotGood,  ///< also where the answer is fair, and on larger meshes (kMaxFacesDiagnosed)
 };
 
+/// How check_accuracy() goes about it.
 struct AccuracyOptions {
   /// What the distances are held against: reference_for() is the most accurate method that fits the
   /// mesh. None: usual_reference().
   std::optional<MethodKind> reference = std::nullopt;
-  RemedySearch search = RemedySearch::kWherePoor;
-  int threads = 0;  ///< 0: all cores
+  RemedySearch search = RemedySearch::kWherePoor;  ///< when other settings are tried
+  int threads = 0;                                 ///< 0: all cores
 };
 
 /// Distances of a more accurate method from some source sets.
 struct ReferenceAnswers {
-  MethodKind method = MethodKind::kWavefront;
+  MethodKind method = MethodKind::kWavefront;  ///< that gave them
   std::vector<std::vector<double>> distances;  ///< of each set: V, model units
   double milliseconds = 0;                     ///< set-up and queries
 };
@@ -169,10 +172,10 @@ struct AccuracyReport {
   MethodKind reference = MethodKind::kExact;  ///< the method itself: there is nothing better
   bool measured = false;                      ///< else only `reference` and `verdict` mean anything
   bool failed = false;                        ///< the check itself failed; the verdict says why
-  DistanceError figures;
-  Grade grade = Grade::kPoor;
-  std::size_t worst_set = 0;   ///< the source set of DistanceError::worst
-  std::size_t sets = 1;        ///< source sets that were solved for
+  DistanceError figures;                      ///< against the reference
+  Grade grade = Grade::kPoor;                 ///< of the figures
+  std::size_t worst_set = 0;                  ///< the source set of DistanceError::worst
+  std::size_t sets = 1;                       ///< source sets that were solved for
   std::vector<double> values;  ///< of one set, V: d - d_reference; infinite where either is
   ErrorHistogram histogram;    ///< of the values
   std::string verdict;         ///< the grade and the figure that decides it, or why there is none

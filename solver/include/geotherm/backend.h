@@ -28,7 +28,9 @@ struct SymmetricPattern {
   std::vector<std::int64_t> start = {0};  ///< n + 1
   std::vector<Index> neighbor;            ///< both directions of every edge
 
+  /// n.
   Index size() const { return static_cast<Index>(start.size()) - 1; }
+  /// Of row i. Precondition: i in [0, n).
   std::span<const Index> neighbors(Index i) const {
     return {neighbor.data() + start[i], neighbor.data() + start[i + 1]};
   }
@@ -43,8 +45,9 @@ SymmetricPattern permuted(const SymmetricPattern& pattern, std::span<const Index
 /// first, rows ascending.
 struct LowerPattern {
   std::vector<std::int64_t> start;  ///< n + 1
-  std::vector<Index> row;
+  std::vector<Index> row;           ///< ascending in each column
 };
+/// Precondition: `order` is a permutation.
 LowerPattern permuted_lower(const SymmetricPattern& pattern, std::span<const Index> order,
                             int threads = 1);
 
@@ -60,16 +63,18 @@ std::uint64_t pattern_hash(const LowerPattern& lower, int threads = 1);
 struct LowerMatrix {
   std::vector<std::int64_t> start;  ///< n + 1
   std::vector<Index> row;           ///< ascending in each column
-  std::vector<double> value;
+  std::vector<double> value;        ///< of each entry
 
+  /// n.
   Index size() const { return static_cast<Index>(start.size()) - 1; }
 };
 
 /// Constant vectors that an operator maps to zero: one for each listed component.
 struct Kernel {
   std::span<const Index> component;  ///< component of every row; empty when there is no kernel
-  Index count = 0;
+  Index count = 0;                   ///< of components
 
+  /// Whether nothing but zero is mapped to zero.
   bool empty() const { return count == 0; }
 };
 
@@ -79,6 +84,7 @@ class SymmetricOperator {
  public:
   virtual ~SymmetricOperator() = default;
 
+  /// n.
   virtual Index size() const = 0;
 
   /// y = M x, without forming M. Sizes n. May be called from several threads.
@@ -130,9 +136,10 @@ struct EarlierFactor {
   std::span<const char> changed;
 };
 
+/// How a factor is to be made.
 struct FactorOptions {
-  int threads = 1;
-  FactorStorage storage = FactorStorage::kFull;
+  int threads = 1;                               ///< at most so many
+  FactorStorage storage = FactorStorage::kFull;  ///< how its numbers are kept
   /// Where memory of factors that are gone is kept for the next; null: nowhere.
   std::shared_ptr<BufferPool> memory = nullptr;
   /// Where only some rows have changed, and more changes are to be expected: a backend may keep
@@ -172,7 +179,9 @@ class Factorization {
   /// elimination-tree paths of the rows; otherwise k solves.
   virtual Result<Eigen::MatrixXd> inverse_entries(std::span<const Index> rows) const;
 
+  /// What it cost.
   virtual FactorStats stats() const = 0;
+  /// n.
   virtual Index size() const = 0;
 };
 
@@ -190,6 +199,7 @@ class Analysis {
   virtual Result<std::unique_ptr<Factorization>> factorize(
       std::shared_ptr<const SymmetricOperator> matrix, const FactorOptions& options) const = 0;
 
+  /// Memory held; 0 where nobody counts.
   virtual std::int64_t bytes() const { return 0; }
 
   /// FactorStats::bytes of every factor of this pattern, known before one is made; 0 where none is
@@ -218,7 +228,9 @@ class Backend {
  public:
   virtual ~Backend() = default;
 
+  /// As options name it: "native".
   virtual std::string_view name() const = 0;
+  /// What it is, in a few words, as `geotherm backends` lists it.
   virtual std::string_view description() const = 0;
 
   /// Iterative: factorisation is free, a semidefinite operator is solved by projecting its kernel
@@ -243,6 +255,7 @@ Result<const Backend*> find_backend(std::string_view name);
 /// gone while others look for backends. Precondition: its name is not taken.
 class AddedBackend {
  public:
+  /// Adds it.
   explicit AddedBackend(std::unique_ptr<const Backend> backend);
   ~AddedBackend();
   AddedBackend(const AddedBackend&) = delete;

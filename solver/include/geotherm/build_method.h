@@ -17,7 +17,7 @@ struct WaveSurface;
 
 /// A method with its options: those of the heat method, of which the others use `threads` alone.
 struct MethodOptions : HeatOptions {
-  MethodKind method = MethodKind::kHeat;
+  MethodKind method = MethodKind::kHeat;  ///< which one
   int refine = 0;  ///< how often every face is cut into four before anything is solved; >= 0
 
   bool operator==(const MethodOptions&) const = default;

@@ -48,25 +48,25 @@ struct Quality {
   /// Distances below the straight line to the nearest source by more than the method's tolerance
   /// (BoundTolerance), and the largest share of the line that is missing in one of them.
   Index below_straight_line = 0;
-  double most_below_straight_line = 0;
+  double most_below_straight_line = 0;  ///< that share
   /// Edges along which the distance differs by more than their length and that tolerance, and the
   /// largest difference over length of one of them.
   Index steep_edges = 0;
-  double steepest_edge = 0;
+  double steepest_edge = 0;  ///< that difference
   /// Whether these two bounds were looked at: travel times have no straight line, and edges are
   /// those of triangle meshes.
   bool lines_checked = false, edges_checked = false;
-  int iterations_heat = 0;  ///< 0 for direct backends
-  int iterations_poisson = 0;
+  int iterations_heat = 0;     ///< 0 for direct backends
+  int iterations_poisson = 0;  ///< 0 for direct backends
 };
 
 /// Milliseconds of one query: from the source set to the distances. In a blocked call each
 /// result holds its share (the block's time over its number of source sets).
 struct QueryTiming {
-  double diffuse = 0;
-  double gradient = 0;
-  double poisson = 0;
-  double query = 0;  ///< the whole
+  double diffuse = 0;   ///< the heat
+  double gradient = 0;  ///< its direction
+  double poisson = 0;   ///< distances of that direction
+  double query = 0;     ///< the whole
 };
 
 /// Milliseconds from mesh in memory to first query ready.
@@ -83,19 +83,19 @@ struct SetupTiming {
     double flips = 0;      ///< looking for edges to flip, and flips
     double pattern = 0;    ///< the pattern of the matrices
     double renumber = 0;   ///< everything in elimination order
-  } stages;
+  } stages;                ///< all 0 for other methods
 };
 
 /// Geodesic distance from one source set.
 struct DistanceResult {
   std::vector<double> distances;  ///< V, file order, model units; kUnreached where no source can be
-  Quality quality;
-  QueryTiming timing;
+  Quality quality;                ///< figures that cost next to nothing
+  QueryTiming timing;             ///< of this query
   std::vector<Warning> warnings;  ///< one sentence each
 
   /// Of the heat method: the backend that gave the answer, and those that failed at it before.
   std::string backend;
-  std::vector<Fallback> fallbacks;
+  std::vector<Fallback> fallbacks;  ///< in the order in which they failed
 
   /// V: the group (source_groups) of the nearest source, kNoIndex where none can be; only when
   /// asked for (QueryOptions::nearest) and from methods that carry it along: all but heat.
@@ -121,6 +121,7 @@ class DistanceMethod {
  public:
   virtual ~DistanceMethod() = default;
 
+  /// Which method it is.
   virtual MethodKind kind() const = 0;
 
   /// Distance to the nearest source. Errors: kBadInput (no source, a vertex or face out of range,
@@ -134,6 +135,7 @@ class DistanceMethod {
                                                          const QueryOptions& query = {},
                                                          const Progress& progress = {}) const = 0;
 
+  /// What setting it up took.
   virtual const SetupTiming& timing() const = 0;
   virtual double memory_mb() const = 0;  ///< of factors or tables, in 2^20 bytes
   virtual const std::vector<Warning>& warnings() const = 0;  ///< about mesh and options

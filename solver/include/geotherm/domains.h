@@ -43,13 +43,13 @@ struct CellComplex {
   std::vector<Index> numbers;     ///< C, ascending: what sources call each cell; empty: 0 to C - 1
   /// V, model units; empty where the vertices lie nowhere. Elimination orders are better with them.
   std::vector<Vec3> positions;
-  /// No way is shorter than the straight line between `positions`: a query counts the distances
-  /// below it.
+  /// No way is shorter than the straight line between `positions`: queries count what is below.
   bool lengths_are_straight = true;
   std::vector<Warning> notes;  ///< about what was left out: HeatMethod::warnings() begins with them
   std::string cell_name = "cell", cells_name = "cells";  ///< in messages
 
-  Index cell_count() const { return static_cast<Index>(measures.size()); }
+  Index cell_count() const { return static_cast<Index>(measures.size()); }  ///< of cells
+  /// Precondition: cell in [0, cell_count()).
   std::span<const Index> corners_of(Index cell) const {
     const auto c = static_cast<std::size_t>(cell);
     return {corners.data() + start[c], corners.data() + start[c + 1]};
@@ -64,12 +64,13 @@ Result<void> check_cells(const CellComplex& cells);
 /// Vertices joined by edges with lengths, in model units: roads, pipes, a skeleton. Distance runs
 /// along the edges.
 struct Graph {
+  /// Two vertices that are joined.
   struct Edge {
-    Index from = kNoIndex, to = kNoIndex;
-    double length = 0;  ///< > 0
+    Index from = kNoIndex, to = kNoIndex;  ///< in [0, vertices)
+    double length = 0;                     ///< > 0
   };
-  Index vertices = 0;
-  std::vector<Edge> edges;
+  Index vertices = 0;       ///< how many
+  std::vector<Edge> edges;  ///< in any order and direction
 };
 
 /// A graph as a space of one dimension: each edge is a cell. Errors (kBadInput, with the number):
@@ -78,11 +79,10 @@ Result<CellComplex> cells_of(const Graph& graph);
 
 /// A polygon mesh as a space of two dimensions: the gradient of a face is that of its boundary
 /// values in the plane of its vector area, and what that does not see is held by the stabilizer of
-/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with
-/// fewer than three corners or with one twice; sources keep the numbers of the mesh. Errors
-/// (kBadInput, with the number): a corner out of range, a coordinate that is not finite, a face
-/// with more than 1,000 corners, no face that can be used. Cost: one pass, k^2 numbers for a face
-/// of k corners.
+/// de Goes, Butts, Desbrun 2020 (lambda = 1/2). Left out are faces without area, with fewer than
+/// three corners or with one twice; sources keep the numbers of the mesh. Errors (kBadInput, with
+/// the number): a corner out of range, a coordinate that is not finite, a face with more than 1,000
+/// corners, no face that can be used. Cost: one pass, k^2 numbers for a face of k corners.
 Result<CellComplex> cells_of(const PolygonMesh& mesh);
 
 /// Samples in a box, such as the pixels of an image or the voxels of a scan. Its vertices are the
@@ -99,7 +99,8 @@ struct Grid {
   std::vector<double> speeds;
   bool three_axes = false;  ///< arrays that are written have three, also where size[2] is 1
 
-  Index sample_count() const { return size[0] * size[1] * size[2]; }
+  Index sample_count() const { return size[0] * size[1] * size[2]; }  ///< of all three axes
+  /// The sample at these steps along x, y, z; the steps of a sample; its place in model units.
   Index number(const std::array<Index, 3>& at) const {
     return at[0] + size[0] * (at[1] + size[1] * at[2]);
   }
@@ -110,7 +111,7 @@ struct Grid {
     const auto at = place(sample);
     return origin + Vec3(at[0] * spacing[0], at[1] * spacing[1], at[2] * spacing[2]);
   }
-  double speed(Index sample) const { return speeds.empty() ? 1 : speeds[sample]; }
+  double speed(Index sample) const { return speeds.empty() ? 1 : speeds[sample]; }  ///< 0: wall
 };
 
 /// Errors (kBadInput, with the numbers): sizes that are not positive, are above a billion samples
@@ -120,9 +121,9 @@ Result<void> check_grid(const Grid& grid);
 
 /// The point of a grid nearest to a place: a sample, else a point in a cell.
 struct ClosestGridPoint {
-  Index sample = kNoIndex;
-  CellPoint in_cell;    ///< where `sample` is kNoIndex; numbered by the cell's lowest sample
-  double distance = 0;  ///< straight line, model units; 0 inside
+  Index sample = kNoIndex;  ///< where it is one
+  CellPoint in_cell;        ///< where `sample` is kNoIndex; numbered by the cell's lowest sample
+  double distance = 0;      ///< straight line, model units; 0 inside
 };
 /// In a cell that passes the point itself, else the nearest sample that passes. Errors (kBadInput):
 /// those of check_grid(), a coordinate that is not finite. Cost: O(V).
@@ -138,8 +139,8 @@ NamedValues<GridValues> named_values(GridValues);
 
 /// A grid as read from a file, what its values mean and what the reader left out.
 struct GridFile {
-  Grid grid;
-  std::string meaning;
+  Grid grid;                       ///< what it holds
+  std::string meaning;             ///< what its values were taken for, in a sentence
   std::vector<std::string> notes;  ///< one sentence each, for people
 };
 
@@ -186,6 +187,7 @@ class TetMesh {
   /// (each with its number). Cost: one pass over both arrays.
   static Result<TetMesh> build(std::vector<Vec3> positions, std::vector<Tet> tets);
 
+  /// V and T, as they were given, and how many there are.
   std::span<const Vec3> positions() const { return positions_; }
   std::span<const Tet> tets() const { return tets_; }
   Index vertex_count() const { return static_cast<Index>(positions_.size()); }
@@ -202,13 +204,14 @@ class TetMesh {
 /// A point of the volume: a vertex, or barycentric weights in a tet (weights of 0 put it on a face,
 /// an edge or a corner). Weights are >= 0 and sum to 1.
 struct VolumePoint {
-  Index vertex = kNoIndex;  ///< set for a vertex; then `tet` and `weights` do not matter
-  Index tet = kNoIndex;
-  std::array<double, 4> weights{};
+  Index vertex = kNoIndex;          ///< set for a vertex; then `tet` and `weights` do not matter
+  Index tet = kNoIndex;             ///< that it is in
+  std::array<double, 4> weights{};  ///< of the corners of `tet`
 
+  /// One at a vertex, and one in a tet.
   static VolumePoint at_vertex(Index v) { return {v, kNoIndex, {}}; }
   static VolumePoint in_tet(Index t, std::array<double, 4> w) { return {kNoIndex, t, w}; }
-  bool is_vertex() const { return vertex != kNoIndex; }
+  bool is_vertex() const { return vertex != kNoIndex; }  ///< else in a tet
   bool operator==(const VolumePoint&) const = default;
 };
 
@@ -238,7 +241,7 @@ Result<TetBoundary> boundary(const TetMesh& mesh);
 
 /// A volume as read from a file: the mesh, and what the reader left out.
 struct TetFile {
-  TetMesh mesh;
+  TetMesh mesh;                    ///< what it holds
   std::vector<std::string> notes;  ///< one sentence each, for people
 };
 
@@ -300,9 +303,9 @@ class PointCloud {
   /// number of its point), normals of another number than the points. Cost: O(P).
   static Result<PointCloud> build(std::vector<Vec3> positions, std::vector<Vec3> normals = {});
 
-  std::span<const Vec3> positions() const { return positions_; }
-  std::span<const Vec3> normals() const { return normals_; }  ///< P, or none
-  Index point_count() const { return static_cast<Index>(positions_.size()); }
+  std::span<const Vec3> positions() const { return positions_; }               ///< P, model units
+  std::span<const Vec3> normals() const { return normals_; }                   ///< P, or none
+  Index point_count() const { return static_cast<Index>(positions_.size()); }  ///< P
 
  private:
   PointCloud(std::vector<Vec3> positions, std::vector<Vec3> normals)
@@ -360,7 +363,7 @@ Result<PointSurface> surface_of(const PointCloud& cloud, const PointOptions& opt
 
 /// Points as read from a file, and what the reader left out.
 struct PointFile {
-  PointCloud points;
+  PointCloud points;               ///< what it holds
   std::vector<std::string> notes;  ///< one sentence each, for people
 };
 

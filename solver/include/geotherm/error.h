@@ -16,7 +16,7 @@ namespace geotherm {
 /// A setting by the name that the library has for it ("backend", "time-factor", "memory-limit"),
 /// and values of which any may help.
 struct SettingHint {
-  std::string name;
+  std::string name;                      ///< of the setting
   std::vector<std::string> values = {};  ///< as text; empty: the words around it say what to give
 
   bool operator==(const SettingHint&) const = default;
@@ -30,7 +30,7 @@ using Hint = std::vector<std::variant<std::string, SettingHint>>;
 /// What a person should know of an answer that was given.
 struct Warning {
   std::string message;  ///< one sentence: what is wrong, with the numbers
-  Hint hint = {};
+  Hint hint = {};       ///< what to do about it
 
   bool operator==(const Warning&) const = default;
 };
@@ -61,9 +61,9 @@ enum class ErrorCode {
 
 /// An expected failure: a code for programs, what is wrong and what to do about it for people.
 struct Error {
-  ErrorCode code = ErrorCode::kBadInput;
-  std::string message;  ///< one sentence: what is wrong, with the numbers
-  Hint hint = {};
+  ErrorCode code = ErrorCode::kBadInput;  ///< for programs
+  std::string message;                    ///< one sentence: what is wrong, with the numbers
+  Hint hint = {};                         ///< what to do about it
   std::string subject = {};  ///< of whom the message speaks, where others may: a backend
 };
 
@@ -72,21 +72,24 @@ std::string sentence(const Error& error, std::string_view before_name = {});
 
 /// A backend that could not do the work that was asked of it, and why.
 struct Fallback {
-  std::string backend;
-  Error error;
+  std::string backend;  ///< its name
+  Error error;          ///< why
 };
 
 /// A value or an Error: the subset of std::expected (C++23) that this library uses.
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// Success, or failure.
   Result(T value)
       : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit on purpose
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT
 
+  /// Whether it is a value.
   bool has_value() const { return state_.index() == 0; }
   explicit operator bool() const { return has_value(); }
 
+  /// The value. Precondition: has_value().
   T& value() & { return assert(has_value()), std::get<0>(state_); }
   const T& value() const& { return assert(has_value()), std::get<0>(state_); }
   T&& value() && { return assert(has_value()), std::get<0>(std::move(state_)); }
@@ -96,6 +99,7 @@ class [[nodiscard]] Result {
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
+  /// Precondition: there is no value.
   const Error& error() const { return assert(!has_value()), std::get<1>(state_); }
 
  private:
@@ -107,10 +111,13 @@ template <>
 class [[nodiscard]] Result<void> {
  public:
   Result() = default;
+  /// Failure.
   Result(Error error) : error_(std::move(error)) {}  // NOLINT: implicit on purpose
 
+  /// Whether it is a success.
   bool has_value() const { return !error_; }
   explicit operator bool() const { return has_value(); }
+  /// Precondition: it is none.
   const Error& error() const { return assert(error_), *error_; }
 
  private:

@@ -117,9 +117,9 @@ class HeatMethod final : public DistanceMethod {
   /// Fronts of all factors (blocks of columns that are eliminated together), and how many were
   /// factorised for this method; with_positions() keeps the others. 0 for backends without fronts.
   struct Fronts {
-    Index all = 0, factored = 0;
+    Index all = 0, factored = 0;  ///< how many
   };
-  Fronts fronts() const;
+  Fronts fronts() const;  ///< see there
   const std::vector<Warning>& warnings() const override;
   const HeatMethod* heat() const override { return this; }
 

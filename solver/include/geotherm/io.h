@@ -42,7 +42,7 @@ class ModelInput {
   /// One of model_formats(), or what else stands behind the point; empty: it has not been found.
   std::string format() const;
 
-  const io::InputFile& file() const { return *file_; }
+  const io::InputFile& file() const { return *file_; }  ///< for the readers of the library
 
  private:
   explicit ModelInput(std::shared_ptr<const io::InputFile> file) : file_(std::move(file)) {}
@@ -61,7 +61,7 @@ Result<void> check_model_format(std::string_view name);
 
 /// A model as read from a file: the mesh and what the reader had to do to get it.
 struct MeshFile {
-  TriangleMesh mesh;
+  TriangleMesh mesh;               ///< what it holds
   Index polygons = 0;              ///< faces with more than three corners that were triangulated
   Index welded = 0;                ///< STL: corners that were merged into shared vertices
   std::vector<std::string> notes;  ///< one sentence each, for people
@@ -103,16 +103,18 @@ Result<PolygonMesh> read_polygons(const std::string& path, std::string_view form
 
 /// Numbers on the vertices or faces of a mesh, as files hold them beside the distances.
 struct DataField {
+  /// What the numbers belong to.
   enum class Place { kVertices, kFaces };
+  /// How a file holds them.
   enum class Type {
-    kFloat64,
-    kUint8,  ///< whole numbers, 0 to 255
+    kFloat64,  ///< any numbers
+    kUint8,    ///< whole numbers, 0 to 255
   };
 
-  std::string name;  ///< of a property or column: letters, digits, _
-  Place place = Place::kVertices;
-  Type type = Type::kFloat64;
-  std::vector<double> values;  ///< V or F, in the order of the file; infinite: no value
+  std::string name;                ///< of a property or column: letters, digits, _
+  Place place = Place::kVertices;  ///< what they belong to
+  Type type = Type::kFloat64;      ///< how a file holds them
+  std::vector<double> values;      ///< V or F, in the order of the file; infinite: no value
 };
 
 /// True when write_distances() knows the extension of `path`; otherwise the error says which

@@ -59,14 +59,16 @@ std::int64_t chunk_bytes(Index vertices, std::size_t chunk);
 /// done.
 inline constexpr std::string_view kSamplesStage = "samples";
 
+/// How farthest_points() begins.
 struct FarthestOptions {
   /// The first sample; kNoIndex: the vertex farthest from the lowest one that belongs to a face, in
   /// its component, for which one more query is made.
   Index first = kNoIndex;
 };
 
+/// One of the samples.
 struct FarthestSample {
-  Index vertex = kNoIndex;
+  Index vertex = kNoIndex;  ///< where it is
   /// From the nearest sample before it, model units; infinite for the first of a component.
   double distance = kUnreached;
   /// The cover radius with this sample and those before it: the largest distance of a vertex to the
@@ -85,6 +87,7 @@ struct FarthestPoints {
   DistanceResult first;                 ///< answer to the first query, without its distances
   double query_ms = 0;                  ///< mean of all queries
 
+  /// With all samples: the largest distance of a vertex to the nearest. Precondition: there is one.
   double radius() const { return samples.back().radius; }
   /// The smallest distance between two samples, in either direction; infinite where no two reach
   /// each other.

@@ -38,6 +38,7 @@ class TriangleMesh {
   /// one pass over the positions.
   Result<TriangleMesh> moved(std::vector<Vec3> positions) const;
 
+  /// V and F, as they were given, and how many there are.
   std::span<const Vec3> positions() const { return positions_; }
   std::span<const Face> faces() const { return *faces_; }
   Index vertex_count() const { return static_cast<Index>(positions_.size()); }
@@ -70,13 +71,14 @@ Result<void> check_moved(const TriangleMesh& mesh, const TriangleMesh& other);
 /// A point on the surface: a vertex, or barycentric weights in a face (weights of 0 put it on an
 /// edge or a corner). Weights are >= 0 and sum to 1.
 struct SurfacePoint {
-  Index vertex = kNoIndex;  ///< set for a vertex; then `face` and `weights` do not matter
-  Index face = kNoIndex;
-  std::array<double, 3> weights{};
+  Index vertex = kNoIndex;          ///< set for a vertex; then `face` and `weights` do not matter
+  Index face = kNoIndex;            ///< that it is in
+  std::array<double, 3> weights{};  ///< of the corners of `face`
 
+  /// One at a vertex, and one in a face.
   static SurfacePoint at_vertex(Index v) { return {v, kNoIndex, {}}; }
   static SurfacePoint in_face(Index f, std::array<double, 3> w) { return {kNoIndex, f, w}; }
-  bool is_vertex() const { return vertex != kNoIndex; }
+  bool is_vertex() const { return vertex != kNoIndex; }  ///< else in a face
   bool operator==(const SurfacePoint&) const = default;
 };
 

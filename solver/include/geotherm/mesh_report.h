@@ -43,7 +43,7 @@ struct RefinementCounts {
 
 /// What a mesh is and what is wrong with it.
 struct MeshReport : MeshSummary {
-  Index edges = 0;
+  Index edges = 0;                 ///< of the faces that are used
   Index edge_components = 0;       ///< sets of faces connected through shared edges
   Index boundary_loops = 0;        ///< connected pieces of the boundary; holes that touch are one
   Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan

@@ -14,6 +14,7 @@
 // writing, reading and listing them need no more.
 namespace geotherm {
 
+/// The names of an enum.
 template <class Enum>
 struct NamedValues {
   std::string_view unknown;  ///< what is said of a text '*' that is none: "'*' is no heat mode"

@@ -24,10 +24,11 @@ inline NamedValues<TimeRule> named_values(TimeRule) {
           {{kMeanEdge, "mean-edge"}, {kMeanFaceArea, "mean-face-area"}, {kAbsolute, "absolute"}}};
 }
 
+/// The diffusion time: a rule and its number.
 struct TimeStep {
-  TimeRule rule = TimeRule::kMeanEdge;
-  double factor = 1.0;    ///< m of the two first rules, > 0
-  double absolute = 0.0;  ///< t of kAbsolute, > 0
+  TimeRule rule = TimeRule::kMeanEdge;  ///< where t comes from
+  double factor = 1.0;                  ///< m of the two first rules, > 0
+  double absolute = 0.0;                ///< t of kAbsolute, > 0
 
   bool operator==(const TimeStep&) const = default;
 };
@@ -50,8 +51,9 @@ inline NamedValues<ConstraintMode> named_values(ConstraintMode) {
            {kPseudoInverse, "pseudo-inverse"}}};
 }
 
+/// A constraint mode and its number.
 struct Constraint {
-  ConstraintMode mode = ConstraintMode::kPinSources;
+  ConstraintMode mode = ConstraintMode::kPinSources;  ///< which
   Index pin_vertex = kNoIndex;  ///< kPinVertex: this vertex in its component; otherwise chosen
   double penalty = 10.0;        ///< kPenalty: the number on the diagonal, > 0
 
@@ -129,15 +131,15 @@ inline NamedValues<Precision> named_values(Precision) {
 
 /// All options of the heat method. The defaults are the recommended ones.
 struct HeatOptions {
-  std::string backend;  ///< a name from backend_names(); empty: the first of them
-  TimeStep time_step;
-  Constraint constraint;
-  HeatMode heat = HeatMode::kUnit;
-  BoundaryRule boundary = BoundaryRule::kAuto;
-  LaplacianKind laplacian = LaplacianKind::kAuto;
-  Variant variant = Variant::kCorrected;
-  Precision precision = Precision::kCompact;
-  int threads = 0;             ///< 0: all cores
+  std::string backend;              ///< a name from backend_names(); empty: the first of them
+  TimeStep time_step;               ///< the diffusion time
+  Constraint constraint;            ///< of the Poisson equation
+  HeatMode heat = HeatMode::kUnit;  ///< what diffuses
+  BoundaryRule boundary = BoundaryRule::kAuto;     ///< of the diffusion, along the border
+  LaplacianKind laplacian = LaplacianKind::kAuto;  ///< on which triangles
+  Variant variant = Variant::kCorrected;           ///< how it is discretised
+  Precision precision = Precision::kCompact;       ///< of the factors
+  int threads = 0;                                 ///< 0: all cores
   bool strict = false;         ///< a backend that fails is not replaced by the next one
   double memory_limit_mb = 0;  ///< most that factors may take, those being made with their
                                ///< working space, in 2^20 bytes; 0: what is free
@@ -152,6 +154,7 @@ std::string to_text(const Constraint& constraint);  // pin-sources | pin-vertex[
 
 /// `factor` (m) is no part of the time step's text; it is kept from the argument.
 Result<TimeStep> parse_time_step(std::string_view text, double factor = 1.0);
+/// Inverse of to_text().
 Result<Constraint> parse_constraint(std::string_view text);
 
 }  // namespace geotherm

@@ -22,7 +22,7 @@ struct SurfacePath {
       points;                ///< n, of the mesh of the file; a closed path repeats its first
   std::vector<Index> faces;  ///< n - 1: the face (of the file) that holds each piece
   double length = 0;         ///< model units
-  bool closed = false;
+  bool closed = false;       ///< ends where it begins
 };
 
 /// Where a point of the mesh lies, model units. Precondition: it lies on the mesh.
@@ -60,17 +60,19 @@ inline NamedValues<PathField> named_values(PathField) {
           ErrorCode::kNotAvailable};
 }
 
+/// What a path is to be.
 struct PathOptions {
-  PathField field = PathField::kGeodesic;
-  bool closed = false;  ///< goes on from the last point to the first
+  PathField field = PathField::kGeodesic;  ///< what it follows
+  bool closed = false;                     ///< goes on from the last point to the first
   /// A closed geodesic is held by its points; else these only say where it runs at first, and it
   /// is shortened all round (to one point, where it can be).
   bool hold_points = false;
 };
 
+/// A path and what is to be known of it.
 struct FoundPath {
-  SurfacePath path;
-  std::vector<Warning> warnings;
+  SurfacePath path;               ///< the path
+  std::vector<Warning> warnings;  ///< one sentence each
 };
 
 /// Finds paths on one mesh. Immutable; several threads may ask at once.
@@ -110,8 +112,8 @@ class PathFinder {
 
 /// A line for a file, with its number there in the order given.
 struct Polyline {
-  const SurfacePath* path = nullptr;
-  std::optional<double> value;  ///< of an isoline; all lines of a file have one or none has
+  const SurfacePath* path = nullptr;  ///< where it runs; not null
+  std::optional<double> value;        ///< of an isoline; all lines of a file have one or none has
 };
 
 /// Errors: kNotAvailable, with the formats there are, unless write_polylines() knows the ending.
@@ -132,8 +134,8 @@ std::string polyline_csv(const TriangleMesh& mesh, std::span<const Polyline> lin
 /// A piece of a level set, as long as it can be followed: closed, or open from boundary to boundary
 /// (or to an edge with three faces and more).
 struct Isoline {
-  double value = 0;
-  SurfacePath path;
+  double value = 0;  ///< of the function
+  SurfacePath path;  ///< where it runs
 };
 
 /// Level sets of the function that is linear on each face. `values`: V, file order; faces with a

@@ -45,7 +45,7 @@ class WavefrontMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;
+  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
 
  private:
   struct State;
@@ -58,6 +58,7 @@ class WavefrontMethod final : public DistanceMethod {
 /// figures: those of WavefrontMethod.
 class FastMarchingMethod final : public DistanceMethod {
  public:
+  /// Errors: kOutOfMemory, kCancelled. Cost: O(F).
   static Result<std::shared_ptr<const FastMarchingMethod>> build(
       std::shared_ptr<const WaveSurface> surface, int threads = 0, const Progress& progress = {});
 
@@ -69,7 +70,7 @@ class FastMarchingMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;
+  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
 
  private:
   struct State;
@@ -99,7 +100,7 @@ class ExactMethod final : public DistanceMethod {
   const SetupTiming& timing() const override;
   double memory_mb() const override;
   const std::vector<Warning>& warnings() const override;
-  const std::shared_ptr<const WaveSurface>& surface() const;
+  const std::shared_ptr<const WaveSurface>& surface() const;  ///< as it was given
 
  private:
   struct State;

@@ -18,6 +18,7 @@ namespace geotherm {
 /// work leaves nothing behind, and a method can be asked again.
 using Progress = std::function<bool(std::string_view stage, double share)>;
 
+/// Tells it, where there is one; false: stop.
 inline bool report(const Progress& progress, std::string_view stage, double share) {
   return !progress || progress(stage, share);
 }

@@ -12,6 +12,7 @@
 // How right an answer is, and where: numbers on the vertices and faces of the mesh of the file.
 namespace geotherm {
 
+/// What the numbers say.
 enum class QualityField {
   kError,            ///< vertices: d - d_better, model units
   kEikonalError,     ///< faces: | |grad d| - 1 |, which is 0 for distances away from creases
@@ -25,6 +26,7 @@ enum class QualityField {
 std::string to_text(QualityField field);
 /// Inverse of to_text(). Errors: kBadInput, with the names there are.
 Result<QualityField> parse_quality_field(std::string_view text);
+/// In the order above.
 std::vector<QualityField> all_quality_fields();
 
 /// Whether a field is about u, which only answers of the heat method with QueryOptions::fields
@@ -46,11 +48,14 @@ DataField quality_field(QualityField field, const TriangleMesh& mesh, const Dist
 /// Source: Crane, Weischedel, Wardetzky (2013), section 3.1.
 std::vector<Vec3> heat_directions(const TriangleMesh& mesh, std::span<const double> log_heat);
 
-/// The values of each field alone. `distances`: V; `log_heat`: V, ln u.
+/// The values of a field alone: kEikonalError. `distances`: V.
 std::vector<double> eikonal_errors(const TriangleMesh& mesh, std::span<const double> distances);
+/// kLostGradients. `distances`: V; `log_heat`: V, ln u.
 std::vector<double> lost_gradients(const TriangleMesh& mesh, std::span<const double> distances,
                                    std::span<const double> log_heat);
+/// kTriangleQuality. Of the mesh alone.
 std::vector<double> triangle_qualities(const TriangleMesh& mesh);
+/// kNonDelaunay. Of the mesh alone.
 std::vector<double> non_delaunay_edges(const TriangleMesh& mesh);
 
 /// The angle between two vectors of each face, degrees; infinite where either is 0. Exact for small
