@@ -257,7 +257,7 @@ const Form kForms[] = {
     {"quit", "", 0, 0, plain<command::Quit>},
 };
 
-/// The first words of all forms and settings, or the second words after `first`.
+/// The first words of all forms, or the second words after `first`.
 std::vector<std::string> names(std::string_view first) {
   std::vector<std::string> all;
   for (const Form& form : kForms) {
@@ -267,10 +267,16 @@ std::vector<std::string> names(std::string_view first) {
     std::string name(first.empty() ? head : form.name.substr(blank + 1));
     if (std::ranges::find(all, name) == all.end()) all.push_back(std::move(name));
   }
-  if (first.empty()) {
-    for (const Setting& setting : settings()) all.emplace_back(setting.name);
-  }
   return all;
+}
+
+/// What a word that is no command may have been: settings are too many to list.
+std::string known_commands(std::string_view word) {
+  std::vector<std::string> all = names("");
+  for (const Setting& setting : settings()) all.emplace_back(setting.name);
+  const std::string near = nearest_word(word, all);
+  if (!near.empty()) return "did you mean " + near + "?";
+  return "there are " + joined(names("")) + " and the settings, such as method or view";
 }
 
 Result<Command> read_setting(const Setting& setting, WordReader& reader) {
@@ -302,7 +308,7 @@ Result<Command> parse_command(std::string_view line) {
     return reader.blame_last({ErrorCode::kBadInput,
                               "there is no command '" + one_line(name) + "'",
                               {is_group ? known_words(name.substr(first.size() + 1), names(first))
-                                        : known_words(first, names(""))}});
+                                        : known_commands(first)}});
   }
   if (reader.left() < form->least || reader.left() > form->most) {
     reader.skip(std::min(reader.left(), form->most));  // to what is too much, or missing

@@ -34,7 +34,7 @@ TEST_F(Formats, GiveTheDistancesOfTheObj) {
     folder.write(sample.file, sample.bytes);
     EXPECT_EQ(distances(sample.file), same) << sample.name;
     const auto info = json({"info", sample.file, "--json", "-"});
-    EXPECT_EQ(info["model"]["domain"], "triangles") << sample.name;
+    EXPECT_FALSE(info["model"].contains("domain")) << sample.name << ": triangles";
   }
 }
 
@@ -71,7 +71,7 @@ TEST_F(Formats, ThatNothingTellsAskForTheirName) {
   folder.write("model", "1 2 3\n");
   expect_refused({"info", "model"}, "neither its name nor its first bytes say what it is");
   expect_refused({"info", "model"}, "say its format with --format");
-  expect_refused({"info", "model", "--format", "blend"}, "there are auto, obj, ply");
+  expect_refused({"info", "model", "--format", "blend"}, "there are obj, ply");
 }
 
 TEST_F(Formats, OfFramesMayBePacked) {

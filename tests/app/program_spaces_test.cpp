@@ -121,7 +121,7 @@ TEST_F(ProgramOnSpaces, WhatOtherFilesHoldIsSaid) {
   folder.write("a.vtu", "<VTKFile type=\"PolyData\" version=\"0.1\"></VTKFile>\n");
   expect_refused({"info", "a.vtu"}, "PolyData");
   folder.write("a.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\n");
-  expect_refused({"info", "a.vtk"}, "polydata");
+  expect_refused({"info", "a.vtk"}, "has no POINTS");
   folder.write("a.msh", "mesh version 1\n1 2 3\n");
   expect_refused({"info", "a.msh"}, "a.msh: line 1");
   folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");

@@ -5,6 +5,8 @@
 
 #include <limits>
 #include <random>
+#include <set>
+#include <string_view>
 
 #include "app/session/settings.h"
 
@@ -138,7 +140,10 @@ TEST_P(SettingText, AWordThatIsNoValueIsRefusedWithItsColumn) {
 
 INSTANTIATE_TEST_SUITE_P(AllSettings, SettingText, testing::ValuesIn([] {
                            std::vector<std::string> names;
-                           for (const Setting& s : settings()) names.emplace_back(s.name);
+                           const std::set<std::string_view> any = {"title", "bar-label", "units"};
+                           for (const Setting& s : settings()) {
+                             if (!any.contains(s.name)) names.emplace_back(s.name);
+                           }
                            return names;
                          }()),
                          [](const auto& test) {

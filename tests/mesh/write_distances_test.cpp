@@ -110,8 +110,8 @@ TEST_F(DistanceFile, ply_holds_fields_of_vertices_and_faces_and_still_reads_back
   EXPECT_NE(bytes.find("vertex_indices\nproperty double quality\nproperty uchar edges\nend_header"),
             std::string::npos);
   const std::size_t vertices = bytes.find("end_header\n") + 11;
-  EXPECT_EQ(values_at<double>(bytes, vertices + 40 + 32, 1)[0], -0.5);
-  const std::size_t faces = vertices + 5 * 40;
+  EXPECT_EQ(values_at<double>(bytes, vertices + 44 + 36, 1)[0], -0.5);
+  const std::size_t faces = vertices + 5 * 44;
   EXPECT_EQ(values_at<double>(bytes, faces + 3 * 22 + 13, 1)[0], 0.125);
   EXPECT_EQ(values_at<std::uint8_t>(bytes, faces + 5 * 22 + 21, 1)[0], 255);
   EXPECT_EQ(bytes.size(), faces + 6 * 22u);

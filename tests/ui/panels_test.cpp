@@ -150,6 +150,7 @@ TEST_F(Panels, TurnTheModel) {
 
 TEST_F(Panels, ShowEverySettingOfTheMethodAndThePicture) {
   open_square();
+  click_item("View/Figure");
   for (const app::Setting& setting : app::settings()) {
     const std::string name(setting.name);
     if (name == "size") continue;  // in the dialog that saves a picture
