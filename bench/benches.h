@@ -117,6 +117,9 @@ struct ExploreRow {
   double longest_frame_ms = kNotMeasured, usual_frame_ms = kNotMeasured;
 
   double drag_ratio() const { return drag_ms / (query_ms + upload_ms + frame_ms); }
+  double turn_pictures = kNotMeasured;  ///< a second, while the model turns
+  double full_frame_ms = kNotMeasured;  ///< the first one at rest
+  double hover_ms = kNotMeasured;       ///< a frame at rest in which panels alone change
   double frame_ratio() const { return longest_frame_ms / usual_frame_ms; }
 };
 

@@ -26,6 +26,10 @@ constexpr int kDrags = 40;
 constexpr int kFrames = 15;
 constexpr double kStrokeMs = 5000, kTouchMs = 16;
 
+/// Faces of the model that is only turned: its set-up takes long.
+constexpr Index kLargeModel = 1'000'000;
+constexpr int kTurns = 30;
+
 /// Wakes whoever waits for a session's work.
 class Bell {
  public:
@@ -107,6 +111,29 @@ class Hand {
     return session_.finish();
   }
 
+  /// The model turns under the hand, then rests while the pointer moves over panels.
+  Result<void> measure_turn(ExploreRow& row) {
+    std::vector<double> turned, rested;
+    for (int i = 0; i < kTurns; ++i) {
+      const Stopwatch watch;
+      if (auto done = session_.submit(command::Orbit{3, 0}); !done) return done;
+      if (auto done = screen_->update(session_, kArea); !done) return done;
+      if (auto done = frame(); !done) return done;
+      if (i > 2) turned.push_back(watch.milliseconds());
+    }
+    Stopwatch watch;
+    if (auto done = frame(false); !done) return done;
+    row.full_frame_ms = watch.lap();
+    for (int i = 0; i < kFrames; ++i) {
+      if (auto done = screen_->update(session_, kArea); !done) return done;
+      if (auto done = frame(false); !done) return done;
+      rested.push_back(watch.lap());
+    }
+    row.turn_pictures = 1e3 / median(turned);
+    row.hover_ms = median(rested);
+    return {};
+  }
+
   /// A hand goes on with a stroke, and pictures with new distances follow as fast as they can.
   Result<void> measure_stroke(ExploreRow& row) {
     session_.set_dragging(true);
@@ -146,6 +173,8 @@ class Hand {
     std::vector<double> quiet;
     for (int i = 0; i < kFrames; ++i) {
       const Stopwatch watch;
+      if (auto done = session_.submit(command::Orbit{1, 0}); !done) return done;
+      if (auto done = screen_->update(session_, kArea); !done) return done;
       if (auto done = frame(false); !done) return done;
       quiet.push_back(watch.milliseconds());
     }
@@ -158,6 +187,7 @@ class Hand {
       while (session_.stale()) {
         const Stopwatch watch;
         session_.update();
+        if (auto done = session_.submit(command::Orbit{1, 0}); !done) return done;
         if (auto done = screen_->update(session_, kArea); !done) return done;
         if (auto done = frame(false); !done) return done;
         most = std::max(most, watch.milliseconds());
@@ -195,6 +225,8 @@ Result<ExploreRow> measure_mesh(const char* name, Index faces) {
     if (!screen) return screen.error();
     Hand hand(*std::move(screen));
     if (auto done = hand.open(path); !done) return done;
+    if (auto done = hand.measure_turn(row); !done) return done;
+    if (row.faces > kLargeModel / 2) return {};
     if (auto done = hand.measure_switch(row); !done) return done;
     if (auto done = hand.measure_drag(row); !done) return done;
     return hand.measure_stroke(row);
@@ -209,7 +241,7 @@ Result<ExploreRow> measure_mesh(const char* name, Index faces) {
 
 ExploreBench measure_explore(const Say& say) {
   ExploreBench bench;
-  for (const Index faces : {69'000, 200'000}) {
+  for (const Index faces : {69'000, 200'000, kLargeModel}) {
     say("exploring " + std::to_string(faces) + " faces");
     auto row = measure_mesh("gargoyle", faces);
     if (!row) {

@@ -142,7 +142,10 @@ std::string to_json(const BenchRun& run) {
                               {"stroke_setup_ms", value(row.stroke_setup_ms)},
                               {"switch_ms", value(row.switch_ms)},
                               {"longest_frame_ms", value(row.longest_frame_ms)},
-                              {"frame_ratio", value(row.frame_ratio())}});
+                              {"frame_ratio", value(row.frame_ratio())},
+                              {"turn_pictures_per_second", value(row.turn_pictures)},
+                              {"full_frame_ms", value(row.full_frame_ms)},
+                              {"hover_ms", value(row.hover_ms)}});
   }
   return out.dump(2) + "\n";
 }

@@ -144,9 +144,12 @@ std::string explore_text(const ExploreBench& bench) {
     text +=
         "\nExploring at 1280x800: a source dragged, from picture to picture, beside what that\n"
         "consists of; pictures a second while the surface is sculpted, beside their set-up; the\n"
-        "longest frame while t is switched, beside the usual one\n" +
-        format("%-12s%10s%10s%9s%9s%9s%8s%11s%9s%11s%9s%8s\n", "mesh", "faces", "drag ms", "query",
-               "upload", "frame", "ratio", "stroke /s", "set-up", "switch ms", "longest", "ratio");
+        "longest frame while t is switched, beside the usual one; pictures a second while the "
+        "model\n"
+        "turns, the first frame at rest, and one in which panels alone change\n" +
+        format("%-12s%10s%10s%9s%9s%9s%8s%11s%9s%11s%9s%8s%9s%9s%9s\n", "mesh", "faces", "drag ms",
+               "query", "upload", "frame", "ratio", "stroke /s", "set-up", "switch ms", "longest",
+               "ratio", "turn /s", "rest ms", "hover ms");
   }
   for (const ExploreRow& row : bench.rows) {
     text += format("%-12s%10d", row.mesh.c_str(), row.faces) + milliseconds(row.drag_ms, 10) +
@@ -154,7 +157,8 @@ std::string explore_text(const ExploreBench& bench) {
             milliseconds(row.frame_ms, 9) + number(row.drag_ratio(), 8, 2, "x") +
             number(row.stroke_pictures, 11, 1, "") + milliseconds(row.stroke_setup_ms, 9) +
             milliseconds(row.switch_ms, 11) + milliseconds(row.longest_frame_ms, 9) +
-            number(row.frame_ratio(), 8, 2, "x") + "\n";
+            number(row.frame_ratio(), 8, 2, "x") + number(row.turn_pictures, 9, 1, "") +
+            milliseconds(row.full_frame_ms, 9) + milliseconds(row.hover_ms, 9) + "\n";
   }
   if (!bench.failure.empty()) text += "Exploring was not measured: " + bench.failure + "\n";
   return text;

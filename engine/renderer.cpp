@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "engine/scene/arrows.h"
+#include "engine/scene/coarse_surface.h"
 #include "engine/scene/draw_mesh.h"
 #include "engine/scene/line_set.h"
 #include "engine/target.h"
@@ -13,6 +14,14 @@
 #include "engine/vulkan/vulkan.h"
 
 namespace geotherm::engine {
+namespace {
+
+/// A software device draws this many faces several times a second; of more there is a coarse
+/// surface.
+constexpr std::size_t kManyFaces = 150'000;
+constexpr std::size_t kCoarseFaces = 50'000;
+
+}  // namespace
 
 struct Renderer::State {
   State(std::shared_ptr<Device::State> on, int samples)
@@ -33,6 +42,16 @@ struct Renderer::State {
   std::optional<ArrowPlaces> places;     ///< made when arrows first come
   std::vector<glm::vec3> primary, secondary;
   LineSet lines;
+  std::vector<float> face_values;
+
+  // The surface that is drawn while the picture moves.
+  bool coarse_wanted = false;
+  struct Coarse {
+    CoarseSurface surface;
+    DrawMesh mesh;
+    bool old = true;  ///< values have been set since
+  };
+  std::optional<Coarse> coarse;
 
   /// Draws this mesh, of these positions; what was set on another is gone. Throws, and leaves then
   /// what was there.
@@ -47,7 +66,60 @@ struct Renderer::State {
     primary.clear();
     secondary.clear();
     regions.clear();
+    face_values.clear();
     lines.set({});
+    coarse.reset();
+  }
+
+  /// The model's values, by its vertices.
+  std::vector<float> values() const {
+    std::vector<float> out(positions.size(), kNoValue);
+    for (std::size_t i = 0; i < origin.size(); ++i) out[origin[i]] = gathered[i];
+    return out;
+  }
+
+  void make_coarse() {
+    if (coarse || faces.size() < kManyFaces) return;
+    Coarse made;
+    made.surface = coarse_surface({positions, faces, solid, openness}, kCoarseFaces);
+    made.mesh =
+        build_draw_mesh({made.surface.positions, made.surface.faces, false, made.surface.openness});
+    recorder.use_coarse(true);
+    recorder.set_surface(made.mesh, std::vector<float>(made.mesh.vertices.size(), kNoValue));
+    recorder.use_coarse(false);
+    coarse = std::move(made);
+  }
+
+  /// Brings the coarse surface up to date and draws it from now on, where it is wanted.
+  void choose_surface() {
+    if (!coarse_wanted || faces.size() < kManyFaces) return recorder.use_coarse(false);
+    make_coarse();
+    recorder.use_coarse(true);
+    if (!std::exchange(coarse->old, false)) return;
+    const CoarseSurface& surface = coarse->surface;
+    const std::vector<float> means = surface.means(values());
+    std::vector<float> drawn;
+    for (const std::uint32_t v : coarse->mesh.origin) drawn.push_back(means[v]);
+    recorder.set_values(drawn);
+    std::vector<glm::vec3> with_regions;
+    for (std::size_t i = 0; i < drawn.size() && !regions.empty(); ++i) {
+      with_regions.emplace_back(drawn[i], regions[surface.example[coarse->mesh.origin[i]]]);
+    }
+    recorder.set_regions(with_regions);
+    std::vector<float> corners;
+    for (std::size_t f = 0; f < surface.faces.size() && !face_values.empty(); ++f) {
+      corners.insert(corners.end(), 3, face_values[surface.origin[f]]);
+    }
+    if (!corners.empty() && !recorder.has_face_values()) {
+      recorder.set_separate_faces(separate_faces(coarse->mesh), corners);
+    } else {
+      recorder.set_face_values(corners);
+    }
+  }
+
+  void values_changed() {
+    if (coarse) coarse->old = true;
+    recorder.use_coarse(false);
   }
 
   /// Values and regions by drawn vertex, as they are drawn together.
@@ -70,6 +142,10 @@ int Renderer::samples() const { return state_->recorder.samples(); }
 
 void Renderer::set_samples(int samples) { state_->recorder.set_samples(samples); }
 
+void Renderer::set_coarse(bool coarse) { state_->coarse_wanted = coarse; }
+
+bool Renderer::has_coarse() const { return state_->faces.size() >= kManyFaces; }
+
 Result<Renderer> Renderer::build(const Device& device, int samples) {
   if (samples != 1 && samples != 4) {
     return Error{ErrorCode::kBadInput,
@@ -84,6 +160,7 @@ Result<void> Renderer::set_surface(const SurfaceGeometry& geometry) {
   return guarded("loading the model", [&]() -> Result<void> {
     std::vector<std::array<std::uint32_t, 3>> faces(geometry.faces.begin(), geometry.faces.end());
     State& s = *state_;
+    s.recorder.use_coarse(false);
     s.draw(build_draw_mesh(geometry), {geometry.positions.begin(), geometry.positions.end()});
     s.faces = std::move(faces);
     s.openness.assign(geometry.openness.begin(), geometry.openness.end());
@@ -98,6 +175,7 @@ Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
   assert(positions.size() == state_->positions.size());
   return guarded("moving the model", [&]() -> Result<void> {
     State& s = *state_;
+    s.recorder.use_coarse(false);
     const bool known = s.moving.has_value();
     if (!known) s.moving.emplace(SurfaceGeometry{positions, s.faces, s.solid, openness});
     s.openness.assign(openness.begin(), openness.end());
@@ -108,6 +186,7 @@ Result<void> Renderer::move_surface(std::span<const glm::vec3> positions,
     s.recorder.set_vertices(s.moving->mesh().vertices);
     s.positions.assign(positions.begin(), positions.end());
     s.places.reset();
+    s.coarse.reset();
     return {};
   });
 }
@@ -116,6 +195,7 @@ Result<void> Renderer::set_values(std::span<const float> values) {
   assert(values.size() == state_->positions.size());
   return guarded("loading distances", [&]() -> Result<void> {
     State& s = *state_;
+    s.values_changed();
     for (std::size_t i = 0; i < s.origin.size(); ++i) s.gathered[i] = values[s.origin[i]];
     s.recorder.set_values(s.gathered);
     if (!s.regions.empty()) s.upload_regions(s.regions);
@@ -128,6 +208,7 @@ Result<void> Renderer::set_regions(std::span<const std::int32_t> regions,
   assert(regions.empty() || regions.size() == state_->positions.size());
   assert(regions.size() == margins.size());
   return guarded("loading regions", [&]() -> Result<void> {
+    state_->values_changed();
     std::vector<glm::vec2> kept;
     for (std::size_t v = 0; v < regions.size(); ++v) {
       kept.emplace_back(static_cast<float>(regions[v]), margins[v]);
@@ -142,6 +223,8 @@ Result<void> Renderer::set_face_values(std::span<const float> values) {
   assert(values.empty() || values.size() == state_->faces.size());
   return guarded("loading values of faces", [&]() -> Result<void> {
     State& s = *state_;
+    s.values_changed();
+    s.face_values.assign(values.begin(), values.end());
     std::vector<float> corners;
     corners.reserve(3 * values.size());
     for (const float value : values) corners.insert(corners.end(), 3, value);
@@ -199,7 +282,7 @@ Result<void> Renderer::set_panel_font(const PanelFont& font) {
 }
 
 Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay& overlay,
-                              const PanelDraw* panels) {
+                              const PanelDraw* panels, SceneUse use) {
   return guarded("drawing", [&]() -> Result<void> {
     State& s = *state_;
     ArrowSelection arrows;
@@ -208,10 +291,12 @@ Result<void> Renderer::render(Target& target, const Scene& scene, const Overlay&
                              scene.arrows, scene.pixel_scale, s.primary, s.secondary);
     }
     if (s.lines.fit(scene.camera)) s.recorder.set_lines(s.lines);
+    if (use == SceneUse::kAgain) s.make_coarse();  // nobody waits for a frame of panels alone
+    s.choose_surface();
     TargetFrame frame;
     s.recorder.prepare(arrows, overlay, panels);
     if (auto begun = target.begin(frame); !begun) return begun;
-    s.recorder.record(frame, target.extent(), scene);
+    s.recorder.record(frame, target.extent(), scene, use);
     return target.end(frame);
   });
 }

@@ -41,6 +41,13 @@ struct PanelDraw {
   std::vector<Command> commands;
 };
 
+/// What is done with the picture of a scene without overlay and panels.
+enum class SceneUse {
+  kOnce,
+  kKeep,   ///< drawn, and kept for the next frame
+  kAgain,  ///< the scene is the one that was kept: it is not drawn again where it fits
+};
+
 /// Draws one model. Geometry is uploaded once; values, regions, colours, arrows, lines and markers
 /// are replaced without touching it. Every call may fail with kOutOfMemory or kNoDevice (device
 /// lost); after a failure what was there before is still there.
@@ -84,7 +91,13 @@ class Renderer {
   /// all, in pixels of the target whatever part of the picture it shows. Precondition:
   /// set_panel_font() where there are panels.
   Result<void> render(Target& target, const Scene& scene, const Overlay& overlay = {},
-                      const PanelDraw* panels = nullptr);
+                      const PanelDraw* panels = nullptr, SceneUse use = SceneUse::kOnce);
+
+  /// Whether the next frames draw a surface of many faces by one of few that looks like it. Cost:
+  /// the first time after the surface has changed, that of coarse_surface().
+  void set_coarse(bool coarse);
+  /// The surface has so many faces that there is a coarse one.
+  bool has_coarse() const;
 
   int samples() const;
   /// 1 or 4, from the next frame on; what is made for either is kept, so that turning is free.

@@ -33,7 +33,8 @@ struct OffscreenTarget::State {
         extent(size),
         texture(device->memory,
                 {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)}, kFormat,
-                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc),
+                vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc |
+                    vk::ImageUsageFlagBits::eTransferDst),
         pixels(device->memory, vk::DeviceSize{4} * size.x * size.y,
                vk::BufferUsageFlagBits::eTransferDst, Home::kReadBack),
         commands(device->make_commands()) {}
@@ -71,7 +72,7 @@ Result<void> OffscreenTarget::begin(TargetFrame& frame) {
                                    vk::ImageLayout::eColorAttachmentOptimal, Stage::eCopy,
                                    Access::eNone, Stage::eColorAttachmentOutput,
                                    Access::eColorAttachmentWrite | Access::eColorAttachmentRead});
-    frame = {&s.commands, *s.texture.image, *s.texture.view, kFormat, s.origin};
+    frame = {&s.commands, *s.texture.image, *s.texture.view, kFormat, s.origin, true};
     return {};
   });
 }

@@ -3,6 +3,7 @@
 
 #include "app/picture/picture_text.h"
 #include "ui/frame.h"
+#include "ui/source_edit.h"
 
 namespace geotherm::ui {
 namespace {
@@ -127,8 +128,8 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
 /// One thing at a time: first what the mouse is set to, then what is marked, then the work.
 void stop(Frame& frame) {
   CanvasInput& input = frame.ui.input;
-  if (input.brush || input.sculpt) {
-    input.brush = input.sculpt = false;
+  if (input.tool != Tool::kSource) {
+    input.tool = Tool::kSource;
   } else if (frame.session.work().busy) {
     frame.out.cancel = true;
   } else if (frame.state().target) {
@@ -138,17 +139,35 @@ void stop(Frame& frame) {
   }
 }
 
+std::optional<Tool> tool_of(Action action) {
+  switch (action) {
+    case Action::kViewTool:
+      return Tool::kView;
+    case Action::kSourceTool:
+      return Tool::kSource;
+    case Action::kBrush:
+      return Tool::kBrush;
+    case Action::kPathTool:
+      return Tool::kPath;
+    case Action::kPickTool:
+      return Tool::kPick;
+    case Action::kSculpt:
+      return Tool::kSculpt;
+    default:
+      return std::nullopt;
+  }
+}
+
 void turn_switch(Frame& frame, Action action) {
   Layout& layout = frame.ui.layout;
+  if (const auto tool = tool_of(action)) {
+    Tool& now = frame.ui.input.tool;
+    now = now == *tool ? Tool::kSource : *tool;
+    return;
+  }
   switch (action) {
-    case Action::kBrush:
-      frame.ui.input.brush = !frame.ui.input.brush;
-      frame.ui.input.sculpt = false;
-      return;
-    case Action::kSculpt:
-      frame.ui.input.sculpt = !frame.ui.input.sculpt;
-      frame.ui.input.brush = false;
-      return;
+    case Action::kRemovePointed:
+      return frame.send(removal(frame.explored(), *frame.ui.input.pointed(frame)));
     case Action::kLeftPanel:
       layout.left = !layout.left;
       return;
@@ -190,7 +209,17 @@ bool is_possible(const Frame& frame, Action action) {
       return frame.session.can_undo();
     case Action::kRedo:
       return frame.session.can_redo();
+    case Action::kRemovePointed: {
+      // Places belong to what is shown: while other sources are on their way, none can be named.
+      const bool settled = frame.explored().sources == frame.state().sources;
+      const auto place = settled ? frame.ui.input.pointed(frame) : std::nullopt;
+      return place && *place < frame.explored().places.size();
+    }
     case Action::kMoreSources:
+    case Action::kViewTool:
+    case Action::kSourceTool:
+    case Action::kPathTool:
+    case Action::kPickTool:
     case Action::kBrush:
     case Action::kSavePicture:
     case Action::kCompare:
@@ -227,13 +256,10 @@ bool is_possible(const Frame& frame, Action action) {
 
 bool is_on(const Frame& frame, Action action) {
   if (const auto view = view_of(action)) return frame.state().picture.view == *view;
+  if (const auto tool = tool_of(action)) return frame.ui.input.tool == *tool;
   switch (action) {
     case Action::kRotate:
       return frame.state().rotating;
-    case Action::kBrush:
-      return frame.ui.input.brush;
-    case Action::kSculpt:
-      return frame.ui.input.sculpt;
     case Action::kPlay:
       return frame.state().timeline.playing;
     case Action::kLoop:

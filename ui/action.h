@@ -37,8 +37,13 @@ enum class Action {
   kShuffleSources,
   kClearSources,
   kBoundarySource,
+  kViewTool,
+  kSourceTool,
   kBrush,
+  kPathTool,
+  kPickTool,
   kSculpt,
+  kRemovePointed,  ///< the source that the pointer is at, or that was clicked
   kKeep,
   kFlip,
   kSwap,
@@ -55,7 +60,7 @@ enum class Action {
   kLoop,
   kKeys,
   kAbout,
-  kStop,  ///< brush or sculpting, the picked point or the work, in this order
+  kStop,  ///< another tool than that of sources, the picked point or the work, in this order
 };
 
 struct Frame;

@@ -75,11 +75,11 @@ void draw_left(Frame& frame) {
   if (!begin_bar("##left", place)) return;
   const float grip = frame.px(kGrip);
   draw_inside(frame, {place.x, place.y}, {place.width - grip, place.height}, [](Frame& inside) {
-    draw_model_panel(inside);
+    draw_view_panel(inside);
     draw_sources_panel(inside);
     draw_solver_panel(inside);
     draw_ab_panel(inside);
-    draw_view_panel(inside);
+    draw_model_panel(inside);
   });
   if (draw_grip(frame, "left edge", {place.x + place.width - grip, place.y},
                 {grip, place.height})) {
@@ -95,10 +95,10 @@ void draw_right(Frame& frame) {
   const float grip = frame.px(kGrip);
   draw_inside(frame, {place.x + grip, place.y}, {place.width - grip, place.height},
               [](Frame& inside) {
-                draw_timing_panel(inside);
-                draw_quality_panel(inside);
-                draw_error_panel(inside);
                 draw_point_panel(inside);
+                draw_error_panel(inside);
+                draw_quality_panel(inside);
+                draw_timing_panel(inside);
                 draw_compare_panel(inside);
               });
   if (draw_grip(frame, "right edge", {place.x, place.y}, {grip, place.height})) {
@@ -134,17 +134,11 @@ namespace {
 
 std::string what_is_shown(const Frame& frame) {
   if (!frame.model()) return "no model";
-  std::vector<std::string> parts = {frame.model()->model.name,
-                                    geotherm::to_text(frame.state().picture.view)};
-  if (frame.state().kept) {
-    constexpr const char* kShown[] = {"A", "B", "A \u2212 B"};
-    parts.emplace_back(kShown[static_cast<std::size_t>(frame.state().shown)]);
-  }
-  if (const app::Answer* answer = frame.answer()) {
-    parts.push_back(app::solver_at_work(*answer->method, answer->result));
-    parts.push_back("query " + app::milliseconds(answer->result.timing.query) + " ms");
-  }
-  return app::joined(parts, "  \u00b7  ");
+  // Figures stand in the panels; what the window's title lacks is said here.
+  std::string text = geotherm::to_text(frame.state().picture.view);
+  const app::Answer* answer = frame.answer();
+  if (answer == nullptr) return text;
+  return text + "  \u00b7  " + app::solver_at_work(*answer->method, answer->result);
 }
 
 /// What the pointer points at.

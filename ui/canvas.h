@@ -60,6 +60,15 @@ void draw_timeline(Frame& frame);
 /// it is not over yet.
 bool play(Frame& frame);
 
+/// What the left button does on the picture.
+enum class Tool { kView, kSource, kBrush, kPath, kPick, kSculpt };
+
+/// The tools, and what a click of the chosen one does, above the picture.
+void draw_toolbar(Frame& frame);
+
+/// A source as people call it: "vertex 17", "5 random".
+std::string short_name(const app::SourceSpec& source);
+
 /// The mouse on the picture: one stroke from press to release at a time.
 class CanvasInput {
  public:
@@ -72,8 +81,11 @@ class CanvasInput {
   const std::optional<SurfacePoint>& hovered() const { return hovered_; }
   const std::optional<InsidePoint>& hovered_inside() const { return hovered_inside_; }
 
-  bool brush = false;   ///< left drags paint
-  bool sculpt = false;  ///< left drags sculpt; not together with `brush`
+  Tool tool = Tool::kSource;
+
+  /// Of Explored::places: what the pointer is at, hidden ones where no other is, or else what was
+  /// clicked last.
+  std::optional<std::size_t> pointed(const Frame& frame) const;
 
  private:
   struct Mouse {
@@ -87,17 +99,21 @@ class CanvasInput {
   void paint(Frame& frame, Mouse to);
   void click(Frame& frame);
   void begin_with_tool(Frame& frame);
+  void set_source(Frame& frame);
   void give_back_sources(Frame& frame);
   void zoom_with_wheel(Frame& frame);
   void draw_marks(Frame& frame) const;
+  void draw_source_marks(Frame& frame) const;
 
   int button_ = -1;  ///< that holds the stroke; negative: none does
   Mouse press_, last_;
   Modifiers modifiers_;  ///< at the press
   bool double_click_ = false;
-  std::optional<MouseAction> action_;  ///< of the drag, once it is one
-  std::optional<std::size_t> place_;   ///< of Explored::places, under the press
-  int entry_ = -1;                     ///< the source that is moved
+  std::optional<MouseAction> action_;   ///< of the drag, once it is one
+  std::optional<std::size_t> place_;    ///< of Explored::places, under the press
+  std::optional<std::size_t> pointed_;  ///< of Explored::places, under the pointer
+  std::optional<Vec3> chosen_;          ///< where the source is that was clicked
+  int entry_ = -1;                      ///< the source that is moved
   std::optional<app::SourceSpec> moved_to_;
   SculptStroke stroke_;
   Index painted_ = kNoIndex;  ///< the curve's last vertex
@@ -110,7 +126,8 @@ class CanvasInput {
 /// Whether the surface hides a place from the eye. Precondition: a model is shown.
 bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_at);
 
-/// The place that a pixel shows within reach of the mouse, the nearest of them.
-std::optional<std::size_t> place_at(const Frame& frame, float x, float y);
+/// The place that a pixel shows within reach of the mouse, the nearest of them. `hidden`: also of
+/// those that the surface hides.
+std::optional<std::size_t> place_at(const Frame& frame, float x, float y, bool hidden = false);
 
 }  // namespace geotherm::ui

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "ui/frame.h"
@@ -17,6 +18,7 @@ constexpr double kTurnPerHeight = 220;  ///< degrees for a drag across the pictu
 constexpr double kZoomPerHeight = 3.5;  ///< logarithm of the zoom for a drag across it
 constexpr double kZoomPerNotch = 1.15;
 constexpr std::size_t kMaxPlaces = 20000;  ///< of more, none can be aimed at
+constexpr double kOffersUndo = 12;         ///< seconds
 constexpr double kHidden = 0.02;  ///< of the model's size: a place that far behind is not seen
 
 constexpr const char* kButtons[] = {"Left", "Right", "Middle"};
@@ -80,7 +82,7 @@ bool is_hidden(const Frame& frame, const Vec3& place, std::array<float, 2> seen_
   return (front->position - place).norm() > kHidden * size.norm();
 }
 
-std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
+std::optional<std::size_t> place_at(const Frame& frame, float x, float y, bool hidden) {
   if (!frame.model() || frame.explored().places.size() > kMaxPlaces) return std::nullopt;
   std::optional<std::size_t> nearest;
   float least = frame.px(kReach);
@@ -90,7 +92,7 @@ std::optional<std::size_t> place_at(const Frame& frame, float x, float y) {
     const auto seen = frame.canvas.place_of(places[i].position);
     if (!seen) continue;
     const float distance = std::hypot((*seen)[0] - x, (*seen)[1] - y);
-    if (distance > least || is_hidden(frame, places[i].position, *seen)) continue;
+    if (distance > least || (!hidden && is_hidden(frame, places[i].position, *seen))) continue;
     least = distance;
     nearest = i;
   }
@@ -112,7 +114,21 @@ void CanvasInput::draw(Frame& frame) {
   if (over && io.MouseWheel != 0) zoom_with_wheel(frame);
   if (over) hovered_ = surface_at(frame, io.MousePos.x, io.MousePos.y);
   if (over && !hovered_) hovered_inside_ = inside_at(frame, io.MousePos.x, io.MousePos.y);
+  pointed_.reset();
+  if (over && !action_ && button_ < 0) {
+    pointed_ = place_at(frame, io.MousePos.x, io.MousePos.y);
+    if (!pointed_) pointed_ = place_at(frame, io.MousePos.x, io.MousePos.y, true);
+  }
+  draw_source_marks(frame);
   if (over || action_) draw_marks(frame);
+}
+
+std::optional<std::size_t> CanvasInput::pointed(const Frame& frame) const {
+  if (pointed_ || !chosen_) return pointed_;
+  const auto& places = frame.explored().places;
+  const auto at = std::ranges::find(places, *chosen_, &app::SourcePlace::position);
+  if (at == places.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - places.begin());
 }
 
 void CanvasInput::begin(Frame& frame, int button) {
@@ -129,19 +145,20 @@ void CanvasInput::begin(Frame& frame, int button) {
   // Places belong to what is shown; while other sources are on their way, they cannot be taken.
   const bool settled = frame.explored().sources == frame.state().sources;
   place_.reset();
-  if (button == 0 && plain && !brush && !sculpt && settled)
+  if (button == 0 && plain && tool == Tool::kSource && settled) {
     place_ = place_at(frame, press_.x, press_.y);
+  }
   if (button == 0) begin_with_tool(frame);
 }
 
 /// At once: a touch of the brush is a source, too.
 void CanvasInput::begin_with_tool(Frame& frame) {
-  if (brush) {
+  if (tool == Tool::kBrush) {
     action_ = mouse_action(modifiers_, "Left drag with the brush");
     if (!action_) return;
     paint(frame, press_);
     if (painted_ == kNoIndex) action_.reset();
-  } else if (sculpt) {
+  } else if (tool == Tool::kSculpt) {
     action_ = mouse_action(modifiers_, "Left drag while sculpting");
     const auto tool = action_ ? sculpt_tool(*action_, frame.ui.sculpt.tool) : std::nullopt;
     if (!tool || !stroke_.begin(frame, *tool, press_.x, press_.y)) action_.reset();
@@ -227,6 +244,12 @@ void CanvasInput::end(Frame& frame) {
 void CanvasInput::click(Frame& frame) {
   const std::string button = kButtons[button_];
   auto action = mouse_action(modifiers_, button + " click");
+  if (tool == Tool::kPath || tool == Tool::kPick || tool == Tool::kView) {
+    const char* const with = tool == Tool::kPath   ? " click with the path tool"
+                             : tool == Tool::kPick ? " click with the pick tool"
+                                                   : " click with the view tool";
+    if (action == MouseAction::kSetSource) action = mouse_action(modifiers_, button + with);
+  }
   if (double_click_) {
     if (const auto twice = mouse_action(modifiers_, button + " double click")) action = twice;
   }
@@ -237,14 +260,35 @@ void CanvasInput::click(Frame& frame) {
   if (!front) return;
   if (*action == MouseAction::kCentre) give_back_sources(frame);
   before_click_.reset();
-  if (*action == MouseAction::kSetSource) before_click_ = frame.state().sources;
+  if (*action == MouseAction::kSetSource && place_) {
+    chosen_ = frame.explored().places[*place_].position;
+    return;
+  }
+  if (*action == MouseAction::kSetSource) set_source(frame);
   if (point) return send_point_command(frame, *action, *point);
   send_inside_command(frame, *action, front->position);
+}
+
+/// Where one click replaces several sources, they can be had back by another one.
+void CanvasInput::set_source(Frame& frame) {
+  before_click_ = frame.state().sources;
+  chosen_.reset();
+  const std::size_t count = std::max(before_click_->size(), frame.explored().places.size());
+  if (count < 2) return;
+  Notice notice;
+  notice.text = "The click has replaced " + std::to_string(count) +
+                " sources. With Shift it adds one to them.";
+  notice.kind = app::LogLine::Kind::kNote;
+  notice.until = ImGui::GetTime() + kOffersUndo;
+  notice.sources = *before_click_;
+  std::erase_if(frame.ui.notices, [](const Notice& old) { return !old.sources.empty(); });
+  frame.ui.notices.push_back(std::move(notice));
 }
 
 /// The first click of a double click has set a source that nobody wanted.
 void CanvasInput::give_back_sources(Frame& frame) {
   if (!before_click_ || *before_click_ == frame.state().sources) return;
+  std::erase_if(frame.ui.notices, [](const Notice& old) { return !old.sources.empty(); });
   if (before_click_->empty()) {
     frame.send(app::command::ClearSources{});
   } else {
@@ -271,15 +315,27 @@ void CanvasInput::draw_marks(Frame& frame) const {
     list->AddCircle(at, frame.px(radius), shade, 0, frame.px(3.5F));
     list->AddCircle(at, frame.px(radius), accent, 0, frame.px(1.8F));
   };
-  if (brush) return ring(mouse, 6);
-  if (sculpt && (button_ < 0 || action_)) {
+  if (tool == Tool::kBrush) return ring(mouse, 6);
+  if (tool == Tool::kSculpt && (button_ < 0 || action_)) {
     return ring(mouse, std::max(3.0F, sculpt_ring(frame, hovered_) / frame.px(1)));
   }
-  if (action_ || button_ >= 0) return;
-  if (const auto place = place_at(frame, mouse.x, mouse.y)) {
-    const auto seen = frame.canvas.place_of(frame.explored().places[*place].position);
-    if (seen) ring({(*seen)[0], (*seen)[1]}, kReach);
-    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  if (action_ || button_ >= 0 || !pointed_) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+}
+
+/// Rings about the source that is pointed at, and about those whose name in the list is.
+void CanvasInput::draw_source_marks(Frame& frame) const {
+  if (!frame.model() || frame.explored().places.size() > kMaxPlaces) return;
+  const auto pointed_at = pointed(frame);
+  ImDrawList* list = ImGui::GetBackgroundDrawList();
+  const auto& places = frame.explored().places;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (i != pointed_at && places[i].entry != frame.ui.sources.pointed) continue;
+    const auto seen = frame.canvas.place_of(places[i].position);
+    if (!seen) continue;
+    const ImVec2 at((*seen)[0], (*seen)[1]);
+    list->AddCircle(at, frame.px(kReach), packed({0, 0, 0, 0.5F}), 0, frame.px(3.5F));
+    list->AddCircle(at, frame.px(kReach), packed(frame.colours().accent), 0, frame.px(1.8F));
   }
 }
 

@@ -105,12 +105,15 @@ void draw_shown_badge(Frame& frame) {
   if (!frame.state().kept || !frame.model()) return;
   constexpr const char* kShown[] = {"A", "B", "A \u2212 B"};
   std::string text = kShown[static_cast<std::size_t>(frame.state().shown)];
+  const auto& difference = frame.explored().difference;
+  const bool equal = difference && difference->most == 0;
+  if (equal && frame.state().shown == app::Shown::kDifference) text += "  \u00b7  equal";
   const app::Answer* answer = frame.answer();
   if (answer && frame.state().shown != app::Shown::kDifference) {
     text += "  \u00b7  " + app::method_caption(*answer->method);
   }
   const Rect& canvas = frame.ui.places.canvas;
-  const float down = frame.ui.input.sculpt ? 62 : 20;  // below the bar of the tools
+  const float down = frame.ui.input.tool == Tool::kSculpt ? 62 : 20;  // below the bar of the tools
   draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(down)}, text);
 }
 
@@ -138,12 +141,19 @@ void draw_picked(Frame& frame) {
 }
 
 /// A button for each setting that may help.
-void draw_remedies(Frame& frame, const Notice& notice) {
+void draw_remedies(Frame& frame, Notice& notice) {
   ImGui::PushID(&notice);
+  if (!notice.sources.empty() && draw_button(frame, "bring back", "Bring them back")) {
+    frame.send(app::command::SetSources{notice.sources});
+    notice.until = 0;
+  }
   for (const SettingHint& setting : notice.settings) {
     for (const std::string& value : setting.values) {
       const std::string change = setting.name + ' ' + value;
-      if (draw_button(frame, change, change.c_str())) frame.set(setting.name, value);
+      if (draw_button(frame, change, change.c_str())) {
+        frame.set(setting.name, value);
+        notice.until = 0;  // it has been taken care of
+      }
     }
   }
   ImGui::PopID();
@@ -163,9 +173,10 @@ void draw_notices(Frame& frame) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ImGui::GetStyle().FrameBorderSize);
   ImGui::Begin("##notices", nullptr, kFloating);
   ImGui::PopStyleVar(2);
-  for (const Notice& notice : notices) {
-    draw_note(notice.text, notice.kind == app::LogLine::Kind::kError ? frame.colours().error
-                                                                     : frame.colours().warning);
+  for (Notice& notice : notices) {
+    const Palette& p = frame.colours();
+    const bool error = notice.kind == app::LogLine::Kind::kError;
+    draw_note(notice.text, error ? p.error : notice.sources.empty() ? p.warning : p.text);
     draw_remedies(frame, notice);
   }
   const float button = frame.px(70);

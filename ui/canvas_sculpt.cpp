@@ -139,7 +139,8 @@ void draw_slider(Frame& frame, const char* label, float& value, float low, float
 
 void draw_sculpt_bar(Frame& frame) {
   const Rect& canvas = frame.ui.places.canvas;
-  if (!frame.ui.input.sculpt || !frame.model() || canvas.width < frame.px(200)) return;
+  if (frame.ui.input.tool != Tool::kSculpt || !frame.model() || canvas.width < frame.px(200))
+    return;
   frame.section = "Sculpt";
   ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + frame.px(8)}, ImGuiCond_Always,
                           {0.5F, 0});

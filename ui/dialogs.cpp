@@ -103,7 +103,7 @@ void draw_keys_dialog(Frame& frame) {
   const float below = ImGui::GetFrameHeightWithSpacing();
   ImGui::BeginChild("bindings", {0, -below});
   const ListColumn columns[] = {{{"View", "Sources", "A and B"}, 40},
-                                {{"File", "Edit", "Window"}, 105},
+                                {{"Tools", "File", "Edit", "Window"}, 105},
                                 {{"Camera", "Set sources", "Sculpt", "Figures"}, 205}};
   if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchProp)) {
     for (const float share : {0.9F, 1.0F, 1.3F}) ImGui::TableSetupColumn("", 0, share);

@@ -40,6 +40,7 @@ struct TextEdit {
 struct SourcesForm {
   std::string ids, error;
   int count = 5;
+  int pointed = -1;  ///< the entry whose name the pointer is at; negative: none
 };
 
 /// What the sculpting brush is set to.
@@ -53,6 +54,7 @@ struct LogForm {
   std::array<bool, 4> shown = {true, true, true, true};  ///< by LogLine::Kind
   bool follow = true;
   std::string line, error;
+  std::string choices;            ///< what the word in the field may become
   std::vector<std::string> past;  ///< command lines, oldest first
   int recalled = -1;              ///< index of the one in the field; negative: none
   std::size_t drawn = 0;          ///< lines of the log in the last frame
@@ -62,8 +64,9 @@ struct LogForm {
 struct Notice {
   std::string text;
   app::LogLine::Kind kind = app::LogLine::Kind::kError;
-  double until = 0;                        ///< ImGui's time
-  std::vector<SettingHint> settings = {};  ///< that may help
+  double until = 0;                           ///< ImGui's time
+  std::vector<SettingHint> settings = {};     ///< that may help
+  std::vector<app::SourceSpec> sources = {};  ///< that a button brings back; empty: none
 };
 
 /// All that the panels remember between frames; nothing of it decides what is computed.
@@ -89,6 +92,7 @@ struct UiState {
   std::vector<Notice> notices;
   std::size_t notified = 0;  ///< lines of the log that notices were made of
   std::vector<std::string> dropped;
+  std::string noted_model;  ///< the file that was noted as opened last
   bool quit = false;
   bool ask_keys = false, ask_about = false;  ///< dialogs to be opened in this frame
   double peak_mb = 0, peak_read_at = -1;     ///< memory of the program, and ImGui's time then

@@ -73,6 +73,18 @@ void take_drop(Frame& frame) {
   }
 }
 
+/// What was opened can be opened again, from wherever the program is started then.
+void note_model(Frame& frame) {
+  if (!frame.model() ||
+      std::exchange(frame.ui.noted_model, frame.model()->model.path) == frame.model()->model.path) {
+    return;
+  }
+  const std::string& path = frame.model()->model.path;
+  std::error_code unknown;
+  const auto whole = std::filesystem::absolute(path, unknown);
+  if (!path.empty() && !unknown) add_recent(frame.ui.layout, whole.lexically_normal().string());
+}
+
 void rotate(Frame& frame) {
   if (!frame.state().rotating || frame.ui.input.is_dragging()) return;
   for (const app::Command& command : frame.out.commands) {
@@ -140,12 +152,14 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   ui.items.clear();
   if (std::exchange(ui.quit, false)) frame.send(app::command::Quit{});
   take_drop(frame);
+  note_model(frame);
   take_notices(frame);
 
   begin_host();
   ui.input.draw(frame);  // first: panels show what lies under the pointer now
   draw_menu_bar(frame);
   draw_side_bars(frame);
+  draw_toolbar(frame);
   draw_status_bar(frame);
   draw_canvas_overlay(frame);
   draw_sculpt_bar(frame);

@@ -45,6 +45,7 @@ struct FrameOutput {
   std::vector<app::Command> commands;
   bool dragging = false;   ///< camera, sources or surface move: draw fast
   bool animating = false;  ///< the next frame is to follow at once
+  bool study = false;      ///< the error over m is looked at: Session::study
   bool cancel = false;     ///< the user asked to stop what runs: Session::cancel
 };
 

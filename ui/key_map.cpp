@@ -33,7 +33,13 @@ constexpr KeyBinding kKeys[] = {
     {"+", Action::kMoreSources, "Sources", "one more random source"},
     {"-", Action::kFewerSources, "Sources", "one random source fewer"},
     {"h", Action::kShuffleSources, "Sources", "as many sources at new random places"},
-    {"b", Action::kBrush, "Sources", "brush on or off: paint a curve of sources"},
+    {"Delete", Action::kRemovePointed, "Sources",
+     "remove the source that is pointed at or clicked"},
+    {"v", Action::kViewTool, "Tools", "view: a click sets nothing"},
+    {"a", Action::kSourceTool, "Tools", "sources: a click sets one"},
+    {"b", Action::kBrush, "Tools", "brush on or off: paint a curve of sources"},
+    {"r", Action::kPathTool, "Tools", "paths: a click shows those from there"},
+    {"i", Action::kPickTool, "Tools", "pick: a click shows the figures of the point"},
     {"k", Action::kKeep, "A and B", "keep the present settings as B"},
     {"Tab", Action::kFlip, "A and B", "from A to B and back"},
     {"d", Action::kShowDifference, "A and B", "the difference A \u2212 B"},
@@ -47,9 +53,10 @@ constexpr KeyBinding kKeys[] = {
     {"Ctrl+Z", Action::kUndo, "Edit", "undo"},
     {"Ctrl+Y", Action::kRedo, "Edit", "redo"},
     {"Ctrl+Shift+Z", Action::kRedo, "Edit", "redo"},
-    {"s", Action::kSculpt, "Edit", "sculpting on or off: pull, push, smooth"},
+    {"s", Action::kSculpt, "Tools", "sculpting on or off: pull, push, smooth"},
     {"Esc", Action::kStop, "Edit",
-     "close a dialog, end brush or sculpting, cancel the work, forget paths, forget the point"},
+     "close a dialog, back to the tool of sources, cancel the work, forget paths, forget the "
+     "point"},
     {"F1", Action::kKeys, "Window", "this list of keys"},
     {"F2", Action::kLeftPanel, "Window", "left side bar"},
     {"F3", Action::kRightPanel, "Window", "right side bar"},
@@ -64,7 +71,8 @@ constexpr MouseBinding kMouse[] = {
     {"Middle drag", MouseAction::kPan, "Camera", "move in the plane of the picture"},
     {"Wheel", MouseAction::kWheelZoom, "Camera", "zoom towards the pointer"},
     {"Left double click", MouseAction::kCentre, "Camera", "turn about this point"},
-    {"Left click", MouseAction::kSetSource, "Set sources", "the source is here"},
+    {"Left click", MouseAction::kSetSource, "Set sources",
+     "the source is here; on a source: it is chosen"},
     {"Shift+Left click", MouseAction::kAddSource, "Set sources", "one more source here"},
     {"Alt+Left click", MouseAction::kRemoveSource, "Set sources", "remove the nearest source"},
     {"Left drag of a source", MouseAction::kMoveSource, "Set sources", "move it"},
@@ -72,6 +80,10 @@ constexpr MouseBinding kMouse[] = {
     {"Left drag while sculpting", MouseAction::kSculpt, "Sculpt", "pull, or what the bar says"},
     {"Ctrl+Left drag while sculpting", MouseAction::kSculptBack, "Sculpt", "push where it pulls"},
     {"Shift+Left drag while sculpting", MouseAction::kSculptSmooth, "Sculpt", "smooth"},
+    {"Left click with the pick tool", MouseAction::kPick, "Figures",
+     "show the figures of this point"},
+    {"Left click with the path tool", MouseAction::kTarget, "Figures",
+     "paths from here to the source"},
     {"Ctrl+Left click", MouseAction::kPick, "Figures", "show the figures of this point"},
     {"Ctrl+Shift+Left click", MouseAction::kTarget, "Figures", "paths from here to the source"},
     {"Right click", MouseAction::kMenu, "Figures", "menu of this point"},
@@ -82,11 +94,8 @@ struct NamedKey {
   std::string_view name;
   int code;
 };
-constexpr NamedKey kNamed[] = {{"Esc", kKeyEscape},
-                               {"Tab", kKeyTab},
-                               {"Enter", kKeyEnter},
-                               {"Home", kKeyHome},
-                               {"Space", kKeySpace}};
+constexpr NamedKey kNamed[] = {{"Esc", kKeyEscape}, {"Tab", kKeyTab},       {"Enter", kKeyEnter},
+                               {"Home", kKeyHome},  {"Delete", kKeyDelete}, {"Space", kKeySpace}};
 
 /// "Ctrl+Shift+Z" -> the modifiers and "Z".
 std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) {

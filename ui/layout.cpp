@@ -45,6 +45,9 @@ void take_line(std::string_view name, std::string_view value, Layout& layout) {
   if (name == "log") take_flag(value, layout.log);
   if (name == "theme" && value == "dark") layout.theme = Theme::kDark;
   if (name == "theme" && value == "light") layout.theme = Theme::kLight;
+  if (name == "recent" && !value.empty() && layout.recent.size() < kMaxRecent) {
+    layout.recent.emplace_back(value);
+  }
   if (!name.starts_with(kOpen) || (value != "on" && value != "off")) return;
   const std::string section(app::trimmed(name.substr(kOpen.size())));
   if (!section.empty() && layout.open.size() < kMaxSections) layout.open[section] = value == "on";
@@ -65,6 +68,7 @@ std::string to_text(const Layout& layout) {
   line("log", flag_text(layout.log));
   line("theme", layout.theme == Theme::kDark ? "dark" : "light");
   line("scale", exact(layout.scale));
+  for (const std::string& path : layout.recent) line("recent", path);
   for (const auto& [section, open] : layout.open) {
     line(std::string(kOpen) + section, flag_text(open));
   }
@@ -82,6 +86,14 @@ Layout parse_layout(std::string_view text) {
     take_line(app::trimmed(line.substr(0, sign)), app::trimmed(line.substr(sign + 1)), layout);
   }
   return layout;
+}
+
+void add_recent(Layout& layout, const std::string& path) {
+  // One line each: a name with a line's end in it is not remembered.
+  if (path.empty() || path.find('\n') != std::string::npos || app::trimmed(path) != path) return;
+  std::erase(layout.recent, path);
+  layout.recent.insert(layout.recent.begin(), path);
+  if (layout.recent.size() > kMaxRecent) layout.recent.pop_back();
 }
 
 std::string layout_path() {
@@ -163,15 +175,19 @@ Places place_panels(const Layout& layout, float width, float height, float scale
   bars = fit_bars(bars, width - least_canvas, kMinBar * scale);
   bars = {std::floor(bars.left), std::floor(bars.right)};
 
+  constexpr float kToolLines = 1.45F;
+  float tools = std::floor(line * kToolLines);
+  if (middle - tools < least_canvas) tools = 0;
   float log = layout.log ? std::max(layout.log_height, kMinLog) * scale : 0;
-  log = std::floor(std::min(log, middle - least_canvas));
+  log = std::floor(std::min(log, middle - tools - least_canvas));
   if (log < kMinLog * scale) log = 0;
 
   const float inner = width - bars.left - bars.right;
   places.menu = {0, 0, width, menu};
   places.left = {0, menu, bars.left, middle};
   places.right = {width - bars.right, menu, bars.right, middle};
-  places.canvas = {bars.left, menu, inner, middle - log};
+  places.tools = {bars.left, menu, tools > 0 ? inner : 0, tools};
+  places.canvas = {bars.left, menu + tools, inner, middle - log - tools};
   places.log = {bars.left, menu + middle - log, log > 0 ? inner : 0, log};
   places.status = {0, height - status, status > 0 ? width : 0, status};
   return places;

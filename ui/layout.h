@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace geotherm::ui {
 
@@ -20,9 +21,15 @@ struct Layout {
   Theme theme = Theme::kDark;
   float scale = 1;                   ///< beside the monitor's own
   std::map<std::string, bool> open;  ///< sections that are open or closed, by name
+  std::vector<std::string> recent;   ///< models, the newest first, kMaxRecent at most
 
   bool operator==(const Layout&) const = default;
 };
+
+inline constexpr std::size_t kMaxRecent = 8;
+
+/// Puts a model in front of those that were opened of late.
+void add_recent(Layout& layout, const std::string& path);
 
 /// One `name = value` a line. What is unknown or out of range is left at its default.
 std::string to_text(const Layout& layout);
@@ -46,11 +53,12 @@ inline constexpr float kMinLog = 70;      ///< height of the log, pixels at scal
 
 /// Where panels lie. What is hidden, or has no room, has no width.
 struct Places {
-  Rect menu, status, left, right, log, canvas;
+  Rect menu, status, left, right, log, tools, canvas;
 };
 
-/// Divides a window. `line`: height of menu bar and status bar, pixels. Where room is scarce, side
-/// bars and log shrink, then the right one goes, then the left one, the log and the status bar.
+/// Divides a window. `line`: height of menu bar and status bar, pixels; the toolbar is a little
+/// higher. Where room is scarce, side bars and log shrink, then the right one goes, then the left
+/// one, the log, the toolbar and the status bar.
 /// Nothing overlaps, and nothing is smaller than 0.
 Places place_panels(const Layout& layout, float width, float height, float scale, float line);
 

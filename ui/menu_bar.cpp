@@ -42,6 +42,17 @@ bool begin_menu(Frame& frame, const char* name) {
   return open;
 }
 
+void draw_recent_menu(Frame& frame) {
+  const bool open = ImGui::BeginMenu("Open recent", !frame.ui.layout.recent.empty());
+  frame.mark("Open recent");
+  if (!open) return;
+  for (const std::string& path : frame.ui.layout.recent) {
+    if (ImGui::MenuItem(path.c_str())) frame.send(app::command::Open{path});
+    frame.mark(path);
+  }
+  ImGui::EndMenu();
+}
+
 void draw_file_menu(Frame& frame) {
   if (!begin_menu(frame, "File")) return;
   draw_menu_action(frame, "Open model\u2026", Action::kOpenModel);
@@ -51,6 +62,7 @@ void draw_file_menu(Frame& frame) {
     draw_bundled_entries(frame);
     ImGui::EndMenu();
   }
+  draw_recent_menu(frame);
   draw_menu_action(frame, "Open session\u2026", Action::kOpenSession);
   draw_menu_action(frame, "Open sequence\u2026", Action::kOpenSequence);
   ImGui::Separator();
@@ -75,7 +87,13 @@ void draw_edit_menu(Frame& frame) {
   draw_menu_action(frame, "Shuffle sources", Action::kShuffleSources);
   draw_menu_action(frame, "Boundary as source", Action::kBoundarySource);
   draw_menu_action(frame, "Clear sources", Action::kClearSources);
+  draw_menu_action(frame, "Remove the source", Action::kRemovePointed);
+  ImGui::Separator();
+  draw_menu_action(frame, "View only", Action::kViewTool);
+  draw_menu_action(frame, "Set sources", Action::kSourceTool);
   draw_menu_action(frame, "Brush", Action::kBrush);
+  draw_menu_action(frame, "Paths", Action::kPathTool);
+  draw_menu_action(frame, "Pick points", Action::kPickTool);
   draw_menu_action(frame, "Sculpt", Action::kSculpt);
   ImGui::EndMenu();
 }

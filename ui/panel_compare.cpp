@@ -32,6 +32,7 @@ void draw_settings(Frame& frame) {
 void draw_difference(Frame& frame) {
   const auto& difference = frame.explored().difference;
   if (!difference) return;
+  if (difference->most == 0) return draw_dim(frame, "Both answers are equal, to the last bit.");
   const auto in_words = [&](double value) {
     const std::string text = app::significant(value);
     if (!(difference->largest > 0)) return text;
@@ -111,7 +112,7 @@ std::optional<app::FacePoint> point_at(const TriangleMesh& mesh, Index vertex) {
 }  // namespace
 
 void draw_error_panel(Frame& frame) {
-  if (!draw_section(frame, "Exact error", false)) return;
+  if (!draw_section(frame, "Exact error")) return;
   draw_setting(frame, *app::find_setting("check"));
   const app::Answer* answer = frame.answer();
   if (!answer || !answer->error) {

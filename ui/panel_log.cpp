@@ -6,6 +6,7 @@
 #include <imgui_stdlib.h>
 #include <algorithm>
 
+#include "ui/key_map.h"
 #include "ui/panels.h"
 #include "ui/widgets.h"
 
@@ -103,9 +104,34 @@ namespace {
 
 constexpr std::size_t kMaxPast = 200;
 
-/// Up and down through what was typed before.
+/// The word before the cursor, as far as all that it may become agree.
+void complete(ImGuiInputTextCallbackData* data, LogForm& form) {
+  const std::string_view line(data->Buf, static_cast<std::size_t>(data->CursorPos));
+  const auto words = app::completions(line);
+  form.choices.clear();
+  if (words.empty()) return;
+  std::string common = words.front();
+  for (const std::string& word : words) {
+    const auto [end, other] = std::ranges::mismatch(common, word);
+    common.erase(end, common.end());
+  }
+  const std::size_t blank = line.rfind(' ');
+  const std::size_t begun = line.size() - (blank == std::string_view::npos ? 0 : blank + 1);
+  if (words.size() == 1) {
+    common += ' ';
+  } else {
+    form.choices = app::joined(words, "  ");
+  }
+  data->InsertChars(data->CursorPos, common.c_str() + begun);
+}
+
+/// Tab completes; up and down lead through what was typed before.
 int recall(ImGuiInputTextCallbackData* data) {
   LogForm& form = *static_cast<LogForm*>(data->UserData);
+  if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+    complete(data, form);
+    return 0;
+  }
   const int count = static_cast<int>(form.past.size());
   if (count == 0) return 0;
   int index = form.recalled < 0 ? count : form.recalled;
@@ -137,7 +163,8 @@ void run_line(Frame& frame) {
 }  // namespace
 
 float command_error_height(Frame& frame) {
-  return frame.ui.log.error.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing();
+  const LogForm& form = frame.ui.log;
+  return form.error.empty() && form.choices.empty() ? 0 : ImGui::GetTextLineHeightWithSpacing();
 }
 
 void draw_command_line(Frame& frame) {
@@ -147,13 +174,23 @@ void draw_command_line(Frame& frame) {
     ImGui::TextUnformatted(app::one_line(form.error).c_str());
     ImGui::PopStyleColor();
     draw_tip(frame, form.error);
+  } else if (!form.choices.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
+    ImGui::TextUnformatted(form.choices.c_str());
+    ImGui::PopStyleColor();
+    draw_tip(frame, form.choices);
   }
   ImGui::SetNextItemWidth(-FLT_MIN);
   const bool enter = ImGui::InputTextWithHint(
       "##command", "a command, such as: view contours, source add 812, time-factor 2", &form.line,
-      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, recall, &form);
+      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory |
+          ImGuiInputTextFlags_CallbackCompletion,
+      recall, &form);
   frame.mark("command");
-  if (ImGui::IsItemEdited()) form.error.clear();
+  if (ImGui::IsItemEdited()) {
+    form.error.clear();
+    if (!ImGui::IsKeyPressed(kKeyTab)) form.choices.clear();
+  }
   if (!enter) return;
   run_line(frame);
   ImGui::SetKeyboardFocusHere(-1);  // for the next one

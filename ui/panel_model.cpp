@@ -118,7 +118,8 @@ void draw_model_panel(Frame& frame) {
 
 namespace {
 
-constexpr double kLargeResidual = 1e-6;  ///< of a system that was meant to be solved
+/// Of a system that was meant to be solved, with factors of single and of double precision.
+constexpr double kLargeCompactResidual = 1e-4, kLargeResidual = 1e-6;
 constexpr double kFarSource = 0.5;  ///< mean edges: a source that is not near 0 is worth a colour
 
 /// A drag leaves the figures out: all of them are 0 then, which no computed answer has.
@@ -137,16 +138,6 @@ void draw_distances(Frame& frame, const app::Answer& answer) {
                "Vertices in parts without a source: their distance is infinite.",
                frame.colours().warning);
   }
-}
-
-/// How wrong the distances are, by the method wavefront or what the panel of the error names.
-void draw_error(Frame& frame, const AccuracyReport& report) {
-  const ImVec4 colour = report.is_poor() ? frame.colours().warning : frame.colours().text;
-  const std::string tip = sentence(app::accuracy_line(report));
-  draw_value(frame, "mean error", percent_text(report.figures.mean_relative), "", tip.c_str(),
-             colour);
-  draw_value(frame, "largest error", percent_text(report.figures.max_of_range), "", tip.c_str(),
-             colour);
 }
 
 /// `heat`: those of the heat method as well.
@@ -176,12 +167,14 @@ void draw_figures(Frame& frame, const Quality& quality, bool heat) {
                warn(quality.steep_edges > 0));
   }
   if (!heat) return;
+  const bool compact = frame.answer()->options.precision == Precision::kCompact;
+  const double large = compact ? kLargeCompactResidual : kLargeResidual;
   draw_value(frame, "heat residual", app::significant(quality.heat_residual, 2), "",
              "|M u \u2212 b| / |b| of the heat step: how exactly the linear system was solved.",
-             warn(quality.heat_residual > kLargeResidual));
+             warn(quality.heat_residual > large));
   draw_value(frame, "Poisson residual", app::significant(quality.poisson_residual, 2), "",
              "|L \u03c6 \u2212 b| / |b| of the Poisson step.",
-             warn(quality.poisson_residual > kLargeResidual));
+             warn(quality.poisson_residual > large));
   draw_value(frame, "faces without \u2207u", app::grouped(quality.zero_gradient_faces), "",
              "Faces in reach in which the heat has no gradient: no direction can be had there.",
              warn(quality.zero_gradient_faces > 0));
@@ -204,7 +197,6 @@ void draw_quality_panel(Frame& frame) {
   const app::Answer* answer = frame.answer();
   if (!answer || !frame.model()) return draw_dim(frame, "No answer yet.");
   draw_distances(frame, *answer);
-  if (answer->error && answer->error->measured) draw_error(frame, *answer->error);
   if (is_measured(answer->result.quality)) {
     draw_figures(frame, answer->result.quality, answer->method->heat() != nullptr);
   } else {

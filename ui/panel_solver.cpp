@@ -71,6 +71,27 @@ void draw_factor(Frame& frame) {
   }
 }
 
+/// The error over m for the sources that are shown, worked out while this is open.
+void draw_error_over_factor(Frame& frame) {
+  const app::Answer* answer = frame.answer();
+  const bool heat = answer != nullptr && answer->method->heat() != nullptr;
+  if (!heat || frame.state().options.time_step.rule == TimeRule::kAbsolute) return;
+  if (!draw_more(frame, "Error over m")) return;
+  frame.out.study = true;
+  const app::SessionStudy& study = frame.session.error_study();
+  const double factor = frame.state().options.time_step.factor;
+  if (const auto chosen = draw_study_plot(frame, study, factor)) {
+    frame.set("time-factor", app::significant(*chosen, 3));
+  }
+  if (!study.failure.empty()) return draw_note(study.failure, frame.colours().error);
+  if (study.points.size() < 2) return draw_dim(frame, "The error is being worked out.");
+  const auto best = std::ranges::min_element(study.points, {},
+                                             [](const auto& point) { return point.mean_error; });
+  draw_value(frame, "least error",
+             percent_text(best->mean_error) + " at m = " + app::significant(best->factor, 3), "",
+             "Mean error against a more accurate method, among the factors that were tried.");
+}
+
 void draw_time(Frame& frame, const app::Setting& setting) {
   draw_named_choice(frame, setting, [&frame](const std::string& name) {
     return name == "absolute" ? ":" + rounded_time(frame) : std::string();
@@ -83,14 +104,18 @@ void draw_time(Frame& frame, const app::Setting& setting) {
     }
   } else {
     draw_factor(frame);
+    draw_error_over_factor(frame);
   }
   if (!frame.model()) return;
-  if (const auto t = time_now(frame)) {
+  const auto t = time_now(frame);
+  const app::Answer* answer = frame.answer();
+  const HeatMethod* heat = answer ? answer->method->heat() : nullptr;
+  // The same number once.
+  if (t && !(heat && app::significant(*t) == app::significant(heat->t()))) {
     draw_value(frame, "t now", app::significant(*t), "",
                "Diffusion time that these settings mean, model units squared.");
   }
-  const app::Answer* answer = frame.answer();
-  if (const HeatMethod* heat = answer ? answer->method->heat() : nullptr) {
+  if (heat != nullptr) {
     draw_value(
         frame, "t of the answer", app::significant(heat->t()), "",
         "Diffusion time that the distances shown were computed with, of the component with most "
@@ -132,7 +157,10 @@ void draw_backend(Frame& frame, const app::Setting& setting) {
 void draw_failure(Frame& frame) {
   const std::string& failure = frame.session.failure();
   if (failure.empty()) return;
-  draw_note(failure, frame.colours().error);
+  // Over the picture it is said as well, for a while: once is enough.
+  const bool said = std::ranges::any_of(
+      frame.ui.notices, [&](const Notice& notice) { return notice.text == failure; });
+  if (!said) draw_note(failure, frame.colours().error);
   if (draw_button(frame, "undo failure", "Undo the change", frame.session.can_undo())) {
     frame.send(app::command::Undo{});
   }
@@ -149,14 +177,51 @@ std::string triangulation_now(const Frame& frame) {
   return text + ".";
 }
 
+/// Says what each choice costs before it is made.
+void draw_refine(Frame& frame, const app::Setting& setting) {
+  draw_setting_label(frame, setting);
+  std::vector<std::string> labels;
+  for (const std::string& value : setting.values()) {
+    const int times = app::number_in<int>(value).value_or(0);
+    const bool said = times > 0 && frame.model() && !frame.model()->model.space;
+    labels.push_back(said ? value + ": " + app::refined_in_words(frame.model()->mesh.faces, times)
+                          : value);
+  }
+  const std::string now = setting.get(frame.state());
+  const auto chosen = draw_choice(frame, setting.name, now, labels);
+  if (chosen && name_part(*chosen) != now) frame.set(setting.name, name_part(*chosen));
+  if (frame.state().options.refine > 0 && frame.model()) {
+    const Index faces = frame.model()->mesh.faces;
+    draw_value(frame, "solved on", app::refined_in_words(faces, frame.state().options.refine), "",
+               "Each face is cut into four so often.");
+  }
+}
+
 /// The row of a setting, and what belongs to it.
 void draw_row(Frame& frame, const app::Setting& setting) {
   if (setting.name == "backend") return draw_backend(frame, setting);
   if (setting.name == "time-step") return draw_time(frame, setting);
   if (setting.name == "time-factor") return;  // with the time step
+  if (setting.name == "refine") return draw_refine(frame, setting);
   if (setting.name == "constraint") return draw_constraint(frame, setting);
   if (setting.name == "laplacian") return draw_setting(frame, setting, triangulation_now(frame));
   draw_setting(frame, setting);
+}
+
+/// What most people change; all else waits until it is asked for.
+bool is_usual_method(const app::Setting& setting) {
+  for (const char* name : {"method", "backend", "time-step", "time-factor", "refine"}) {
+    if (setting.name == name) return true;
+  }
+  return false;
+}
+
+void draw_rows(Frame& frame, bool usual) {
+  const bool heat = frame.state().options.method == MethodKind::kHeat;
+  for (const app::Setting& setting : app::settings()) {
+    if (!setting.of_method() || (!heat && setting.of_heat)) continue;
+    if (is_usual_method(setting) == usual) draw_row(frame, setting);
+  }
 }
 
 }  // namespace
@@ -165,10 +230,15 @@ void draw_solver_panel(Frame& frame) {
   if (!draw_section(frame, "Solver")) return;
   draw_work_row(frame);
   draw_failure(frame);
-  const bool heat = frame.state().options.method == MethodKind::kHeat;
-  for (const app::Setting& setting : app::settings()) {
-    if (setting.of_method() && (heat || !setting.of_heat)) draw_row(frame, setting);
+  if (frame.state().shown == app::Shown::kB) {
+    draw_note("B is shown; these settings are those of A.", frame.colours().warning);
+    if (draw_button(frame, "edit b", "Edit B: swap A and B")) {
+      frame.send(app::command::Swap{});
+      frame.send(app::command::Show{app::Shown::kA});
+    }
   }
+  draw_rows(frame, true);
+  if (draw_more(frame, "Advanced settings")) draw_rows(frame, false);
 }
 
 namespace {
@@ -188,7 +258,9 @@ void draw_stage(Frame& frame, const Stage& stage, double whole) {
 void draw_setup(Frame& frame, const app::Answer& answer) {
   const SetupTiming& setup = answer.setup;
   draw_heading(frame, "Set-up");
-  const double whole = std::max(setup.setup, 1e-9);
+  // Stages that the last change has reused keep their times, which are no part of its own.
+  const double whole =
+      std::max({setup.setup, setup.operators + setup.analyze + setup.factorize, 1e-9});
   draw_stage(frame,
              {"operators", setup.operators, "Cleaning, Delaunay flips, renumbering, assembly."},
              whole);

@@ -8,6 +8,7 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "ui/action.h"
+#include "ui/canvas.h"
 #include "ui/panels.h"
 #include "ui/source_edit.h"
 #include "ui/widgets.h"
@@ -38,6 +39,9 @@ std::string with_commas(const std::string& typed) {
 
 void draw_list(Frame& frame) {
   const auto& sources = frame.state().sources;
+  frame.ui.sources.pointed = -1;
+  const auto place = frame.ui.input.pointed(frame);
+  const int lit = place ? frame.explored().places[*place].entry : -1;
   if (sources.empty()) {
     return draw_dim(frame, "No source: click on the model to set one.");
   }
@@ -49,10 +53,16 @@ void draw_list(Frame& frame) {
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       ImGui::PushID(i);
-      const std::string text = app::to_text(sources[static_cast<std::size_t>(i)]);
+      const app::SourceSpec& source = sources[static_cast<std::size_t>(i)];
+      const std::string text = short_name(source);
       const float corner = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - line;
       ImGui::AlignTextToFramePadding();
       const ImVec2 low = ImGui::GetCursorScreenPos();
+      if (i == lit) {
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            low, {low.x + corner - ImGui::GetCursorPosX(), low.y + line},
+            packed(frame.colours().selected), frame.px(3));
+      }
       const float space = ImGui::GetStyle().ItemSpacing.x;
       ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(),
                                 {low.x, low.y + ImGui::GetStyle().FramePadding.y},
@@ -60,7 +70,9 @@ void draw_list(Frame& frame) {
                                 low.x + corner - ImGui::GetCursorPosX() - space, low.x + corner,
                                 text.c_str(), nullptr, nullptr);
       ImGui::Dummy({corner - ImGui::GetCursorPosX() - space, line});
-      draw_tip(frame, text);
+      frame.mark("source " + std::to_string(i));
+      if (ImGui::IsItemHovered()) frame.ui.sources.pointed = i;
+      draw_tip(frame, app::to_text(source));
       ImGui::SameLine(corner);
       const std::string key = "remove " + std::to_string(i);
       if (draw_button(frame, key, "\u00d7", true, line)) frame.send(app::command::RemoveSource{i});

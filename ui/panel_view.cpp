@@ -94,6 +94,14 @@ void draw_peel(Frame& frame, const app::Setting& setting) {
   }
 }
 
+/// What most people change; all else waits until it is asked for.
+bool is_usual(const app::Setting& setting) {
+  for (const char* name : {"view", "colour-map", "background", "spacing", "slice"}) {
+    if (setting.name == name) return true;
+  }
+  return false;
+}
+
 /// The switches, two side by side.
 void draw_switches(Frame& frame) {
   const float second = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x / 2;
@@ -132,7 +140,6 @@ void draw_pan(Frame& frame) {
 }
 
 void draw_camera(Frame& frame) {
-  draw_heading(frame, "Camera");
   for (const app::Setting& setting : app::settings()) {
     if (setting.group != app::SettingGroup::kCamera) continue;
     if (setting.name == "pan") {
@@ -163,12 +170,14 @@ void draw_camera(Frame& frame) {
 
 }  // namespace
 
-void draw_view_panel(Frame& frame) {
-  if (!draw_section(frame, "View", false)) return;
+namespace {
+
+void draw_picture_rows(Frame& frame, bool usual) {
   for (const app::Setting& setting : app::settings()) {
     const bool is_switch = setting.kind == app::SettingKind::kSwitch;
     if (setting.group != app::SettingGroup::kPicture || is_switch) continue;
     if (setting.name == "size") continue;  // in the dialog that saves a picture
+    if (is_usual(setting) != usual) continue;
     if (setting.name == "colour-map") {
       draw_colour_map(frame);
     } else if (setting.name == "range") {
@@ -183,8 +192,18 @@ void draw_view_panel(Frame& frame) {
       draw_setting(frame, setting, setting.name == "view" ? "Keys 1 to 9, 0, g, t and n." : "");
     }
   }
-  draw_switches(frame);
-  draw_camera(frame);
+}
+
+}  // namespace
+
+void draw_view_panel(Frame& frame) {
+  if (!draw_section(frame, "View")) return;
+  draw_picture_rows(frame, true);
+  if (draw_more(frame, "More of the view")) {
+    draw_picture_rows(frame, false);
+    draw_switches(frame);
+  }
+  if (draw_more(frame, "Camera")) draw_camera(frame);
   if (!draw_more(frame, "Figure")) return;
   for (const app::Setting& setting : app::settings()) {
     if (setting.group == app::SettingGroup::kFigure) draw_setting(frame, setting);

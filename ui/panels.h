@@ -61,6 +61,10 @@ void draw_progress(Frame& frame, double share, float height);
 /// How many vertices have which signed error, with 0 marked; shows a part's figures on hover.
 void draw_error_plot(Frame& frame, const ErrorHistogram& histogram);
 
+/// The error over the time factor, with the present one marked; both axes logarithmic. What a
+/// click on it means: the factor of the nearest point.
+std::optional<double> draw_study_plot(Frame& frame, const app::SessionStudy& study, double factor);
+
 /// The last queries as columns, the newest on the right: diffuse, gradient, poisson on each other.
 void draw_query_plot(Frame& frame);
 

@@ -70,6 +70,60 @@ void draw_error_plot(Frame& frame, const ErrorHistogram& histogram) {
 
 namespace {
 
+constexpr float kStudyHeight = 80;  ///< pixels at scale 1
+
+}  // namespace
+
+std::optional<double> draw_study_plot(Frame& frame, const app::SessionStudy& study, double factor) {
+  if (study.points.size() < 2) return std::nullopt;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const ImVec2 size(std::max(1.0F, ImGui::GetContentRegionAvail().x), frame.px(kStudyHeight));
+  const bool clicked = ImGui::InvisibleButton("##study plot", size);
+  frame.mark("study plot");
+  const auto [least, most] =
+      std::ranges::minmax(study.points, {}, [](const auto& point) { return point.mean_error; });
+  const double first = std::log(study.points.front().factor);
+  const double last = std::log(study.points.back().factor);
+  const double bottom = std::log(std::max(least.mean_error, 1e-12) / 1.2);
+  const double top = std::log(std::max(most.mean_error, 1e-12) * 1.2);
+  const float pad = frame.px(6);
+  const auto at = [&](double m, double error) {
+    const double x = (std::log(m) - first) / (last - first);
+    const double y = (std::log(std::max(error, 1e-12)) - bottom) / (top - bottom);
+    return ImVec2(low.x + pad + static_cast<float>(x) * (size.x - 2 * pad),
+                  low.y + size.y - pad - static_cast<float>(y) * (size.y - 2 * pad));
+  };
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const Palette& p = frame.colours();
+  const ImVec2 high(low.x + size.x, low.y + size.y);
+  list->AddRectFilled(low, high, packed(p.frame), frame.px(4));
+  const float here = std::clamp(at(factor, 1).x, low.x, high.x);
+  list->AddLine({here, low.y}, {here, high.y}, packed(p.dim), frame.px(1));
+  const app::SessionStudy::Point* nearest = nullptr;
+  float reach = 0;
+  for (std::size_t i = 0; i < study.points.size(); ++i) {
+    const auto& point = study.points[i];
+    const ImVec2 place = at(point.factor, point.mean_error);
+    if (i > 0) {
+      const auto& before = study.points[i - 1];
+      list->AddLine(at(before.factor, before.mean_error), place, packed(p.series[1]), frame.px(2));
+    }
+    list->AddCircleFilled(place, frame.px(2.5F), packed(p.series[1]));
+    const float away = std::abs(place.x - ImGui::GetIO().MousePos.x);
+    if (nearest == nullptr || away < reach) {
+      nearest = &point;
+      reach = away;
+    }
+  }
+  if (ImGui::IsItemHovered()) {
+    draw_tip(frame, "m = " + app::significant(nearest->factor, 3) + ": mean error " +
+                        percent_text(nearest->mean_error) + ". A click takes this factor.");
+  }
+  return clicked ? std::optional(nearest->factor) : std::nullopt;
+}
+
+namespace {
+
 constexpr float kQueryHeight = 62;  ///< pixels at scale 1
 constexpr float kColumn = 5;        ///< width of a query with its gap, pixels at scale 1
 

@@ -135,6 +135,11 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   const std::string& script = arguments.replay.empty() ? arguments.script : arguments.replay;
   if (!script.empty()) all.emplace_back(command::Run{script});
   if (auto done = session.submit_all(all); !done) return done.error();
+  if (!script.empty() && arguments.settings.has("size")) {  // not the size of whoever wrote it
+    const PictureSettings wish = settings_in(arguments.settings)->picture;
+    const std::string size = std::to_string(wish.width) + 'x' + std::to_string(wish.height);
+    if (auto done = session.submit(command::Set{"size", size}); !done) return done.error();
+  }
   CommandOutput out;
   if (!arguments.output.empty()) {
     if (auto saved = save({arguments.output}, session); !saved) return saved.error();
@@ -272,6 +277,7 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
     settings.width = save.width > 0 ? save.width : painter.width;
     settings.height = save.width > 0 ? save.height : painter.height;
     settings.paper = std::nullopt;
+    if (save.width <= 0 && !settings.text_size) settings.text_size = painter.text_size;
   }
   Outputs outputs;
   if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");

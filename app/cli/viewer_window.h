@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,9 @@ struct ViewPainter {
                                      bool panels)>
       draw;
   std::function<DrawingDevice()> device;
-  std::string command;        ///< the command line
-  int width = 0, height = 0;  ///< where the command names no size; 0: the settings'
+  std::string command;                   ///< the command line
+  int width = 0, height = 0;             ///< where the command names no size; 0: the settings'
+  std::optional<PaperLength> text_size;  ///< there, where the settings name none
 };
 
 /// Draws and writes what a session shows, as a .png that says of itself what `render`'s do.

@@ -124,6 +124,7 @@ class EngineDrawing final : public Drawing {
     const PictureScale scale = picture_scale(data, settings);
     const glm::vec2 extent(settings.width, settings.height);
     const engine::LegendLayout layout = engine::lay_out(legend_of(data, settings, scale), extent);
+    const engine::Insets insets = insets_of(settings, layout, extent);
     engine::Scene scene = scene_of(data, settings, scale);
     std::optional<FigureShapes> shapes;
     if (as == DrawAs::kFigure) {
@@ -134,7 +135,7 @@ class EngineDrawing final : public Drawing {
     const std::vector<glm::vec3> framed = scene_vectors(data.framed);
     const std::vector<glm::vec3>& fitted = framed.empty() ? positions : framed;
     for (int i = 0; i < frame_count(settings); ++i) {
-      scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, layout.insets);
+      scene.camera = camera_of(data, frame_camera(settings, i), fitted, extent, insets);
       std::shared_ptr<const Figure> figure;
       if (shapes) figure = std::make_shared<Figure>(shapes->of(shown, scene, layout.overlay));
       auto image = shapes ? engine::draw_picture(*device_, *renderer_, FigureShapes::rest_of(scene))

@@ -260,7 +260,8 @@ Result<std::string> page_file(const PictureData& shown, const PictureData& whole
       engine::lay_out(legend_of(whole, settings, picture_scale(whole, settings)), extent);
   const std::vector<glm::vec3> fitted =
       scene_vectors(whole.framed.empty() ? whole.positions : whole.framed);
-  const engine::Camera camera = camera_of(whole, settings.camera, fitted, extent, layout.insets);
+  const engine::Camera camera =
+      camera_of(whole, settings.camera, fitted, extent, insets_of(settings, layout, extent));
 
   const SceneMesh mesh = scene_mesh(shown);
   PageTables tables;

@@ -31,8 +31,8 @@ constexpr glm::vec3 kNoValue{0.62F};
 
 constexpr float kPaperOpacity = 0.75F;
 
-/// Sources in the view that is about them.
-constexpr float kLargeMarker = 8;
+/// Sources, and those in the view that is about them.
+constexpr float kMarker = 6.5F, kLargeMarker = 9;
 constexpr glm::vec3 kSourceRed{0.86F, 0.13F, 0.11F};
 
 constexpr glm::vec3 kDarkInk{0.10F, 0.11F, 0.13F};
@@ -149,7 +149,6 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
 /// Of letters: 0 where they suit the picture. Fonts are called by the size of their em, of which a
 /// line is a little more.
 float line_height_of(const PictureSettings& settings) {
-  constexpr double kLineOfEm = 1.164;
   if (!settings.text_size && !settings.paper) return 0;
   return static_cast<float>(kLineOfEm *
                             pixels_of(settings.text_size.value_or(kTextOnPaper), settings));
@@ -202,6 +201,20 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   return legend;
 }
 
+engine::Insets insets_of(const PictureSettings& settings, const engine::LegendLayout& legend,
+                         glm::vec2 extent) {
+  if (settings.camera.fit != PictureFit::kSphere) return legend.insets;
+  engine::Legend usual;
+  usual.line_height = line_height_of(settings);
+  usual.heading = settings.title;
+  if (settings.caption) usual.caption = "M";
+  usual.bar = settings.bar;
+  usual.colours.resize(2);
+  usual.title = "distance (model\u00a0units)";
+  for (const float place : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) usual.ticks.push_back({place, "0.05"});
+  return engine::lay_out(usual, extent).insets;
+}
+
 engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
                          std::span<const glm::vec3> points, glm::vec2 extent,
                          const engine::Insets& insets) {
@@ -237,6 +250,7 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
       settings.view == View::kHeatGradient || settings.view == View::kGradientError;
   scene.arrows.secondary = settings.view == View::kGradientError;
   scene.markers.visible = settings.markers && needs_sources(settings.view);
+  scene.markers.radius = kMarker;
   if (settings.view == View::kSources) {
     scene.markers.radius = kLargeMarker;
     scene.markers.colour = kSourceRed;

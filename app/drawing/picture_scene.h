@@ -23,6 +23,15 @@ DrawingDevice to_drawing_device(const engine::DeviceInfo& info);
 engine::Legend legend_of(const PictureData& data, const PictureSettings& settings,
                          const PictureScale& scale);
 
+/// A line of text is so much higher than the size its font is called by.
+inline constexpr double kLineOfEm = 1.164;
+
+/// The room that the legend is given beside the model. Where the model is to look as large from
+/// everywhere (PictureFit::kSphere) that follows from settings alone, so that it does not move when
+/// a bar or a caption comes or goes; else it is what this legend takes. Cost there: lay_out().
+engine::Insets insets_of(const PictureSettings& settings, const engine::LegendLayout& legend,
+                         glm::vec2 extent);
+
 /// What the eye sees of `points`, which lie in scene space and belong to `data`.
 engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
                          std::span<const glm::vec3> points, glm::vec2 extent,

@@ -244,6 +244,10 @@ std::string to_text(const Command& command);
 /// \\ inside. Errors: kBadInput, "column N: ..." with what was expected.
 Result<Command> parse_command(std::string_view line);
 
+/// What the last word of an unfinished line may become, each as a whole word: commands and
+/// settings, second words, values that have names. Empty: nothing is known of it.
+std::vector<std::string> completions(std::string_view line);
+
 /// A line of a script with its command.
 struct ScriptLine {
   int number = 1;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "app/picture/picture_text.h"
 #include "app/session/command.h"
@@ -290,7 +291,47 @@ Result<Command> read_setting(const Setting& setting, WordReader& reader) {
   return Command(command::Set{name, setting.get(scratch)});
 }
 
+/// The words that "on|off" or "FILE|none" allow.
+std::vector<std::string> words_in(std::string_view arguments) {
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : std::string(arguments) + "|") {
+    if (c >= 'a' && c <= 'z') {
+      word += c;
+    } else if (c == '|' && !word.empty()) {
+      words.push_back(std::exchange(word, {}));
+    } else if (c != '[' && c != ']') {
+      return words;  // what follows is no fixed word
+    }
+  }
+  return words;
+}
+
 }  // namespace
+
+std::vector<std::string> completions(std::string_view line) {
+  const std::size_t blank = line.rfind(' ');
+  const bool first = blank == std::string_view::npos;
+  const std::string_view begun = first ? line : line.substr(blank + 1);
+  const std::string before(trimmed(first ? "" : line.substr(0, blank)));
+  std::vector<std::string> all;
+  if (first) {
+    all = names("");
+    for (const Setting& setting : settings()) all.emplace_back(setting.name);
+  } else if (const Setting* setting = find_setting(before)) {
+    if (setting->values != nullptr) all = setting->values();
+    if (setting->kind == SettingKind::kSwitch) all = {"on", "off"};
+  } else {
+    const auto form = std::ranges::find(kForms, std::string_view(before), &Form::name);
+    const bool whole = form != std::end(kForms);
+    const bool group = std::ranges::any_of(
+        kForms, [&](const Form& f) { return f.name.starts_with(before + ' '); });
+    if (whole) all = words_in(form->arguments);
+    if (group) all = names(before);
+  }
+  std::erase_if(all, [&](const std::string& word) { return !word.starts_with(begun); });
+  return all;
+}
 
 Result<Command> parse_command(std::string_view line) {
   auto made = WordReader::of(line);

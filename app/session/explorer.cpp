@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <new>
 
 #include "app/session/progress.h"
@@ -125,8 +126,12 @@ Result<void> Explorer::load(const ExploreRequest& request, const Progress& progr
   model->model = *std::move(loaded);
   const std::shared_ptr<const TriangleMesh> mesh = model->model.mesh;
   if (!report(progress, "inspecting", -1)) return cancelled_error();
+  // Both take about as long, and people wait for the picture.
+  auto picture = std::async(std::launch::async, [&model, &mesh] {
+    return std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
+  });
   describe(*model);
-  auto base = std::make_shared<PictureData>(picture_of(*mesh, tets_of(model->model)));
+  auto base = picture.get();
   base->up = model->model.up;
   base->solid = is_solid(*mesh, model->mesh);
   model->base = std::move(base);

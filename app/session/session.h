@@ -41,6 +41,16 @@ struct SessionCompare {
   std::string reference;
 };
 
+/// The mean error over the time factor, of the sources and settings that it began with.
+struct SessionStudy {
+  bool running = false;
+  struct Point {
+    double factor = 1, mean_error = 0;  ///< the latter relative
+  };
+  std::vector<Point> points;  ///< by factor, as far as there are any yet
+  std::string failure;        ///< why there are no more; empty: nothing went wrong
+};
+
 /// What a session is given to work with.
 struct SessionHooks {
   /// Does the work on threads of its own and calls this, from any thread, when update() has
@@ -50,6 +60,9 @@ struct SessionHooks {
   /// Writes a picture of the state and what is explored. Empty: pictures cannot be saved.
   std::function<Result<void>(const command::SavePicture&, const class Session&)> save_picture;
   std::vector<std::string> colour_maps;  ///< empty: any name will do
+  /// The picture's settings with the size and the letters that it is seen with, which saved
+  /// sessions and logs end with. Empty: nobody sees it.
+  std::function<PictureSettings()> seen;
   /// Commands that write files are skipped, and said to be: a log from elsewhere is replayed.
   bool writes_files = true;
 };
@@ -100,6 +113,13 @@ class Session {
   std::span<const LogLine> log() const;
   std::span<const QueryRecord> queries() const;  ///< the last ones, oldest first
   const SessionCompare& compare() const;
+
+  /// Solves with several time factors in the background and holds each answer against a better
+  /// method, unless that has been done for what is shown or goes on. Precondition: the answer of A
+  /// is by the heat method. Where work goes on or waits, nothing happens yet.
+  void study();
+  /// Of what is shown, whatever its factor; empty where study() has not been asked for it.
+  const SessionStudy& error_study() const;
 
   /// The commands since the start as a script; drags of the camera in one line each.
   std::string script() const;

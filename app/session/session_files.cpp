@@ -10,6 +10,7 @@
 #include "app/session/report.h"
 #include "app/session/script.h"
 #include "app/session/session_state.h"
+#include "app/session/settings.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
 #include "solver/mesh/frames.h"
@@ -99,6 +100,21 @@ Result<void> save_figures(const command::SaveFigures& save, const Session& sessi
   return write_text(session.state(), save.path, "save figures", report_text(solve_json(*answer)));
 }
 
+/// What makes a picture that is drawn elsewhere as large as it is seen here, with its letters.
+std::string size_seen(const ViewerState& state, const SessionHooks& hooks) {
+  if (!hooks.seen) return {};
+  ViewerState seen = state;
+  seen.picture = hooks.seen();
+  std::string text;
+  for (const char* name : {"size", "text-size"}) {
+    const std::string value = find_setting(name)->get(seen);
+    if (value != find_setting(name)->get(state)) {
+      text += to_text(command::Set{name, value}) + '\n';
+    }
+  }
+  return text;
+}
+
 std::string session_text(const ViewerState& state) {
   std::string text = script_head() + to_text(command::Reset{}) + '\n';
   for (const Command& command : commands_to(state)) text += to_text(command) + '\n';
@@ -132,9 +148,10 @@ Result<void> Session::State::save(const Command& command, const Session& session
   } else if (const auto* figures = std::get_if<command::SaveFigures>(&command)) {
     done = save_figures(*figures, session);
   } else if (std::holds_alternative<command::SaveSession>(command)) {
-    done = write_text(state, path, "save session", session_text(state));
+    done = write_text(state, path, "save session", session_text(state) + size_seen(state, hooks));
   } else if (std::holds_alternative<command::SaveLog>(command)) {
-    done = write_text(state, path, "save log", script_head() + commands.script());
+    done = write_text(state, path, "save log",
+                      script_head() + commands.script() + size_seen(state, hooks));
   }
   if (!done) return done;
   if (giver == Giver::kScript) {

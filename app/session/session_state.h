@@ -89,6 +89,8 @@ struct Session::State {
   void note_error(const Explored& before);
   void take_answer(const ExploreRequest& request, Result<Explored> answer);
   Result<void> start_compare(const command::Compare& command);
+  ExploreRequest studied_request() const;
+  void start_study();
   bool works();
 
   // session_files.cpp: what is written.
@@ -132,12 +134,22 @@ struct Session::State {
     ExploreRequest request;
     Result<Explored> answer;
   };
+  struct Studied {
+    std::uint64_t number;  ///< of State::studies
+    SessionStudy study;    ///< as far as it is
+  };
   struct Compared {
     Result<std::vector<CompareRow>> rows;
   };
   std::mutex inbox_mutex;
-  std::vector<std::variant<Early, Answered, Compared>> inbox;
-  void post(std::variant<Early, Answered, Compared> message);
+  using Message = std::variant<Early, Answered, Compared, Studied>;
+  std::vector<Message> inbox;
+  void post(Message message);
+
+  /// What the last study is of: what is asked for, but for the time factor.
+  std::optional<ExploreRequest> studied;
+  SessionStudy study;
+  std::uint64_t studies = 0;
 
   Explorer explorer;                             ///< the worker's
   std::optional<Worker> worker, compare_worker;  // last: they use all of the above

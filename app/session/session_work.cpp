@@ -105,7 +105,7 @@ void Session::State::start(const ExploreRequest& request) {
   take();
 }
 
-void Session::State::post(std::variant<Early, Answered, Compared> message) {
+void Session::State::post(Message message) {
   {
     const std::lock_guard lock(inbox_mutex);
     inbox.push_back(std::move(message));
@@ -114,7 +114,7 @@ void Session::State::post(std::variant<Early, Answered, Compared> message) {
 }
 
 bool Session::State::take() {
-  std::vector<std::variant<Early, Answered, Compared>> messages;
+  std::vector<Message> messages;
   {
     const std::lock_guard lock(inbox_mutex);
     messages.swap(inbox);
@@ -139,6 +139,8 @@ bool Session::State::take() {
       }
     } else if (auto* answered_now = std::get_if<Answered>(&message)) {
       take_answer(answered_now->request, std::move(answered_now->answer));
+    } else if (auto* part = std::get_if<Studied>(&message)) {
+      if (part->number == studies) study = std::move(part->study);
     } else if (auto* compared = std::get_if<Compared>(&message)) {
       compare.running = false;
       if (compared->rows) {

@@ -9,6 +9,7 @@
 #include "geotherm/heat_method.h"
 #include "geotherm/options.h"
 #include "solver/core/text.h"
+#include "solver/method/mapped_method.h"
 
 namespace geotherm::app {
 namespace {
@@ -117,6 +118,12 @@ std::string mesh_in_words(const MeshSummary& mesh) {
          (mesh.boundary_edges == 0
               ? "no boundary"
               : counted(mesh.boundary_edges, "boundary edge", "boundary edges"));
+}
+
+std::string refined_in_words(Index faces, int times) {
+  const std::int64_t all = refined_faces(faces, times);
+  return grouped(all) + " faces, " +
+         significant(static_cast<double>(least_refined_bytes(all)) / 1e6, 2) + " MB or more";
 }
 
 Warning crack_note(const CrackReport& cracks) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/window/scene_screen.h"
 
+#include <cmath>
+
 #include "app/drawing/picture_scene.h"
 #include "app/session/explored.h"
 #include "engine/renderer.h"
@@ -13,6 +15,16 @@ DrawnPicture in_our_words(engine::Image image) {
 }
 
 }  // namespace
+
+PictureSettings PictureArea::shown(PictureSettings settings) const {
+  settings.width = extent.x;
+  settings.height = extent.y;
+  if (line > 0 && !settings.text_size) {
+    constexpr double kParts = 10;  // of a pixel
+    settings.text_size = PaperLength{std::round(kParts * line / kLineOfEm) / kParts};
+  }
+  return settings;
+}
 
 SceneScreen::SceneScreen(engine::Device device, engine::Renderer renderer)
     : device_(std::move(device)), renderer_(std::move(renderer)) {}
@@ -76,6 +88,7 @@ Result<void> SceneScreen::update_data(const Session& session) {
     cut_.reset();
     positions_ = std::move(positions);
     uploaded_.reset();
+    kept_.reset();
   }
   const PictureSettings& settings = state.picture;
   const Uploaded now{explored.version, state.shown,       settings.view,     settings.colour_map,
@@ -127,42 +140,58 @@ void SceneScreen::update_legend(const PictureSettings& settings) {
   if (laid_out_ == but_camera) return;
   const PictureScale scale = picture_scale(data_, settings);
   legend_ = engine::lay_out(legend_of(data_, settings, scale), area_.extent);
+  insets_ = insets_of(settings, legend_, area_.extent);
   laid_out_ = std::move(but_camera);
 }
 
 Result<void> SceneScreen::update(const Session& session, const PictureArea& area) {
   area_ = area;
   if (auto done = update_data(session); !done) return done;
-  PictureSettings settings = session.state().picture;
-  settings.width = area.extent.x;
-  settings.height = area.extent.y;
+  const PictureSettings settings = area.shown(session.state().picture);
   samples_ = settings.samples;
+  Seen now{uploaded_.value_or(Uploaded()), settings, area, window_extent()};
+  if (seen_ == now) return {};
+  seen_ = std::move(now);
   update_legend(settings);
   scene_ = scene_of(data_, settings, picture_scale(data_, settings));
   scene_.surface.visible = has_model();
-  scene_.camera = camera_of(data_, settings.camera, positions_, area.extent, legend_.insets);
+  scene_.camera = camera_of(data_, settings.camera, positions_, area.extent, insets_);
   if (!has_model()) legend_ = {};
   return {};
 }
 
 Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
-  renderer_.set_samples(fast && device_.info().software ? 1 : samples_);
+  const bool quick = fast && device_.info().software;
+  renderer_.set_samples(quick ? 1 : samples_);
+  renderer_.set_coarse(quick && kept_);  // a model is first seen as it is
+  drew_scene_ = !(kept_ && kept_ == seen_ && (quick || !kept_fast_));
+  const engine::SceneUse use = drew_scene_ ? engine::SceneUse::kKeep : engine::SceneUse::kAgain;
+  engine::Target* target = window_target_.get();
   if (window_target_) {
     window_target_->set_picture_corner(area_.corner);
-    return renderer_.render(*window_target_, scene_, legend_.overlay, &panels);
+  } else {
+    offscreen_target_->set_origin(-area_.corner);
+    target = offscreen_target_.get();
   }
-  offscreen_target_->set_origin(-area_.corner);
-  return renderer_.render(*offscreen_target_, scene_, legend_.overlay, &panels);
+  if (drew_scene_) kept_.reset();
+  auto drawn = renderer_.render(*target, scene_, legend_.overlay, &panels, use);
+  if (drawn && drew_scene_) {
+    kept_ = seen_;
+    kept_fast_ = quick;
+  }
+  return drawn;
 }
 
 Result<DrawnPicture> SceneScreen::picture(const PictureData& data,
                                           const PictureSettings& settings) {
   renderer_.set_samples(settings.samples);
+  renderer_.set_coarse(false);
   const PictureScale scale = picture_scale(data, settings);
   const glm::vec2 extent(settings.width, settings.height);
   const engine::LegendLayout legend = engine::lay_out(legend_of(data, settings, scale), extent);
   engine::Scene scene = scene_of(data, settings, scale);
-  scene.camera = camera_of(data, settings.camera, positions_, extent, legend.insets);
+  scene.camera =
+      camera_of(data, settings.camera, positions_, extent, insets_of(settings, legend, extent));
   auto image = engine::draw_picture(device_, renderer_, scene, legend.overlay);
   if (!image) return image.error();
   return in_our_words(*std::move(image));
@@ -174,6 +203,7 @@ Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,
   if (!target) return target.error();
   (*target)->set_origin(-area_.corner);
   renderer_.set_samples(samples_);
+  renderer_.set_coarse(false);
   const auto drawn = renderer_.render(**target, scene_, legend_.overlay, &panels);
   if (!drawn) return drawn.error();
   engine::Image image;

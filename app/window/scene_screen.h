@@ -20,6 +20,13 @@ namespace geotherm::app {
 /// Where the picture lies within the window, pixels of the window.
 struct PictureArea {
   glm::ivec2 corner{0, 0}, extent{1, 1};
+  float line = 0;  ///< height of a line of the panels' text; 0: letters suit the picture
+
+  /// As large as it is here, and with letters as large as those of the panels where nothing else is
+  /// said.
+  PictureSettings shown(PictureSettings settings) const;
+
+  bool operator==(const PictureArea&) const = default;
 };
 
 /// Draws what a session shows, into a window and into pictures, with one renderer. Uploads what has
@@ -42,8 +49,11 @@ class SceneScreen {
   /// Brings data and camera up to date with the session, for a picture of this size. Cost: what has
   /// changed since the last call.
   Result<void> update(const Session& session, const PictureArea& area);
-  /// `fast`: one sample a pixel where the device is software.
+  /// `fast`: where the device is software, one sample a pixel and few faces for many. A scene that
+  /// was drawn before, as well or better, is shown again.
   Result<void> draw(const engine::PanelDraw& panels, bool fast);
+  /// Whether the last draw() has drawn the scene and not only the panels over it.
+  bool drew_scene() const { return drew_scene_; }
 
   /// A picture of what was brought up to date last, with other settings than those of the window.
   Result<DrawnPicture> picture(const PictureData& data, const PictureSettings& settings);
@@ -58,7 +68,7 @@ class SceneScreen {
   /// What a ray in scene space meets first of what a cut leaves. Precondition: cut() is there.
   /// Cost: the first time after a change that of RayTree::build().
   std::optional<RayHit> hit_cut(const Vec3& origin, const Vec3& direction) const;
-  const engine::Insets& insets() const { return legend_.insets; }
+  const engine::Insets& insets() const { return insets_; }
   DrawingDevice device() const;
   std::vector<std::string> validation_messages() const;
   bool has_model() const { return base_ != nullptr; }
@@ -99,9 +109,21 @@ class SceneScreen {
 
   std::optional<PictureSettings> laid_out_;  ///< what the legend was made for
   engine::LegendLayout legend_;
+  engine::Insets insets_;
   engine::Scene scene_;
   PictureArea area_;
   int samples_ = 4;
+
+  /// What the scene that is kept was drawn of.
+  struct Seen {
+    Uploaded uploaded;
+    PictureSettings settings;
+    PictureArea area;
+    glm::ivec2 window{0, 0};
+    bool operator==(const Seen&) const = default;
+  };
+  std::optional<Seen> seen_, kept_;
+  bool kept_fast_ = false, drew_scene_ = false;
 };
 
 }  // namespace geotherm::app

@@ -46,6 +46,8 @@ Result<std::unique_ptr<WindowLoop>> WindowLoop::open(const ViewerStart& start) {
                                       " draw without a display"});
   }
   loop->window_ = *std::move(window);
+  // The model is read meanwhile.
+  if (auto begun = loop->begin_session(); !begun) return begun.error();
   if (auto opened = loop->open_screen(); !opened) return opened.error();
   loop->window_->connect_panels();
   loop->layout_path_ = ui::layout_path();
@@ -75,18 +77,21 @@ Result<void> WindowLoop::begin_session() {
   hooks.save_picture = [this](const command::SavePicture& save, const Session& session) {
     return save_picture(save, session);
   };
+  hooks.seen = [this] {
+    const PictureSettings& picture = session_->state().picture;
+    return screen_ && interface_ ? screen_->area().shown(picture) : picture;
+  };
   for (const engine::ColourMap& map : engine::colour_maps()) {
     hooks.colour_maps.emplace_back(map.name);
   }
   session_ = std::make_unique<Session>(std::move(hooks));
   std::vector<Command> commands = start_.commands;
   if (!start_.script.empty()) commands.emplace_back(command::Run{start_.script});
-  session_->say(LogLine::Kind::kNote, "drawing on " + device_in_words(screen_->device()));
   return session_->submit_all(commands);
 }
 
 Result<void> WindowLoop::run() {
-  if (auto begun = begin_session(); !begun) return begun;
+  session_->say(LogLine::Kind::kNote, "drawing on " + device_in_words(screen_->device()));
   bool had_model = false;
   while (!session_->quits()) {
     sleep();
@@ -96,10 +101,12 @@ Result<void> WindowLoop::run() {
     }
     if (!had_model && screen_->has_model()) {
       had_model = true;
+      clock_.something_happened();  // the first picture is a quick one
       session_->say(LogLine::Kind::kNote, "first picture of a model " +
                                               milliseconds(process_milliseconds()) +
                                               " ms after the start of the program");
     }
+    name_window();
     remember_layout();
   }
   const std::vector<std::string> messages = screen_->validation_messages();
@@ -138,6 +145,14 @@ Result<void> WindowLoop::follow_scale() {
   return uploaded;
 }
 
+void WindowLoop::name_window() {
+  const auto& model = session_->explored().model;
+  const std::string title = model ? one_line(model->model.name) + " - geotherm" : "geotherm";
+  if (title == title_) return;
+  title_ = title;
+  window_->set_title(title);
+}
+
 void WindowLoop::remember_layout() {
   if (clock_.frame_is_due() || interface_->layout() == saved_layout_) return;
   saved_layout_ = interface_->layout();
@@ -159,6 +174,7 @@ PictureArea WindowLoop::area() const {
   area.extent =
       glm::max(glm::ivec2(1),
                glm::ivec2(pixel(rect.x + rect.width), pixel(rect.y + rect.height)) - area.corner);
+  area.line = ui::kLetters * interface_->scale() * scale;
   return area;
 }
 
@@ -183,9 +199,11 @@ Result<void> WindowLoop::frame() {
   if (window_->has_more_input()) clock_.something_happened();
   const ui::FrameOutput out = lay_out_panels();
   if (out.cancel) session_->cancel();
+  if (out.study) session_->study();
   session_->set_dragging(out.dragging);
   const bool moves = out.dragging || session_->state().rotating;
-  const bool fast = moves || (out.animating && full_frame_ms_ > kSlowFrame);
+  const bool fast =
+      moves || !screen_->has_model() || (out.animating && full_frame_ms_ > kSlowFrame);
   if (!out.commands.empty() || out.animating || fast != fast_) clock_.something_happened();
   fast_ = fast;
   // The frame that was laid out shows what commands change at once, but for the panels.
@@ -208,7 +226,7 @@ Result<void> WindowLoop::draw_frame(bool fast) {
   drawn_at_ = Clock::now();
   const Stopwatch watch;
   auto drawn = screen_->draw(panel_draw(), fast);
-  if (!fast) full_frame_ms_ = watch.milliseconds();
+  if (!fast && screen_->drew_scene()) full_frame_ms_ = watch.milliseconds();
   return drawn;
 }
 
@@ -259,6 +277,7 @@ Result<void> WindowLoop::save_picture(const command::SavePicture& save, const Se
   if (drawable) {
     painter.width = extent.x;
     painter.height = extent.y;
+    painter.text_size = screen_->area().shown({}).text_size;
   }
   painter.draw = [this](const PictureData& data, const PictureSettings& settings, bool panels) {
     return panels ? picture_with_panels(settings) : screen_->picture(data, settings);

@@ -86,6 +86,7 @@ class WindowLoop {
   void sleep();
   Result<void> follow_scale();
   void remember_layout();
+  void name_window();
   ui::FrameOutput lay_out_panels();
   PictureArea area() const;
   float pixels_per_point() const;
@@ -100,6 +101,7 @@ class WindowLoop {
   std::unique_ptr<SceneScreen> screen_;
   std::unique_ptr<ui::Interface> interface_;
   std::unique_ptr<Session> session_;
+  std::string title_;  ///< of the window
   std::string layout_path_;
   ui::Layout saved_layout_;
   std::uint64_t font_version_ = 0;

@@ -135,6 +135,7 @@ struct TargetFrame {
   vk::ImageView view;
   vk::Format format = vk::Format::eUndefined;
   glm::ivec2 origin{0, 0};  ///< its first pixel in the whole picture
+  bool copyable = false;    ///< another image may be copied to it
 };
 
 template <class T>

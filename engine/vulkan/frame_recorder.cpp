@@ -63,52 +63,50 @@ FrameRecorder::FrameRecorder(std::shared_ptr<Device::State> device, int samples)
 void FrameRecorder::set_samples(int samples) { samples_ = sample_count(samples); }
 
 void FrameRecorder::set_surface(const DrawMesh& mesh, std::span<const float> values) {
-  Buffer vertices = device_->upload(bytes_of(mesh.vertices), Usage::eVertexBuffer);
-  Buffer indices = device_->upload(bytes_of(mesh.faces), Usage::eIndexBuffer);
-  Buffer made = device_->upload(std::as_bytes(values), Usage::eVertexBuffer);
-  vertices_ = std::move(vertices);
-  indices_ = std::move(indices);
-  values_ = std::move(made);
-  index_count_ = static_cast<std::uint32_t>(3 * mesh.faces.size());
-  regions_ = {};
-  face_vertices_ = {};
-  face_values_ = {};
+  Surface made;
+  made.vertices = device_->upload(bytes_of(mesh.vertices), Usage::eVertexBuffer);
+  made.indices = device_->upload(bytes_of(mesh.faces), Usage::eIndexBuffer);
+  made.values = device_->upload(std::as_bytes(values), Usage::eVertexBuffer);
+  made.index_count = static_cast<std::uint32_t>(3 * mesh.faces.size());
+  *surface_ = std::move(made);
+  if (surface_ != &surfaces_[0]) return;
   line_ranges_.clear();
   marker_count_ = 0;
 }
 
 void FrameRecorder::set_vertices(std::span<const DrawMesh::Vertex> vertices) {
-  device_->update(vertices_, std::as_bytes(vertices));
-  face_vertices_ = {};
-  face_values_ = {};
+  device_->update(surface_->vertices, std::as_bytes(vertices));
+  surface_->face_vertices = {};
+  surface_->face_values = {};
 }
 
 void FrameRecorder::set_values(std::span<const float> values) {
-  device_->update(values_, std::as_bytes(values));
+  device_->update(surface_->values, std::as_bytes(values));
 }
 
 void FrameRecorder::set_regions(std::span<const glm::vec3> values_regions_margins) {
   const auto bytes = std::as_bytes(values_regions_margins);
+  Buffer& regions = surface_->regions;
   if (bytes.empty()) {
-    regions_ = {};
-  } else if (regions_.bytes == bytes.size()) {
-    device_->update(regions_, bytes);
+    regions = {};
+  } else if (regions.bytes == bytes.size()) {
+    device_->update(regions, bytes);
   } else {
-    regions_ = device_->upload(bytes, Usage::eVertexBuffer);
+    regions = device_->upload(bytes, Usage::eVertexBuffer);
   }
 }
 
 void FrameRecorder::set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
                                        std::span<const float> values) {
   Buffer made = device_->upload(std::as_bytes(vertices), Usage::eVertexBuffer);
-  face_values_ = device_->upload(std::as_bytes(values), Usage::eVertexBuffer);
-  face_vertices_ = std::move(made);
+  surface_->face_values = device_->upload(std::as_bytes(values), Usage::eVertexBuffer);
+  surface_->face_vertices = std::move(made);
 }
 
 void FrameRecorder::set_face_values(std::span<const float> values) {
-  if (!values.empty()) return device_->update(face_values_, std::as_bytes(values));
-  face_vertices_ = {};
-  face_values_ = {};
+  if (!values.empty()) return device_->update(surface_->face_values, std::as_bytes(values));
+  surface_->face_vertices = {};
+  surface_->face_values = {};
 }
 
 void FrameRecorder::set_colours(const ColourTable& table) {
@@ -179,12 +177,12 @@ const Attachments& FrameRecorder::fitting_attachments(vk::Extent2D size, vk::For
   return own;
 }
 
-void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene) {
+void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene,
+                           SceneUse use) {
   const vk::raii::CommandBuffer& commands = *frame.commands;
   const vk::Extent2D size(static_cast<std::uint32_t>(extent.x),
                           static_cast<std::uint32_t>(extent.y));
   pipelines_.use(frame.format, samples_);
-  const Attachments& attachments = fitting_attachments(size, frame.format);
   const shared::Frame uniforms = frame_uniforms(scene, frame.origin, extent);
   std::memcpy(frame_.memory.mapped(), &uniforms, sizeof(uniforms));
 
@@ -193,12 +191,33 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
   commands.setScissor(0, picture_in(extent, frame.origin, scene.camera));
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, pipelines_.layout(), 0,
                               *descriptors_.set, {});
-
-  const glm::vec4& b = scene.background;
-  const std::array<float, 4> background = {b.r * b.a, b.g * b.a, b.b * b.a, b.a};
-  record_scene_begin(commands, attachments, frame.view, vk::ClearColorValue(background));
-  record_scene(commands, scene);
-  commands.endRendering();
+  if (use == SceneUse::kOnce || !frame.copyable) {
+    record_new_scene(frame, size, scene, frame.view);
+  } else {
+    const bool fits = kept_.picture.extent == size && kept_.format == frame.format;
+    if (!fits) {
+      kept_ = {};  // first, so that both are never there at once
+      using ImageUsage = vk::ImageUsageFlagBits;
+      kept_ = {Texture(device_->memory, size, frame.format,
+                       ImageUsage::eColorAttachment | ImageUsage::eTransferSrc),
+               frame.format};
+    }
+    if (!fits || use == SceneUse::kKeep) {
+      using Stage = vk::PipelineStageFlagBits2;
+      using Access = vk::AccessFlagBits2;
+      using Layout = vk::ImageLayout;
+      constexpr auto kDraws = Stage::eColorAttachmentOutput;
+      record_transition(commands,
+                        {*kept_.picture.image, Layout::eUndefined, Layout::eColorAttachmentOptimal,
+                         Stage::eCopy, Access::eNone, kDraws, Access::eColorAttachmentWrite});
+      record_new_scene(frame, size, scene, *kept_.picture.view);
+      record_transition(
+          commands,
+          {*kept_.picture.image, Layout::eColorAttachmentOptimal, Layout::eTransferSrcOptimal,
+           kDraws, Access::eColorAttachmentWrite, Stage::eCopy, Access::eTransferRead});
+    }
+    record_copy(commands, size, *kept_.picture.image, frame.image);
+  }
   if (overlay_count_ == 0 && panels_.empty()) return;
   record_overlay_begin(commands, size, frame.image, frame.view);
   if (overlay_count_ > 0) record_overlay(commands);
@@ -206,8 +225,18 @@ void FrameRecorder::record(const TargetFrame& frame, glm::ivec2 extent, const Sc
   commands.endRendering();
 }
 
+void FrameRecorder::record_new_scene(const TargetFrame& frame, vk::Extent2D size,
+                                     const Scene& scene, vk::ImageView onto) {
+  const Attachments& attachments = fitting_attachments(size, frame.format);
+  const glm::vec4& b = scene.background;
+  const std::array<float, 4> background = {b.r * b.a, b.g * b.a, b.b * b.a, b.a};
+  record_scene_begin(*frame.commands, attachments, onto, vk::ClearColorValue(background));
+  record_scene(*frame.commands, scene);
+  frame.commands->endRendering();
+}
+
 void FrameRecorder::record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene) {
-  if (scene.surface.visible && index_count_ > 0) record_surface(commands, scene);
+  if (scene.surface.visible && surface_->index_count > 0) record_surface(commands, scene);
   if (scene.lines.visible) record_lines(commands, scene, true);
   record_arrows(commands, scene.arrows);
   if (scene.lines.visible) record_lines(commands, scene, false);
@@ -216,22 +245,24 @@ void FrameRecorder::record_scene(const vk::raii::CommandBuffer& commands, const 
 
 void FrameRecorder::record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene) {
   std::uint32_t features = surface_features(scene);
-  if (regions_.bytes == 0) features &= ~shared::kRegions;
+  if (surface_->regions.bytes == 0) features &= ~shared::kRegions;
+  if (surface_ != &surfaces_[0]) features &= ~shared::kWire;  // its edges are not the model's
   if (scene.surface.paint == Paint::kFaces) {
     if (has_face_values()) return record_faces(commands, features);
     features &= ~shared::kMapped;
   }
-  const Buffer& values = (features & shared::kRegions) != 0 ? regions_ : values_;
+  const Buffer& values = (features & shared::kRegions) != 0 ? surface_->regions : surface_->values;
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.surface(features));
-  commands.bindVertexBuffers(0, {*vertices_.buffer, *values.buffer}, {0, 0});
-  commands.bindIndexBuffer(*indices_.buffer, 0, vk::IndexType::eUint32);
-  commands.drawIndexed(index_count_, 1, 0, 0, 0);
+  commands.bindVertexBuffers(0, {*surface_->vertices.buffer, *values.buffer}, {0, 0});
+  commands.bindIndexBuffer(*surface_->indices.buffer, 0, vk::IndexType::eUint32);
+  commands.drawIndexed(surface_->index_count, 1, 0, 0, 0);
 }
 
 void FrameRecorder::record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features) {
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.surface(features));
-  commands.bindVertexBuffers(0, {*face_vertices_.buffer, *face_values_.buffer}, {0, 0});
-  commands.draw(index_count_, 1, 0, 0);
+  commands.bindVertexBuffers(0, {*surface_->face_vertices.buffer, *surface_->face_values.buffer},
+                             {0, 0});
+  commands.draw(surface_->index_count, 1, 0, 0);
 }
 
 void FrameRecorder::record_arrows(const vk::raii::CommandBuffer& commands,

@@ -46,6 +46,10 @@ void record_scene_begin(const vk::raii::CommandBuffer& commands, const Attachmen
 void record_overlay_begin(const vk::raii::CommandBuffer& commands, vk::Extent2D extent,
                           vk::Image image, vk::ImageView target);
 
+/// Copies a picture that was kept, in the layout eTransferSrcOptimal, to the target.
+void record_copy(const vk::raii::CommandBuffer& commands, vk::Extent2D extent, vk::Image kept,
+                 vk::Image target);
+
 /// Panels on the device, and the commands that draw them. Nothing may be drawing while it is
 /// changed or prepared. Methods throw and then leave what was there.
 class PanelLayer {
@@ -80,6 +84,9 @@ class FrameRecorder {
   int samples() const { return static_cast<int>(samples_); }
   void set_samples(int samples);  ///< 1 or 4
 
+  /// Which of the two surfaces the calls below set, and record() draws.
+  void use_coarse(bool coarse) { surface_ = coarse ? &surfaces_[1] : &surfaces_[0]; }
+
   /// All that was set on the surface before is gone.
   void set_surface(const DrawMesh& mesh, std::span<const float> values);
   /// As many as set_surface() had; vertices of separate faces are gone.
@@ -91,7 +98,7 @@ class FrameRecorder {
   void set_separate_faces(std::span<const DrawMesh::Vertex> vertices,
                           std::span<const float> values);
   void set_face_values(std::span<const float> values);  ///< as many as there were, or none
-  bool has_face_values() const { return face_values_.bytes > 0; }
+  bool has_face_values() const { return surface_->face_values.bytes > 0; }
   void set_colours(const ColourTable& table);
   void set_lines(const LineSet& lines);
   void set_markers(std::span<const Marker> markers);
@@ -99,13 +106,15 @@ class FrameRecorder {
 
   /// Uploads what only this frame needs; before the target's begin().
   void prepare(const ArrowSelection& arrows, const Overlay& overlay, const PanelDraw* panels);
-  void record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene);
+  void record(const TargetFrame& frame, glm::ivec2 extent, const Scene& scene, SceneUse use);
 
  private:
   void set_atlas(const GlyphAtlas& atlas);
   void write_descriptors();
   const Attachments& fitting_attachments(vk::Extent2D size, vk::Format format);
   void record_scene(const vk::raii::CommandBuffer& commands, const Scene& scene);
+  void record_new_scene(const TargetFrame& frame, vk::Extent2D size, const Scene& scene,
+                        vk::ImageView onto);
   void record_arrows(const vk::raii::CommandBuffer& commands, const ArrowStyle& style);
   void record_surface(const vk::raii::CommandBuffer& commands, const Scene& scene);
   void record_faces(const vk::raii::CommandBuffer& commands, std::uint32_t features);
@@ -120,15 +129,26 @@ class FrameRecorder {
   vk::SampleCountFlagBits samples_;
   Pipelines pipelines_;
   std::array<Attachments, 2> attachments_;  ///< with one sample a pixel, with four
-  Buffer frame_, colours_, vertices_, values_, regions_, indices_;
-  Buffer face_vertices_, face_values_;  ///< three a face; empty: not needed
+  struct Kept {
+    Texture picture;
+    vk::Format format = vk::Format::eUndefined;
+  };
+  Kept kept_;  ///< the scene of SceneUse::kKeep
+  Buffer frame_, colours_;
+  struct Surface {
+    Buffer vertices, values, regions, indices;
+    Buffer face_vertices, face_values;  ///< three a face; empty: not needed
+    std::uint32_t index_count = 0;
+  };
+  std::array<Surface, 2> surfaces_;  ///< the model's, and the coarse one
+  Surface* surface_ = &surfaces_[0];
   Buffer lines_, markers_, arrows_, overlay_;
   std::vector<LineSet::Range> line_ranges_;
   vk::raii::BufferView colours_view_ = nullptr;  ///< of colours_
   vk::raii::Sampler sampler_;
   Texture atlas_;
   std::vector<std::uint8_t> atlas_pixels_;  ///< what is in atlas_
-  std::uint32_t index_count_ = 0, marker_count_ = 0, overlay_count_ = 0;
+  std::uint32_t marker_count_ = 0, overlay_count_ = 0;
   std::uint32_t primary_count_ = 0, secondary_count_ = 0;
   Descriptors descriptors_;
   PanelLayer panels_;

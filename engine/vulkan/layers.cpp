@@ -73,6 +73,20 @@ void record_overlay_begin(const vk::raii::CommandBuffer& commands, vk::Extent2D 
   commands.beginRendering({{}, {{0, 0}, extent}, 1, 0, colour});
 }
 
+void record_copy(const vk::raii::CommandBuffer& commands, vk::Extent2D extent, vk::Image kept,
+                 vk::Image target) {
+  constexpr auto kDraws = Stage::eColorAttachmentOutput;
+  record_transition(commands,
+                    {target, Layout::eColorAttachmentOptimal, Layout::eTransferDstOptimal, kDraws,
+                     Access::eColorAttachmentWrite, Stage::eCopy, Access::eTransferWrite});
+  const vk::ImageSubresourceLayers all(vk::ImageAspectFlagBits::eColor, 0, 0, 1);
+  const vk::ImageCopy whole(all, {}, all, {}, {extent.width, extent.height, 1});
+  commands.copyImage(kept, Layout::eTransferSrcOptimal, target, Layout::eTransferDstOptimal, whole);
+  record_transition(commands, {target, Layout::eTransferDstOptimal, Layout::eColorAttachmentOptimal,
+                               Stage::eCopy, Access::eTransferWrite, kDraws,
+                               Access::eColorAttachmentWrite | Access::eColorAttachmentRead});
+}
+
 namespace {
 
 /// The pixels of the target whose centres lie in the rectangle.

@@ -28,6 +28,7 @@ struct Swapchain {
 
   glm::ivec2 extent{0, 0};
   vk::Format format = vk::Format::eUndefined;
+  bool copyable = false;  ///< the surface takes copies of images
   vk::raii::SwapchainKHR swapchain = nullptr;
   std::vector<vk::Image> images;
   std::vector<vk::raii::ImageView> views;  ///< one an image
@@ -67,6 +68,9 @@ Swapchain::Swapchain(const Device::State& device, vk::SurfaceKHR surface,
   const auto can = device.physical.getSurfaceCapabilitiesKHR(surface);
   const vk::Extent2D size = extent_of(can, pixels);
   if (size.width == 0 || size.height == 0) return;
+  vk::ImageUsageFlags usage = vk::ImageUsageFlagBits::eColorAttachment;
+  copyable = static_cast<bool>(can.supportedUsageFlags & vk::ImageUsageFlagBits::eTransferDst);
+  if (copyable) usage |= vk::ImageUsageFlagBits::eTransferDst;
   vk::SwapchainCreateInfoKHR info;
   info.setSurface(surface)
       .setMinImageCount(image_count(can))
@@ -74,7 +78,7 @@ Swapchain::Swapchain(const Device::State& device, vk::SurfaceKHR surface,
       .setImageColorSpace(surface_format.colorSpace)
       .setImageExtent(size)
       .setImageArrayLayers(1)
-      .setImageUsage(vk::ImageUsageFlagBits::eColorAttachment)
+      .setImageUsage(usage)
       .setPreTransform(can.currentTransform)
       .setCompositeAlpha(composite_alpha(can))
       .setPresentMode(vk::PresentModeKHR::eFifo)
@@ -276,7 +280,8 @@ void WindowTarget::State::begin(TargetFrame& frame) {
                     {picture, Layout::eUndefined, Layout::eColorAttachmentOptimal,
                      Stage::eColorAttachmentOutput, Access::eNone, Stage::eColorAttachmentOutput,
                      Access::eColorAttachmentWrite | Access::eColorAttachmentRead});
-  frame = {&commands, picture, *swapchain.views[*image], swapchain.format, -corner};
+  frame = {&commands,        picture, *swapchain.views[*image],
+           swapchain.format, -corner, swapchain.copyable};
 }
 
 void WindowTarget::State::end() {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geotherm/mesh.h"
+#include "solver/core/memory.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/clean_faces.h"
 
@@ -39,11 +40,37 @@ void keep_own_vertices(const TriangleMesh& mesh, std::vector<Value>& values) {
 
 }  // namespace
 
+std::int64_t least_refined_bytes(std::int64_t faces) {
+  constexpr std::int64_t kBytesOfAFace = 400;  // places, faces, edges, and tables of a method
+  return kBytesOfAFace * faces;
+}
+
+namespace {
+
+/// Whether what is refined fits into the memory that is free.
+Result<void> check_room(Index faces, int refine) {
+  const auto free = free_memory();
+  const std::int64_t cut = refined_faces(faces, refine);
+  if (!free || least_refined_bytes(cut) <= *free) return {};
+  const auto megabytes = [](std::int64_t bytes) { return std::to_string(bytes / 1'000'000); };
+  int fits = refine - 1;
+  while (fits > 0 && least_refined_bytes(refined_faces(faces, fits)) > *free) --fits;
+  return Error{ErrorCode::kOutOfMemory,
+               std::to_string(faces) + " faces, each cut into four " + std::to_string(refine) +
+                   " times, are " + std::to_string(cut) + " and take " +
+                   megabytes(least_refined_bytes(cut)) + " MB or more, and " + megabytes(*free) +
+                   " MB are free",
+               {"set ", SettingHint{"refine", {std::to_string(fits)}}}};
+}
+
+}  // namespace
+
 Result<MeshMapping> MeshMapping::build(std::shared_ptr<const TriangleMesh> mesh, int refine) {
   const Stopwatch watch;
   MeshMapping out;
   out.mesh_ = out.inner_ = std::move(mesh);
   if (refine == 0) return out;
+  if (auto fits = check_room(out.mesh_->face_count(), refine); !fits) return fits.error();
   // Faces that are left out anyway are left out at once: they would be counted in small parts.
   CleanFaces clean = clean_faces(*out.mesh_);
   if (clean.faces.empty()) return out;  // no method can be built, and each says why

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -9,12 +10,21 @@
 
 namespace geotherm {
 
+/// Of a mesh whose faces are cut into four so often.
+inline std::int64_t refined_faces(Index faces, int times) {
+  return std::int64_t{faces} << (2 * times);
+}
+
+/// That a mesh of so many faces and any method on it take at least.
+std::int64_t least_refined_bytes(std::int64_t faces);
+
 /// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
 /// vertices that are one (TriangleMesh::same_as()). Immutable.
 class MeshMapping {
  public:
   /// `refine`: how often faces are cut; at 0 the mesh is solved on as it is, and only vertices that
-  /// are one count. Errors: those of subdivide(). Cost: that, and O(F).
+  /// are one count. Errors: kOutOfMemory, before anything is cut: the memory
+  /// that is free cannot hold it; those of subdivide(). Cost: that, and O(F).
   static Result<MeshMapping> build(std::shared_ptr<const TriangleMesh> mesh, int refine);
 
   const TriangleMesh& mesh() const { return *mesh_; }

@@ -262,5 +262,27 @@ TEST(Script, AnyBytesGiveCommandsOrOneLineOfError) {
   }
 }
 
+using Words = std::vector<std::string>;
+
+TEST(Completions, AreCommandsAndSettingsThatBeginSo) {
+  EXPECT_EQ(completions("ope"), Words{"open"});
+  EXPECT_EQ(completions("time-f"), Words{"time-factor"});
+  const Words all = completions("s");
+  EXPECT_NE(std::ranges::find(all, "source"), all.end());
+  EXPECT_NE(std::ranges::find(all, "save"), all.end());
+  EXPECT_NE(std::ranges::find(all, "slice"), all.end());
+  EXPECT_EQ(completions("nothing"), Words{});
+}
+
+TEST(Completions, AreSecondWordsAndValues) {
+  EXPECT_EQ(completions("source s"), (Words{"set", "shuffle"}));
+  EXPECT_EQ(completions("show "), (Words{"a", "b", "difference"}));
+  EXPECT_EQ(completions("rotate o"), (Words{"on", "off"}));
+  EXPECT_EQ(completions("view con"), Words{"contours"});
+  EXPECT_EQ(completions("bar o"), (Words{"on", "off"}));
+  EXPECT_EQ(completions("target "), Words{});
+  EXPECT_EQ(completions("open bun"), Words{});
+}
+
 }  // namespace
 }  // namespace geotherm::app

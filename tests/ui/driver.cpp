@@ -63,7 +63,8 @@ std::array<float, 2> FlatCanvas::lens_centre() const {
 Layout everything_open() {
   Layout layout;
   for (const char* section : {"Model", "Size and triangles", "Sources", "Solver", "A and B", "View",
-                              "Timings", "Quality", "Exact error", "Point", "Compare backends"}) {
+                              "Timings", "Quality", "Exact error", "Point", "Compare backends",
+                              "More of the view", "Camera", "Advanced settings"}) {
     layout.open[section] = true;
   }
   return layout;
@@ -122,6 +123,7 @@ FrameOutput UiTest::frame() {
     if (!session_.submit(command)) continue;
   }
   if (last_.cancel) session_.cancel();
+  if (last_.study) session_.study();
   session_.update();
   return last_;
 }

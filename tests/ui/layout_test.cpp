@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -23,6 +24,7 @@ Layout another_layout() {
   layout.theme = Theme::kLight;
   layout.scale = 1.25F;
   layout.open = {{"Solver", false}, {"Compare backends", true}};
+  layout.recent = {"/a/b = c.obj", "/d e/f.ply"};
   return layout;
 }
 
@@ -57,6 +59,18 @@ TEST(LayoutText, ReadsWhatIsRightBesideWhatIsNot) {
   EXPECT_FALSE(layout.left);
   EXPECT_EQ(layout.scale, 2);
   EXPECT_EQ(layout.left_width, Layout{}.left_width);
+}
+
+TEST(LayoutText, RemembersTheModelsThatWereOpenedLast) {
+  Layout layout;
+  for (int i = 0; i < 12; ++i) add_recent(layout, "/m" + std::to_string(i) + ".obj");
+  add_recent(layout, "/m7.obj");
+  ASSERT_EQ(layout.recent.size(), kMaxRecent);
+  EXPECT_EQ(layout.recent[0], "/m7.obj");
+  EXPECT_EQ(layout.recent[1], "/m11.obj");
+  EXPECT_EQ(std::count(layout.recent.begin(), layout.recent.end(), "/m7.obj"), 1);
+  add_recent(layout, "/two\nlines.obj");
+  EXPECT_EQ(layout.recent[0], "/m7.obj");
 }
 
 TEST(LayoutText, SurvivesDamage) {

@@ -31,6 +31,7 @@ class PlayedProgram {
   ~PlayedProgram();
 
   bool runs();
+  pid_t process() const { return process_; }
   /// Waits until it has ended by itself. Code -1: it has not.
   ProgramRun end();
 

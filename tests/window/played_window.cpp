@@ -209,6 +209,11 @@ std::vector<std::string> PlayedWindow::log() {
   run({"save log " + name});
   EXPECT_TRUE(eventually([&] { return is_there(name); }));
   std::vector<std::string> commands = lines_of(path(name));
+  // The last two say how large the picture is seen.
+  while (!commands.empty() &&
+         (commands.back().starts_with("size ") || commands.back().starts_with("text-size "))) {
+    commands.pop_back();
+  }
   std::erase_if(commands, [](const auto& line) { return line.starts_with("save log"); });
   return commands;
 }

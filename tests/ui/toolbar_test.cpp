@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The tools above the picture, sources as things that can be pointed at, and what the panels say.
+#include "tests/ui/driver.h"
+#include "ui/canvas.h"
+#include "ui/key_map.h"
+
+namespace geotherm::ui {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+class Tools : public UiTest {
+ protected:
+  void SetUp() override { open_square(); }
+
+  /// What one click in the middle of the square sends.
+  std::string click_sends() {
+    wait();
+    const ImVec2 at = seen(0.3, 0.6);
+    click(at.x, at.y);
+    const Texts texts = sent();
+    EXPECT_LE(texts.size(), 1U) << ::testing::PrintToString(texts);
+    return texts.empty() ? std::string() : texts.front().substr(0, texts.front().find(':'));
+  }
+};
+
+TEST_F(Tools, DecideWhatAClickDoes) {
+  EXPECT_EQ(click_sends(), "source set face");
+  click_item("Tools/View");
+  EXPECT_EQ(click_sends(), "");
+  click_item("Tools/Path");
+  EXPECT_EQ(click_sends(), "target face");
+  click_item("Tools/Pick");
+  EXPECT_EQ(click_sends(), "pick face");
+  click_item("Tools/Brush");
+  EXPECT_EQ(click_sends(), "source add curve");
+  click_item("Tools/Source");
+  run("source set 0");  // elsewhere: a click on a source chooses it
+  EXPECT_EQ(click_sends(), "source set face");
+}
+
+TEST_F(Tools, HaveKeysAndEscapeLeadsBack) {
+  type("v");
+  EXPECT_EQ(click_sends(), "");
+  type("r");
+  EXPECT_EQ(click_sends(), "target face");
+  type("i");
+  EXPECT_EQ(click_sends(), "pick face");
+  key(kKeyEscape);
+  EXPECT_EQ(click_sends(), "source set face");
+}
+
+TEST_F(Tools, AddOneMoreWithShiftWhateverTheToolIs) {
+  type("v");
+  hold(false, true, false);
+  EXPECT_EQ(click_sends(), "source add face");
+}
+
+TEST_F(Tools, DragsTurnWithEachThatSetsPoints) {
+  for (const char* tool : {"v", "r", "i"}) {
+    type(tool);
+    sent();
+    drag(seen(0.5, 0.5), seen(0.7, 0.5));
+    const Texts texts = sent();
+    ASSERT_FALSE(texts.empty()) << tool;
+    EXPECT_EQ(texts.front().rfind("camera orbit", 0), 0U) << texts.front();
+  }
+}
+
+class SourceThings : public Tools {};
+
+TEST_F(SourceThings, DeleteRemovesTheOneThatIsPointedAt) {
+  run("source set 0 40 80");
+  frame();
+  move(seen(0.5, 0.5).x, seen(0.5, 0.5).y);
+  frames(2);
+  key(kKeyDelete);
+  EXPECT_EQ(sent(), Texts{"source remove 1"});
+}
+
+TEST_F(SourceThings, DeleteDoesNothingBesideThem) {
+  move(seen(0.3, 0.6).x, seen(0.3, 0.6).y);
+  frames(2);
+  key(kKeyDelete);
+  EXPECT_EQ(sent(), Texts{});
+}
+
+TEST_F(SourceThings, AreChosenByAClickAndStayChosen) {
+  run("source set 0 40");
+  frame();
+  click(seen(0.5, 0.5).x, seen(0.5, 0.5).y);
+  EXPECT_EQ(sent(), Texts{}) << "there is a source already";
+  move(seen(0.2, 0.7).x, seen(0.2, 0.7).y);
+  frames(2);
+  key(kKeyDelete);
+  EXPECT_EQ(sent(), Texts{"source remove 1"});
+}
+
+TEST_F(SourceThings, AreFoundWhereTheSurfaceHidesThem) {
+  run("source set 0 40");
+  canvas_.front = SurfacePoint::in_face(0, {1, 0, 0});  // far from vertex 40: it is behind
+  frame();
+  move(seen(0.5, 0.5).x, seen(0.5, 0.5).y);
+  frames(2);
+  key(kKeyDelete);
+  EXPECT_EQ(sent(), Texts{"source remove 1"});
+}
+
+TEST_F(SourceThings, ComeBackWhereOneClickReplacedSeveral) {
+  run("source set 0 40 80");
+  frame();
+  EXPECT_EQ(click_sends(), "source set face");
+  frames(2);
+  click_item("Notices/bring back");
+  EXPECT_EQ(sent(), Texts{"source set 0 40 80"});
+  frames(2);
+  EXPECT_FALSE(is_drawn("Notices/bring back"));
+}
+
+TEST_F(SourceThings, AreReplacedWithoutAWordWhereThereIsOne) {
+  EXPECT_EQ(click_sends(), "source set face");
+  frames(2);
+  EXPECT_FALSE(is_drawn("Notices/bring back"));
+}
+
+TEST(SourceNames, AreShort) {
+  const auto name = [](const char* text) { return short_name(*app::parse_source(text)); };
+  EXPECT_EQ(name("17"), "vertex 17");
+  EXPECT_EQ(name("3,4,5"), "3 vertices");
+  EXPECT_EQ(name("random:5:7"), "5 random");
+  EXPECT_EQ(name("boundary"), "the whole border");
+  EXPECT_EQ(name("face:12:0.123456789:0.2:0.676543211"), "point in face 12");
+  EXPECT_EQ(name("curve:3,99,5"), "curve of 3 vertices");
+  EXPECT_EQ(name("xyz:0.123456789:1:0"), "point 0.123, 1, 0");
+}
+
+TEST_F(Tools, SettingsThatFewPeopleChangeWaitUntilTheyAreAskedFor) {
+  restart({});
+  frames(2);
+  EXPECT_TRUE(is_drawn("View/view"));
+  EXPECT_TRUE(is_drawn("Solver/backend"));
+  EXPECT_FALSE(is_drawn("Solver/precision"));
+  EXPECT_FALSE(is_drawn("View/samples"));
+  click_item("Solver/Advanced settings");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Solver/precision"));
+}
+
+TEST_F(Tools, SettingsOfAAreEditedWhileBIsShownOnlyKnowingly) {
+  run("keep");
+  run("backend cg");
+  frame();
+  EXPECT_FALSE(is_drawn("Solver/edit b"));
+  run("show b");
+  frame();
+  click_item("Solver/edit b");
+  EXPECT_EQ(sent(), (Texts{"swap", "show a"}));
+}
+
+TEST_F(Tools, FilesThatWereOpenedAreOfferedAgain) {
+  const Texts recent = panels_->layout().recent;
+  ASSERT_EQ(recent.size(), 1U);
+  EXPECT_EQ(recent[0], (folder() / "square.obj").string());
+  click_item("Menu/File");
+  click_item("Menu/Open recent");
+  frames(2);
+  click_item("Menu/" + recent[0]);
+  ASSERT_FALSE(sent().empty());
+}
+
+TEST_F(Tools, ErrorOverTheTimeFactorIsWorkedOutWhereItIsLookedAt) {
+  EXPECT_TRUE(session_.error_study().points.empty());
+  click_item("Solver/Error over m");
+  frames(4);
+  const auto& study = session_.error_study();
+  ASSERT_GE(study.points.size(), 5U);
+  EXPECT_FALSE(study.running);
+  for (std::size_t i = 0; i < study.points.size(); ++i) {
+    EXPECT_GT(study.points[i].mean_error, 0);
+    EXPECT_TRUE(i == 0 || study.points[i].factor > study.points[i - 1].factor);
+  }
+  EXPECT_GT(study.points.back().mean_error, study.points.front().mean_error) << "much too smooth";
+  sent();
+  const Rect plot = *panels_->place_of_item("Solver/study plot");
+  click(plot.x + plot.width - 8, plot.y + plot.height / 2);
+  EXPECT_EQ(sent(), Texts{"time-factor 64"});
+  frames(3);
+  EXPECT_FALSE(session_.error_study().points.empty()) << "it is the same at any factor";
+  run("source set 40");
+  EXPECT_TRUE(session_.error_study().points.empty()) << "and another for other sources";
+}
+
+}  // namespace
+}  // namespace geotherm::ui
