@@ -2,6 +2,7 @@
 #include "app/window/scene_screen.h"
 
 #include <cmath>
+#include <utility>
 
 #include "app/drawing/picture_scene.h"
 #include "app/session/explored.h"
@@ -180,6 +181,20 @@ Result<void> SceneScreen::draw(const engine::PanelDraw& panels, bool fast) {
     kept_fast_ = quick;
   }
   return drawn;
+}
+
+Result<void> SceneScreen::warm_up(const PictureSettings& settings) {
+  if (std::exchange(warm_, true) || has_model()) return {};
+  if (!window_target_ || !device_.info().software) return {};
+  PictureData point;  // a face of which nothing is seen
+  point.positions.resize(3);
+  point.faces = {{0, 1, 2}};
+  const auto positions = scene_vectors(point.positions);
+  if (auto done = upload_surface(renderer_, point, positions); !done) return done;
+  engine::Scene scene = scene_of(point, settings, picture_scale(point, settings));
+  scene.camera = scene_.camera;
+  renderer_.set_samples(1);
+  return renderer_.render(*window_target_, scene);
 }
 
 Result<DrawnPicture> SceneScreen::picture(const PictureData& data,

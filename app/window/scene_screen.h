@@ -55,6 +55,11 @@ class SceneScreen {
   /// Whether the last draw() has drawn the scene and not only the panels over it.
   bool drew_scene() const { return drew_scene_; }
 
+  /// While there is no model yet, has the device make ready the program that will draw its first
+  /// picture, once: software takes a tenth of a second for it.
+  Result<void> warm_up(const PictureSettings& settings);
+  bool is_warm() const { return warm_; }
+
   /// A picture of what was brought up to date last, with other settings than those of the window.
   Result<DrawnPicture> picture(const PictureData& data, const PictureSettings& settings);
   /// What draw() would show in a window of this size.
@@ -124,6 +129,7 @@ class SceneScreen {
   };
   std::optional<Seen> seen_, kept_;
   bool kept_fast_ = false, drew_scene_ = false;
+  bool warm_ = false;  ///< warm_up() was called
 };
 
 }  // namespace geotherm::app

@@ -227,6 +227,10 @@ Result<void> WindowLoop::draw_frame(bool fast) {
   const Stopwatch watch;
   auto drawn = screen_->draw(panel_draw(), fast);
   if (!fast && screen_->drew_scene()) full_frame_ms_ = watch.milliseconds();
+  if (drawn && session_->work().busy && !session_->explored().model && !screen_->is_warm()) {
+    clock_.something_happened();  // over what that shows
+    drawn = screen_->warm_up(session_->state().picture);
+  }
   return drawn;
 }
 

@@ -16,6 +16,7 @@ namespace {
 // The layout that the window starts with, pixels: what it reads from its configuration.
 constexpr int kBarWidth = 310, kLogHeight = 190;
 constexpr int kLine = 21;        ///< height of the menu bar, and of the status bar
+constexpr int kTools = 30;       ///< of the toolbar
 constexpr int kFieldAbove = 41;  ///< the command field, above the window's lower edge
 constexpr long kFrame = 15;      ///< clock ticks, more than one frame takes
 constexpr int kSteps = 6;        ///< of a drag
@@ -68,7 +69,7 @@ void PlayedWindow::SetUp() {
   std::filesystem::create_directories(path("config/geotherm"));
   std::ofstream(path("config/geotherm/viewer.conf"))
       << "log = on\nleft-width = " << kBarWidth << "\nright-width = " << kBarWidth
-      << "\nlog-height = " << kLogHeight << '\n';
+      << "\nlog-height = " << kLogHeight << "\nopen View = off\nopen Advanced settings = on\n";
   if (const ProgramRun devices = run_program(path("."), {"devices"}); devices.code != 0) {
     give_up(devices.err);
   }
@@ -228,8 +229,8 @@ std::vector<std::string> PlayedWindow::lines_of(const std::string& path) const {
 }
 
 Picture PlayedWindow::canvas_on_screen() {
-  move_to(kPanel);                  // the pointer is seen
-  constexpr int kTop = kLine & ~1;  // pictures begin at even pixels
+  move_to(kPanel);                             // the pointer is seen
+  constexpr int kTop = (kLine + kTools) & ~1;  // pictures begin at even pixels
   const int bottom = height_ - kLine - kLogHeight;
   return part_of(display_->screen(), kBarWidth, kTop, width_ - 2 * kBarWidth, bottom - kTop);
 }
