@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/film.h"
+#include "app/cli/render_work.h"
+#include "app/cli/scene_output.h"
 #include "app/cli/sequence_work.h"
 #include "app/cli/solve_fields.h"
 #include "app/session/answer.h"
@@ -26,9 +29,22 @@ namespace geotherm::app {
 
 namespace {
 
+/// Files that `render` alone writes.
+bool is_of_render(const std::string& path) {
+  return io::file_extension(path) == ".png" || figure_format(path) || is_film(path) ||
+         scene_format(path);
+}
+
 Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
+    if (is_of_render(path)) {
+      return Error{ErrorCode::kNotAvailable,
+                   "--output: " + one_line(path) +
+                       ": solve writes distances as numbers; geotherm render draws them, with "
+                       "the same model, sources and -o " +
+                       one_line(path)};
+    }
     // What a space writes beside is known when the model is.
     const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
     if (auto known = check_distance_path(path); !known && !known_of_space) return known;

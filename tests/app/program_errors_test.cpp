@@ -60,6 +60,8 @@ const std::vector<Failure>& failures() {
       // Empty values.
       {"EmptyJson", {"solve", "bunny", "-s", "1", "--json", ""}, 2, {"--json: was given an empty"}},
       {"EmptyOutput", {"solve", "bunny", "-s", "1", "-o", ""}, 2, {"--output: was given an empty"}},
+      {"PageOfSolve", {"solve", "bunny", "-s", "1", "-o", "a.html"}, 2, {"render", "-o a.html"}},
+      {"PictureOfSolve", {"solve", "bunny", "-s", "1", "-o", "a.png"}, 2, {"render", "-o a.png"}},
       {"EmptyCsv", {"compare", "bunny", "--csv", ""}, 2, {"--csv: was given", "leave it out"}},
       {"EmptyHtml", {"compare", "bunny", "--html", ""}, 2, {"--html: was given an empty value; "}},
       {"EmptyReference", {"compare", "bunny", "--reference", ""}, 2, {"--reference: was given"}},
