@@ -222,6 +222,7 @@ struct RenderArguments {
   SequenceArguments sequence;
   std::vector<std::string> targets;      ///< paths lead there from the sources
   std::vector<std::string> more_models;  ///< beside `model`
+  std::string field;                     ///< a file of values of vertices; empty: distances
   std::string columns;                   ///< of several models; empty: as many as suit
   std::string fps;                       ///< of a film; empty: 25
   std::string output;

@@ -3,6 +3,7 @@
 #include "app/cli/render_work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/picture/cut_picture.h"
@@ -13,12 +14,51 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
+#include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
 
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
+
+/// Values of vertices that a file holds, in place of distances.
+Result<void> draw_field(const std::string& path, const Model& model,
+                        const PictureSettings& settings, PictureData& data,
+                        PictureFigures& figures) {
+  if (auto surface = refuse_space(model, "values of vertices are drawn"); !surface) return surface;
+  auto file = io::FileBytes::read(path);
+  if (!file) return about("--field", file.error());
+  const std::string name = io::printable(path);
+  const auto values = io::guarded_read(
+      name, "values", file->bytes().size(),
+      [&]() -> Result<std::vector<double>> { return io::read_npy_values(file->bytes()); });
+  if (!values) return about("--field", values.error());
+  const auto vertices = static_cast<std::size_t>(model.mesh->vertex_count());
+  if (values->size() != vertices) {
+    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(values->size()) +
+                                           " values and " + one_line(model.name) + " " +
+                                           grouped(vertices) + " vertices; give one a vertex"};
+  }
+  figures.field = path;
+  if (std::ranges::none_of(*values, [](double x) { return std::isfinite(x) && x < 0; })) {
+    if (settings.colour_scale == ColourScale::kDiverging) {
+      return Error{ErrorCode::kBadInput, "--colour-scale diverging: no value of " + name +
+                                             " is below 0; choose linear or log"};
+    }
+    add_distances(data, *values);
+    data.value_title = "value";
+    return {};
+  }
+  if (settings.colour_scale == ColourScale::kLog) {
+    return Error{ErrorCode::kBadInput, "--colour-scale log: " + name +
+                                           " has values below 0, which have no logarithm; choose "
+                                           "linear or diverging"};
+  }
+  add_error(data, *values, "value");
+  return {};
+}
 
 /// Adds the paths to all targets, and what is to be said about them to the warnings.
 Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver, Answer& solved,
@@ -109,7 +149,7 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
 
 Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
                           const RenderArguments& arguments) {
-  const bool is_error = settings.view == View::kExactError;
+  const bool is_error = settings.view == View::kExactError || !arguments.field.empty();
   if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale diverging is for differences, and --view " +
@@ -121,7 +161,7 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
                                            geotherm::to_text(settings.view) +
                                            " does not show in colours; choose --view contours"};
   }
-  if (settings.colour_scale == ColourScale::kLog && is_error) {
+  if (settings.colour_scale == ColourScale::kLog && settings.view == View::kExactError) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale log: the errors of --view exact-error have both signs and no "
                  "logarithm; choose diverging, or another view"};
@@ -132,6 +172,24 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
                                            " has no heat to follow; choose geodesic or distance"};
   }
   return {};
+}
+
+Result<void> check_field(const RenderArguments& arguments, View view, bool has_sources) {
+  if (arguments.field.empty()) return {};
+  std::vector<std::string> others;
+  if (has_sources) others.emplace_back("sources");
+  if (!arguments.targets.empty()) others.emplace_back("--path");
+  if (!arguments.more_models.empty()) others.emplace_back("a second model");
+  if (!arguments.sequence.frames.empty()) others.emplace_back("--sequence");
+  if (!others.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--field draws values that are there already, not those of " + joined(others) +
+                     "; leave one of them out"};
+  }
+  if (view == View::kContours) return {};
+  return Error{ErrorCode::kBadInput, "--field: --view " + geotherm::to_text(view) +
+                                         " does not show values of vertices; choose --view "
+                                         "contours"};
 }
 
 Result<PictureData> prepare_picture(const RenderArguments& arguments, const ViewerState& asked,
@@ -152,6 +210,10 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   const std::string unseen = model->space ? model->space->unseen() : "";
   PictureData data = picture_of(*mesh, tets_of(*model));
   data.up = model->up;
+  if (!arguments.field.empty()) {
+    auto drawn = draw_field(arguments.field, *model, figures.settings, data, figures);
+    return drawn ? Result<PictureData>(std::move(data)) : drawn.error();
+  }
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_view_values(data, *model, view, nullptr);

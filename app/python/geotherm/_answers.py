@@ -8,7 +8,6 @@ import functools
 import json
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -89,14 +88,10 @@ class Result:
 
         Raises: Error ("not-available", "no-device").
         """
-        from geotherm._pictures import Picture, drawn  # it imports much
+        from geotherm._pictures import plotted  # it imports much
 
         model, sources, settings = self._drawn_from
-        settings = {**settings, "size": f"{size[0]}x{size[1]}", **options}
-        picture = Picture(drawn(model, sources, settings, ".png"))
-        if path is not None:
-            Path(path).write_bytes(picture)
-        return picture
+        return plotted(model, sources, {**settings, **options}, size, path)
 
     def _repr_html_(self) -> str:
         from geotherm._pictures import as_html

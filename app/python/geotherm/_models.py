@@ -8,7 +8,7 @@ import functools
 import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from geotherm._library import (
     path_bytes,
 )
 from geotherm._options import options_of
+
+if TYPE_CHECKING:
+    from geotherm._pictures import Picture
 
 TRIANGLES, POLYGONS, TETS, POINTS, GRID, LENGTHS = range(6)
 
@@ -235,6 +238,29 @@ class Mesh(Model):
         model._build(LENGTHS, cells=(faces, "faces", 3), values=(lengths, "lengths", 3))
         model._recipe = (_lengths_again, np.array(faces), np.array(lengths))
         return model
+
+    def plot(
+        self,
+        values: Any = None,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (900, 700),
+        **options: Any,
+    ) -> Picture:
+        """A picture by the program geotherm, which must be installed; notebooks show it.
+
+        Args:
+            values: (V,) numbers that its colours show; not finite: none. None: the mesh alone.
+            path: of a .png file that is written, too.
+            size: pixels.
+            options: those of `geotherm render`, with _ in place of -: bar_label="curvature".
+
+        Raises: InputError, Error ("not-available", "no-device").
+        """
+        from geotherm._pictures import plotted  # it imports much
+
+        settings = {"view": "smooth", **options} if values is None else options
+        return plotted(self, [], settings, size, path, values)
 
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
