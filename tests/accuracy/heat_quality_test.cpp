@@ -115,7 +115,7 @@ TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
   }
 }
 
-TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLine) {
+TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLineSlow) {
   const AddedBackend noisy(faulty_backend(Fault::kNoise, {}));
   const MeshPtr plane = finish(plane_grid(60, 60, 60, 60));
   for (const bool noise : {false, true}) {
