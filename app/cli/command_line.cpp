@@ -118,15 +118,24 @@ std::string unknown_option(const CLI::App& command, const std::vector<std::strin
   return {};
 }
 
+/// What CLI11 says, in the words of people where those are others.
+std::string in_words(const CLI::ParseError& error) {
+  std::string what = error.what();
+  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  constexpr std::string_view kExtra = "The following argument was not expected: ";
+  if (what.starts_with(kExtra)) return "there is no place for " + what.substr(kExtra.size());
+  const std::size_t many = what.find(": At Most 1 required but received");
+  return many == what.npos ? what : what.substr(0, many) + " was given more than once";
+}
+
 /// CLI11 describes what is wrong; what helps is the option that was meant, or the command's help.
 int fail_to_parse(const CLI::ParseError& error, const CLI::App& command,
                   const std::vector<std::string>& words) {
   std::vector<std::string> known;
   const std::string unknown = unknown_option(command, words, known);
   const std::string near = nearest_word(unknown, known);
-  std::string what = unknown.empty() ? error.what() : "there is no option " + unknown;
-  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
-  std::replace(what.begin(), what.end(), '\n', ' ');
+  const std::string what = unknown.empty() ? in_words(error) : "there is no option " + unknown;
   const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
   return fail(2, what + "; " + (near.empty() ? "" : "did you mean " + near + "? ") +
                      "see geotherm " + name + "--help");

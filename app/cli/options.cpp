@@ -10,6 +10,7 @@
 #include "app/session/state.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 
@@ -262,8 +263,9 @@ Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_m
                                std::string& chosen) {
   if (!typed && !colour_maps.empty()) chosen = colour_maps.front();
   if (std::ranges::count(colour_maps, chosen) > 0) return {};
-  return Error{ErrorCode::kBadInput, "--colour-map: there is no colour map '" + one_line(chosen) +
-                                         "'; there are " + joined(colour_maps)};
+  return Error{ErrorCode::kBadInput,
+               "--colour-map: there is no colour map '" + one_line(chosen) + "'; " +
+                   known_words(chosen, {colour_maps.begin(), colour_maps.end()})};
 }
 
 /// A logarithmic scale has no 0.

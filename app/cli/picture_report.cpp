@@ -104,7 +104,7 @@ std::string view_in_words(const PictureFigures& f) {
           significant(f.scale.min) + " to " + significant(f.scale.max);
   if (f.scale.kind == ColourScale::kLog) text += ", logarithmic";
   if (f.settings.bands > 0) text += ", in " + std::to_string(f.settings.bands) + " bands";
-  if (!f.scale.levels.empty()) {
+  if (!f.scale.levels.empty() && f.scale.spacing == 0) {
     text += ", isolines at " +
             counted(static_cast<std::int64_t>(f.scale.levels.size()), "value", "values");
   }

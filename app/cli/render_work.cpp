@@ -42,21 +42,16 @@ Result<void> draw_field(const std::string& path, const Model& model,
                                            grouped(vertices) + " vertices; give one a vertex"};
   }
   figures.field = path;
-  if (std::ranges::none_of(*values, [](double x) { return std::isfinite(x) && x < 0; })) {
-    if (settings.colour_scale == ColourScale::kDiverging) {
-      return Error{ErrorCode::kBadInput, "--colour-scale diverging: no value of " + name +
-                                             " is below 0; choose linear or log"};
-    }
-    add_distances(data, *values);
-    data.value_title = "value";
-    return {};
+  add_field(data, *values);
+  if (settings.colour_scale == ColourScale::kDiverging && !data.is_signed) {
+    return Error{ErrorCode::kBadInput, "--colour-scale diverging: the values of " + name +
+                                           " do not have both signs; choose linear"};
   }
-  if (settings.colour_scale == ColourScale::kLog) {
+  if (settings.colour_scale == ColourScale::kLog && data.smallest_value <= 0) {
     return Error{ErrorCode::kBadInput, "--colour-scale log: " + name +
-                                           " has values below 0, which have no logarithm; choose "
-                                           "linear or diverging"};
+                                           " has values that are not above 0 and have no "
+                                           "logarithm; choose linear"};
   }
-  add_error(data, *values, "value");
   return {};
 }
 
@@ -86,11 +81,12 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
 
 void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   const std::optional<double>& asked = figures.settings.line_spacing;
-  if (!asked || *asked <= 0 || figures.scale.spacing > 0 || !figures.scale.coloured) return;
+  const bool drawn = figures.scale.spacing > 0 || !figures.scale.levels.empty();
+  if (!asked || *asked <= 0 || drawn || !figures.scale.coloured) return;
   const double room = figures.scale.max - figures.scale.min;
-  warnings.push_back({"isolines every " + significant(*asked) +
-                          " would be closer together than pixels and are left out",
-                      {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
+  warnings.push_back(
+      {"isolines every " + significant(*asked) + " would be too close together and are left out",
+       {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
 }
 
 bool shows_faces(const PictureData& data) {
@@ -130,8 +126,13 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
     note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
   }
   const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
-  if (!mapped) note({"bands"}, "the picture shows no values in colours");
-  if (!figures.scale.coloured) note({"values", "colour-scale"}, "the picture shows no distances");
+  if (!mapped) {
+    note({"bands", "colour-map", "reverse"}, "the picture shows no values in colours");
+  }
+  if (!figures.scale.coloured) {
+    note({"values", "colour-scale", "range", "spacing"}, "the picture shows no distances");
+  }
+  if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
   const PictureSettings& s = figures.settings;
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
@@ -165,6 +166,10 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
     return Error{ErrorCode::kBadInput,
                  "--colour-scale log: the errors of --view exact-error have both signs and no "
                  "logarithm; choose diverging, or another view"};
+  }
+  if (settings.line_spacing && !settings.line_values.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--spacing and --values both say where isolines are; leave one of them out"};
   }
   const bool heat = settings.path_kind == PathKind::kHeat;
   if (heat && !arguments.targets.empty() && options.method != MethodKind::kHeat) {

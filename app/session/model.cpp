@@ -211,12 +211,16 @@ std::shared_ptr<const TetMesh> tets_of(const Model& model) {
 Result<void> refuse_space(const Model& model, std::string_view what) {
   if (!model.space) return {};
   const SpaceWords& words = model.space->words();
+  const std::string drawn(words.drawn);
+  Hint hint;
+  if (drawn != "nothing") {
+    hint = {"with ", SettingHint{"domain", {"triangles"}}, " its " + drawn + " is one"};
+  }
   return Error{ErrorCode::kBadInput,
                std::string(what) + " of triangle meshes, and " + one_line(model.name) + " is a " +
                    words.body + " of " +
                    counted(model.space->cell_count(), words.cell, words.cells),
-               {"with ", SettingHint{"domain", {"triangles"}},
-                " its " + std::string(words.drawn) + " is one"}};
+               std::move(hint)};
 }
 
 std::span<const BundledModel> bundled_models() { return kModels; }

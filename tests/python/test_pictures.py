@@ -46,9 +46,18 @@ def test_numbers_of_vertices_are_drawn(bunny, tmp_path):
             raise
         pytest.skip(str(why))
     assert (tmp_path / "a.png").read_bytes() == picture
+    bunny.plot(waves, tmp_path / "a.html")
+    assert b"<html" in (tmp_path / "a.html").read_bytes()[:200]
     assert len({bytes(picture), bytes(plain), bytes(upside)}) == 3
     with pytest.raises(geotherm.InputError, match="values has 3 numbers for"):
         bunny.plot([1, 2, 3])
+
+
+def test_what_cannot_be_written_is_said(bunny, tmp_path):
+    with pytest.raises(geotherm.InputError, match="path ends in '.jpg'"):
+        bunny.plot(path=tmp_path / "a.jpg")
+    with pytest.raises(geotherm.InputError, match="size is 'a'"):
+        bunny.plot(size="a")
 
 
 def test_without_the_program_the_report_is_shown(answer, monkeypatch):

@@ -202,6 +202,10 @@ class Mesh(Model):
     """
 
     def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
+        if isinstance(vertices, (str, os.PathLike)):
+            raise InputError(
+                f"vertices is the name {os.fspath(vertices)!r}", hint="geotherm.read() reads files"
+            )
         if faces is None:
             faces = _faces_of(vertices)
             vertices = attributes(vertices, "vertices", "points")
@@ -251,7 +255,7 @@ class Mesh(Model):
 
         Args:
             values: (V,) numbers that its colours show; not finite: none. None: the mesh alone.
-            path: of a .png file that is written, too.
+            path: of a file that is written, too: .png, .pdf, .svg, .html or .glb.
             size: pixels.
             options: those of `geotherm render`, with _ in place of -: bar_label="curvature".
 

@@ -19,6 +19,9 @@ from geotherm._library import Error, InputError
 from geotherm._models import Mesh, Model
 
 
+_WRITTEN = (".png", ".pdf", ".svg", ".html", ".glb")
+
+
 class Picture(bytes):
     """The bytes of a .png, which notebooks show."""
 
@@ -96,11 +99,23 @@ def plotted(
         numbers = given(values, "values", 1)[1]
         if len(numbers) != model.n_vertices:
             raise InputError(f"values has {len(numbers)} numbers for {model.n_vertices} vertices")
-    settings = {"size": f"{size[0]}x{size[1]}", **settings}
-    picture = Picture(drawn(model, sources, settings, ".png", numbers))
+    try:
+        width, height = size
+    except (TypeError, ValueError):
+        raise InputError(f"size is {size!r}", hint="give width and height in pixels") from None
+    settings = {"size": f"{width}x{height}", **settings}
+    ending = ".png" if path is None else Path(os.fspath(path)).suffix.lower()
+    if ending not in _WRITTEN:
+        raise InputError(f"path ends in {ending!r}", hint="write " + " ".join(_WRITTEN))
+    made = drawn(model, sources, settings, ending, numbers)
     if path is not None:
-        Path(path).write_bytes(picture)
-    return picture
+        try:
+            Path(path).write_bytes(made)
+        except OSError as why:
+            raise Error(f"{path}: {why.strerror}", "bad-file") from None
+    if ending == ".png":
+        return Picture(made)
+    return Picture(drawn(model, sources, settings, ".png", numbers))
 
 
 def as_html(model: Model, sources: Sequence[str], settings: Mapping[str, Any], report: str) -> str:
