@@ -165,7 +165,8 @@ std::map<std::string, Json> Manifest::lines() const {
   for (std::string line; std::getline(file, line);) {
     Json each = Json::parse(line, nullptr, false);
     if (each.is_discarded() || !each.is_object() || !each.contains("model")) continue;
-    last[each.value("model", "")] = std::move(each);
+    const std::string model = each.value("model", "");
+    last[model] = std::move(each);
   }
   return last;
 }

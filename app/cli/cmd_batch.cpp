@@ -108,13 +108,13 @@ class Batch {
       ++sums_.before;
       const auto line = known.find(task.model);
       if (line != known.end() && line->second.value("status", "") == "done") return {};
-      return manifest_.add(manifest_line(task, {.done = true}, true));
+      return manifest_.add(manifest_line(task, {true, {}, 0}, true));
     }
     remove_remains(task);
     std::error_code code;
     std::filesystem::create_directories(std::filesystem::path(task.output).parent_path(), code);
     auto process = BatchProcess::start(task, number);
-    if (!process) return take(number, {.message = told(process.error())});
+    if (!process) return take(number, {false, told(process.error()), 0});
     started_[process->process] = Stopwatch();
     running_.push_back(*std::move(process));
     return {};
