@@ -22,8 +22,8 @@ constexpr double kCgTolerance = 1e-13;
 /// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
 constexpr double kBudgetPerRoot = 20;
 constexpr int kBudgetAtLeast = 2000;
-/// Below so many rows all of them are as quick as a window.
-constexpr Index kWorthWindows = 5000;
+/// Below so many rows all of them are as quick as a window; above, entries are too many for int.
+constexpr Index kWorthWindows = 5000, kMaxWindowed = 100'000'000;
 /// Rows worked on between two calls of progress: about 10 ms at 20 ns a row.
 constexpr std::size_t kRowsBetweenCalls = 500'000;
 
@@ -73,7 +73,8 @@ class ConjugateGradient final : public Factorization {
   Result<SolveReport> solve_where(Block& x, std::span<const Index> support,
                                   std::span<const char> wanted, const Progress& progress,
                                   int threads) const override {
-    if (size() < kWorthWindows || support.empty() || !matrix_->kernel().empty()) {
+    if (size() < kWorthWindows || size() > kMaxWindowed || support.empty() ||
+        !matrix_->kernel().empty()) {
       return Factorization::solve_where(x, support, wanted, progress, threads);
     }
     std::call_once(window_made_,

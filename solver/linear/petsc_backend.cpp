@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -82,6 +83,11 @@ Error in_petsc(std::string what) {
 class PoissonByPetsc final : public Factorization {
  public:
   static Result<std::unique_ptr<Factorization>> make(const LowerMatrix& lower) {
+    const std::int64_t entries = 2 * lower.start.back() - lower.size();
+    if (entries > std::numeric_limits<int>::max()) {
+      return in_petsc("the matrix has " + std::to_string(entries) +
+                      " entries, and indices of PETSc have 32 bits");
+    }
     if (const auto ready = start_mpi(); !ready) return ready.error();
     const auto module = mpi_module();
     std::unique_ptr<PoissonByPetsc> out(new PoissonByPetsc(**module));
