@@ -24,11 +24,11 @@
 namespace geotherm::app {
 namespace {
 
-/// Of several processes that work together the first one speaks, and its exit code counts.
+/// Of several processes that work together the first one speaks.
 bool is_first_rank() { return launched_as().rank == 0; }
 
 int fail(int code, const std::string& message) {
-  if (!is_first_rank()) return 0;
+  if (!is_first_rank()) return code;  // all end: the launcher sees to it
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
   return code;
 }
