@@ -28,7 +28,8 @@ namespace {
 bool is_first_rank() { return launched_as().rank == 0; }
 
 int fail(int code, const std::string& message) {
-  if (!is_first_rank()) return code;  // all end: the launcher sees to it
+  // Before MPI is there, the launcher would end the first one for this before it has spoken.
+  if (!is_first_rank()) return mpi_is_started() ? code : 0;
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
   return code;
 }

@@ -75,6 +75,11 @@ Result<RankOfCount> start_mpi() {
   return ours;
 }
 
+bool mpi_is_started() {
+  const std::lock_guard lock(starting);
+  return started;
+}
+
 void finish_mpi() {
   const std::lock_guard lock(starting);
   if (!started) return;

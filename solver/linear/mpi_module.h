@@ -52,6 +52,9 @@ struct RankOfCount {
 /// Starts MPI where that has not been done. Errors: those of mpi_module(), kNotAvailable.
 Result<RankOfCount> start_mpi();
 
+/// Whether it was, and has not ended.
+bool mpi_is_started();
+
 /// Ends MPI where it was started; nothing of it may be used any more.
 void finish_mpi();
 
