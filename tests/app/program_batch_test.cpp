@@ -48,8 +48,10 @@ TEST_F(BatchProgram, WritesWhatSingleSolvesWriteUnderTheNamesOfTheModels) {
     EXPECT_EQ(line["status"], "done");
     EXPECT_GT(line["seconds"], 0);
     run({"solve", model, "-s", "0,7", "--each", "--float32", "-m", "2", "-o", "one.npy"});
-    EXPECT_EQ(bytes_of(folder.path(line["output"])), bytes_of(folder.path("one.npy"))) << model;
-    EXPECT_TRUE(fs::exists(folder.path(line["report"])));
+    EXPECT_EQ(bytes_of(folder.path(line["output"].get<std::string>())),
+              bytes_of(folder.path("one.npy")))
+        << model;
+    EXPECT_TRUE(fs::exists(folder.path(line["report"].get<std::string>())));
   }
 }
 
