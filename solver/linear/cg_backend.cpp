@@ -97,6 +97,7 @@ class ConjugateGradient final : public Factorization {
       out.iterations = std::max(out.iterations, iterations);
     }
     out.residual = std::max(out.residual, kCgTolerance);
+    if (!geotherm::report(progress, "solve", 1.0)) return cancelled_error();
     return out;
   }
 
@@ -123,7 +124,9 @@ class ConjugateGradient final : public Factorization {
     const double start = rho;
     const int budget =
         kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
-    const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / n);
+    constexpr std::size_t kPassesOfMultigrid = 10;
+    const std::size_t rows = multigrid_ ? kPassesOfMultigrid * n : n;
+    const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / rows);
     SolveReport report;
     while (
         !(rho <= kCgTolerance * kCgTolerance * start)) {  // goes on, to an error, where rho is NaN
