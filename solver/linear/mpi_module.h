@@ -32,8 +32,9 @@ struct MpiModule {
   const char* (*solve)(void* solver, const double* b, double* x, double tolerance, int* iterations);
 };
 
-/// The name of the function that a module has: const MpiModule* geotherm_mpi_module().
-inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module";
+/// The function that a module has, const MpiModule* geotherm_mpi_module_1(): the number grows where
+/// the table changes.
+inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_1";
 
 /// Whether there is such a library: the one that the variable GEOTHERM_MPI_MODULE names (any other
 /// word: none), else the one beside the installed program, else that of the build. Cost: that of

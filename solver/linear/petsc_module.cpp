@@ -162,7 +162,8 @@ const char* solve(void* solver, const double* b, double* x, double tolerance, in
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const geotherm::MpiModule* geotherm_mpi_module() {
+extern "C" __attribute__((visibility("default"))) const geotherm::MpiModule*
+geotherm_mpi_module_1() {
   static constexpr geotherm::MpiModule kModule = {start_all,   exchange,    finish,
                                                   make_solver, free_solver, solve};
   return &kModule;
