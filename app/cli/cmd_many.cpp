@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "app/cli/commands.h"
@@ -63,8 +64,7 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_rows(arguments, outputs); !expected) return expected.error();
-  auto work = begin_many(arguments, progress);
+  auto work = begin_many(arguments, expect_rows(arguments, outputs), progress);
   if (!work) return work.error();
 
   const std::string& path = arguments.outputs.front();
@@ -72,23 +72,24 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const Index vertices = work->mesh.vertices;
   const auto bytes = static_cast<double>(
       npy_bytes_of(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(vertices), *type));
-  if (auto fits = check_room(path, bytes); !fits) return fits.error();
+  if (auto fits = work->ranks.agree(check_room(path, bytes)); !fits) return fits.error();
   const std::string size = counted(rows, "source", "sources") + " x " +
                            counted(vertices, "vertex", "vertices") + ", " + to_text(*type) + ", " +
                            bytes_in_words(bytes);
-  auto array = NpyRows::open(path, static_cast<std::uint64_t>(rows),
-                             static_cast<std::uint64_t>(vertices), *type);
+  auto array = SharedRows::open(path, *work, vertices, *type);
   if (!array) return about_file(array.error());
   RowSums sums;
   auto figures = solve_many(
       *work, arguments,
-      [&](std::size_t, std::span<const double> distances) -> Result<void> {
+      [&](std::size_t row, std::span<const double> distances) -> Result<void> {
         sums.add(distances);
-        const auto written = array->append(distances);
+        const auto written = array->write(row, distances);
         return written ? written : about_file(written.error());
       },
       "a file of " + bytes_in_words(bytes), progress, announce);
   if (!figures) return figures.error();
+  sums = sums_of_all(sums, work->ranks);
+  if (!work->ranks.is_first()) return CommandOutput();
   const auto written = outputs.write(path, [&] { return array->finish(); });
   if (!written) return written.error();
 
@@ -279,29 +280,39 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_matrix(arguments, outputs); !expected) return expected.error();
-  auto work = begin_many(arguments, progress);
+  auto work = begin_many(arguments, expect_matrix(arguments, outputs), progress);
   if (!work) return work.error();
   PairMatrix pairs;
   auto vertices = vertices_of_each(work->sources);
   if (!vertices) return vertices.error();
   pairs.vertices = *std::move(vertices);
-  if (auto fits = check_memory(pairs.size()); !fits) return fits.error();
   const auto rows = static_cast<std::uint64_t>(pairs.size());
+  Result<void> fits = check_memory(pairs.size());
   for (const std::string& path : arguments.outputs) {
     const auto bytes = static_cast<double>(npy_bytes_of(rows, rows, *type));
-    if (auto fits = check_room(path, bytes); !fits) return fits.error();
+    if (fits) fits = check_room(path, bytes);
   }
-  pairs.entries.reserve(pairs.size() * pairs.size());
+  fits = work->ranks.agree(fits);
+  if (!fits) return fits.error();
+  std::string mine;  // the entries of this rank's rows, as bytes
   auto figures = solve_many(
       *work, arguments,
-      [&pairs](std::size_t, std::span<const double> distances) -> Result<void> {
-        for (const Index v : pairs.vertices) pairs.entries.push_back(distances[v]);
+      [&](std::size_t, std::span<const double> distances) -> Result<void> {
+        for (const Index v : pairs.vertices) {
+          mine.append(reinterpret_cast<const char*>(&distances[v]), sizeof(double));
+        }
         return {};
       },
       "a matrix of " + bytes_in_words(static_cast<double>(sizeof(double) * rows * rows)), progress,
       announce);
   if (!figures) return figures.error();
+  for (const std::string& rows_of_rank : work->ranks.exchange(mine)) {
+    const std::size_t before = pairs.entries.size();
+    pairs.entries.resize(before + rows_of_rank.size() / sizeof(double));
+    if (rows_of_rank.empty()) continue;
+    std::memcpy(pairs.entries.data() + before, rows_of_rank.data(), rows_of_rank.size());
+  }
+  if (!work->ranks.is_first()) return CommandOutput();
   const Asymmetry apart = asymmetry(pairs);
   if (arguments.symmetric) symmetrise(pairs);
 

@@ -16,6 +16,7 @@
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -82,6 +83,32 @@ bool has_several_sources(const Answer& figures) { return source_groups(figures.s
 
 }  // namespace
 
+void add_many_options(CLI::App& command, SolveArguments& arguments) {
+  command
+      .add_flag(
+          "--each", arguments.each,
+          "solves for each source point by itself: one row of distances a point, in the order "
+          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
+          "curve and the boundary are one row each")
+      ->group("Many sources");
+  command
+      .add_flag("--pairs", arguments.pairs,
+                "distances between each two of the source vertices alone: a square matrix, from "
+                "the row's vertex to the column's")
+      ->group("Many sources");
+  command
+      .add_flag("--symmetric", arguments.symmetric,
+                "with --pairs: both directions become their mean; otherwise they differ by the "
+                "error of the method, which the report says")
+      ->group("Many sources");
+  command
+      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
+      ->type_name("TYPE")
+      ->group("Many sources");
+  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
+      ->group("Many sources");
+}
+
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
@@ -121,29 +148,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
-  command
-      .add_flag(
-          "--each", arguments.each,
-          "solves for each source point by itself: one row of distances a point, in the order "
-          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
-          "curve and the boundary are one row each")
-      ->group("Many sources");
-  command
-      .add_flag("--pairs", arguments.pairs,
-                "distances between each two of the source vertices alone: a square matrix, from "
-                "the row's vertex to the column's")
-      ->group("Many sources");
-  command
-      .add_flag("--symmetric", arguments.symmetric,
-                "with --pairs: both directions become their mean; otherwise they differ by the "
-                "error of the method, which the report says")
-      ->group("Many sources");
-  command
-      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
-      ->type_name("TYPE")
-      ->group("Many sources");
-  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
-      ->group("Many sources");
+  add_many_options(command, arguments);
   add_sequence_options(command, arguments.sequence);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
@@ -198,6 +203,11 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   }
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
+  }
+  if (!arguments.each && !arguments.pairs) {
+    if (auto alone = refuse_ranks("geotherm solve on one source set"); !alone) {
+      return alone.error();
+    }
   }
   if (!arguments.sequence.frames.empty()) return run_sequence(arguments, progress, announce);
   if (arguments.each) return run_each(arguments, progress, announce);

@@ -15,6 +15,7 @@
 #include "app/cli/commands.h"
 #include "app/session/model.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -23,7 +24,12 @@
 namespace geotherm::app {
 namespace {
 
+/// Of several processes that work together the first one speaks.
+bool is_first_rank() { return launched_as().rank == 0; }
+
 int fail(int code, const std::string& message) {
+  // Before MPI is there, the launcher would end the first one for this before it has spoken.
+  if (!is_first_rank()) return mpi_is_started() ? code : 0;
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
   return code;
 }
@@ -31,6 +37,7 @@ int fail(int code, const std::string& message) {
 int fail(const Error& error) { return fail(exit_code(error.code), told(error)); }
 
 int print(const CommandOutput& output) {
+  if (!is_first_rank()) return 0;
   for (const Warning& warning : output.warnings) {
     std::fprintf(stderr, "geotherm: warning: %s\n", one_line(told(warning)).c_str());
   }
@@ -55,7 +62,7 @@ int finish(const Result<CommandOutput>& result) {
 
 template <class Arguments, class Run>
 int run_with_bar(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal());
+  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
   const Result<CommandOutput> result = run(arguments, bar.progress());
   bar.clear();
   return finish(result);
@@ -64,9 +71,9 @@ int run_with_bar(const Arguments& arguments, Run&& run) {
 /// The same for a command that says more than its bar shows.
 template <class Arguments, class Run>
 int run_with_words(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal());
-  const Result<CommandOutput> result =
-      run(arguments, bar.progress(), arguments.quiet ? Announce() : bar.announce());
+  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
+  const Result<CommandOutput> result = run(
+      arguments, bar.progress(), arguments.quiet || !is_first_rank() ? Announce() : bar.announce());
   bar.clear();
   return finish(result);
 }
@@ -151,6 +158,8 @@ std::string help_of(const CLI::App& app) {
 struct AllArguments {
   ViewArguments view;
   SolveArguments solve;
+  BatchArguments batch;
+  PlanArguments plan;
   InfoArguments info;
   CompareArguments compare;
   RenderArguments render;
@@ -196,6 +205,10 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_view_options, a.view), with_bar(a.view, view)},
       {"solve", "Distance from a source set to every vertex.", options(add_solve_options, a.solve),
        with_words(a.solve, solve)},
+      {"batch", "Distances on many models, each in a process of its own; goes on where it ended.",
+       options(add_batch_options, a.batch), with_bar(a.batch, run_batch)},
+      {"plan", "Memory and time of a large solve, before it is started.",
+       options(add_plan_options, a.plan), [&a] { return finish(run_plan(a.plan)); }},
       {"info", "What a model is, and what is wrong with it.", options(add_info_options, a.info),
        with_bar(a.info, run_info)},
       {"compare", "The same work through several backends, side by side.",
@@ -292,7 +305,13 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
     }
   }
   for (const Subcommand& each : commands) {
-    if (root.got_subcommand(each.name)) return each.run();
+    if (!root.got_subcommand(each.name)) continue;
+    if (each.name != "solve" && each.name != "batch") {
+      if (auto alone = refuse_ranks("geotherm " + each.name); !alone) return fail(alone.error());
+    }
+    const int code = each.run();
+    finish_mpi();
+    return code;
   }
   return print({root.help(), {}, {}});
 }

@@ -103,6 +103,8 @@ struct SolveArguments {
 };
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
+/// --each, --pairs and what goes with them.
+void add_many_options(CLI::App& command, SolveArguments& arguments);
 /// `announce`: for what --each, --pairs and --sequence say before their work.
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress = {}, const Announce& announce = {});
@@ -119,6 +121,31 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
 /// and the .pvd file that lists them.
 Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progress& progress,
                                    const Announce& announce);
+
+struct BatchArguments {
+  std::vector<std::string> models;
+  SolveArguments solve;             ///< what each of them is solved with
+  std::vector<std::string> passed;  ///< the same as words
+  std::string folder, format, jobs, json;
+  bool quiet = false;
+};
+
+void add_batch_options(CLI::App& command, BatchArguments& arguments);
+
+/// `batch`: a solve of each model, in processes of their own, shared out over ranks. Errors: those
+/// of the options and of the folder; a model that cannot be solved is a line of the manifest, and
+/// CommandOutput::failure.
+Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress& progress = {});
+
+struct PlanArguments {
+  std::string vertices, sources, ranks, json;
+};
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments);
+
+/// Memory and time of a solve over ranks, by figures that were measured. Errors: those of the
+/// options, kBadInput (more vertices than a process can hold).
+Result<CommandOutput> run_plan(const PlanArguments& arguments);
 
 /// Distances between K vertices, row by row: entry (i, j) is the distance at vertex j from a source
 /// at vertex i. On a polyhedral surface it would be that of (j, i); by the heat method it is so but

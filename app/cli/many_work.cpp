@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "app/cli/many_work.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "app/session/answer.h"
@@ -15,6 +22,7 @@
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
@@ -35,6 +43,28 @@ void RowSums::add(std::span<const double> row) {
     most = std::max(most, d);
     mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
   }
+}
+
+void RowSums::add(const RowSums& more) {
+  least = std::min(least, more.least);
+  most = std::max(most, more.most);
+  const double both = reached + more.reached;
+  if (both > 0) mean += (more.mean - mean) * (more.reached / both);
+  reached = both;
+  unreached += more.unreached;
+}
+
+RowSums sums_of_all(const RowSums& mine, const Ranks& ranks) {
+  static_assert(std::is_trivially_copyable_v<RowSums>);
+  std::string bytes(sizeof mine, '\0');
+  std::memcpy(bytes.data(), &mine, sizeof mine);
+  RowSums all;
+  for (const std::string& each : ranks.exchange(bytes)) {
+    RowSums sums;
+    std::memcpy(&sums, each.data(), sizeof sums);
+    all.add(sums);
+  }
+  return all;
 }
 
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {
@@ -69,7 +99,10 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
   return {};
 }
 
-Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
+namespace {
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ranks,
+                               const Progress& progress) {
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;
@@ -82,12 +115,31 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
   if (auto pin = check_pin(options.constraint, *model); !pin) return pin.error();
   auto sources = resolve_each(*named, *model);
   if (!sources) return sources.error();
+  // Blocks of sixteen are solved as one, and shared out whole.
+  constexpr std::size_t kBlock = 16;
+  const std::size_t rows = sources->sets.size(), blocks = (rows + kBlock - 1) / kBlock;
+  const auto begin_of = [&](int rank) {
+    return std::min(rows, blocks * static_cast<std::size_t>(rank) /
+                              static_cast<std::size_t>(ranks.count()) * kBlock);
+  };
+  const std::size_t first = begin_of(ranks.rank()), count = begin_of(ranks.rank() + 1) - first;
   const std::size_t chunk =
       std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
-               sources->sets.size());
+               std::max<std::size_t>(count, 1));
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
+  return ManySources{
+      *std::move(model), mesh, options, *std::move(sources), *check, chunk, ranks, first, count};
+}
+
+}  // namespace
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Result<void>& before,
+                               const Progress& progress) {
+  const auto ranks = Ranks::join();
+  if (!ranks) return ranks.error();
+  if (const auto all = ranks->agree(before); !all) return all.error();
+  return ranks->agree_on(begin_many(arguments, *ranks, progress));
 }
 
 Result<void> check_room(const std::string& path, double bytes) {
@@ -99,9 +151,11 @@ Result<void> check_room(const std::string& path, double bytes) {
                    " are free there; take fewer rows, --dtype float32 or another place"};
 }
 
-Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
-                               const TakeRow& take, const std::string& output,
-                               const Progress& progress, const Announce& announce) {
+namespace {
+
+Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& arguments,
+                                const TakeRow& take, const std::string& output,
+                                const Progress& progress, const Announce& announce) {
   constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
   ModelSolver solver(work.model);
   auto ready = solver.prepare(work.options, part_of(progress, 0.0, kMethodShare));
@@ -123,13 +177,12 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 
-  const std::size_t rows = work.sources.sets.size();
   StreamOptions stream;
   stream.chunk = work.chunk;
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
-    auto taken = take(row, answer.distances);
+    auto taken = take(work.first + row, answer.distances);
     if (!taken) {
       not_taken = taken.error();
       return taken;
@@ -146,9 +199,9 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
       " of memory for answers and " + bytes_in_words(figures.method->memory_mb() * kMegabyte) +
       " for the method";
   const auto done = stream_answers(
-      *figures.method, work.sources.sets, stream, sink,
+      *figures.method, std::span(work.sources.sets).subspan(work.first, work.count), stream, sink,
       with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,
-                    counted(static_cast<std::int64_t>(rows), "source", "sources"), details));
+                    counted(static_cast<std::int64_t>(work.count), "source", "sources"), details));
   if (!done) return not_taken ? *not_taken : about_model(work.model.name, done.error());
   figures.queries_ms = watch.milliseconds();
   figures.peak_rss_mb = peak_rss_mb();
@@ -164,6 +217,81 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;
 }
+
+}  // namespace
+
+Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
+                               const TakeRow& take, const std::string& output,
+                               const Progress& progress, const Announce& announce) {
+  return work.ranks.agree_on(solve_share(work, arguments, take, output, progress, announce));
+}
+
+struct SharedRows::State {
+  std::optional<GrowingFile> file;  ///< of the first rank
+  std::string path, bytes;
+  int place = -1;  ///< where rows are written; -1: through the file, one after the other
+  std::uint64_t header = 0, row = 0;
+  NpyType type;
+
+  Error failure(int code) const {
+    return {ErrorCode::kBadFile,
+            one_line(path) + ": cannot be written: " + std::generic_category().message(code)};
+  }
+};
+
+SharedRows::SharedRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SharedRows::SharedRows(SharedRows&&) noexcept = default;
+SharedRows::~SharedRows() {
+  if (state_ && state_->place >= 0) ::close(state_->place);
+}
+
+Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& work, Index columns,
+                                    NpyType type) {
+  const std::uint64_t rows = work.sources.sets.size();
+  const auto width = static_cast<std::uint64_t>(columns);
+  const std::string header = io::npy_rows_header(rows, width, type);
+  SharedRows out(std::make_unique<State>());
+  State& state = *out.state_;
+  state.path = path;
+  state.type = type;
+  state.header = header.size();
+  state.row = npy_bytes_of(1, width, type) - npy_bytes_of(0, width, type);
+  const auto begin = [&]() -> Result<void> {
+    if (!work.ranks.is_first()) return {};
+    if (!work.ranks.alone() && path == "-") {
+      return Error{ErrorCode::kBadInput,
+                   "several processes cannot share standard output; give -o FILE.npy"};
+    }
+    auto file = GrowingFile::open(path);
+    if (!file) return file.error();
+    state.file = *std::move(file);
+    return state.file->append(header);
+  };
+  if (auto begun = work.ranks.agree(begin()); !begun) return begun.error();
+  if (work.ranks.alone()) return out;
+  const std::string place =
+      work.ranks.exchange(work.ranks.is_first() ? state.file->place() : std::string()).front();
+  state.place = ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
+  const auto opened = work.ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
+  return opened ? Result<SharedRows>(std::move(out)) : opened.error();
+}
+
+Result<void> SharedRows::write(std::size_t row, std::span<const double> distances) {
+  State& state = *state_;
+  if (auto made = io::npy_row(state.path, distances, state.type, state.bytes); !made) return made;
+  if (state.place < 0) return state.file->append(state.bytes);
+  std::string_view left = state.bytes;
+  for (auto at = state.header + row * state.row; !left.empty();) {
+    const ssize_t written = ::pwrite(state.place, left.data(), left.size(), static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return state.failure(errno);
+    left.remove_prefix(static_cast<std::size_t>(written));
+    at += static_cast<std::uint64_t>(written);
+  }
+  return {};
+}
+
+Result<void> SharedRows::finish() { return state_->file->finish(); }
 
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
                         const ManyFigures& figures) {
@@ -210,6 +338,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
       {"warnings", told(figures.warnings)}};
+  if (!work.ranks.alone()) json["ranks"] = work.ranks.count();
   if (figures.error) json["error"] = error_json(*figures.error);
   if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
   return json;
@@ -224,6 +353,7 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
                                (heat ? ", " + figures.first.backend : std::string()) + ", " +
                                counted(thread_count(work.options.threads), "thread", "threads")});
   const auto rows = static_cast<double>(work.sources.sets.size());
+  if (!work.ranks.alone()) table.add_row({"ranks", std::to_string(work.ranks.count())});
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
                                 milliseconds(figures.queries_ms / rows) + " ms each"});

@@ -14,6 +14,7 @@
 #include "app/session/model.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/sources.h"
 #include "geotherm/io.h"
@@ -35,6 +36,10 @@ struct ManySources {
   EachSource sources;
   CheckSettings check;
   std::size_t chunk = 1;  ///< sources solved at once
+  Ranks ranks;            ///< that share the sources
+  /// Of this rank: those from `first` on, `count` of them. Shares begin at multiples of sixteen, so
+  /// that the rows have the bits of one rank.
+  std::size_t first = 0, count = 0;
 };
 
 /// Statistics over all source sets; the distances have been streamed out.
@@ -56,7 +61,11 @@ struct RowSums {
   std::int64_t unreached = 0;
 
   void add(std::span<const double> row);
+  void add(const RowSums& more);
 };
+
+/// The sums of all ranks, on each of them.
+RowSums sums_of_all(const RowSums& mine, const Ranks& ranks);
 
 /// Adds the warnings that are not there yet.
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more);
@@ -71,18 +80,43 @@ Result<NpyType> number_type(const SolveArguments& arguments);
 /// Refuses options of a solve that have no meaning for many. Errors: kBadInput.
 Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option);
 
-/// Reads model and sources. Errors: those of the options, of load_model() and resolve_each().
-Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress);
+/// Reads model and sources, and joins the other ranks. Errors: those of the options, of
+/// load_model(), resolve_each() and Ranks::join(), and `before`, what came of checks so far: the
+/// same on all ranks.
+Result<ManySources> begin_many(const SolveArguments& arguments, const Result<void>& before,
+                               const Progress& progress);
 
 /// Whether a file of so many bytes fits where it is to be. Errors: kBadFile, with both sizes.
 Result<void> check_room(const std::string& path, double bytes);
 
-/// Sets the method up, checks it on some of the sources and hands every row to `take`. `output`:
+/// Sets the method up, checks it on some of the sources and hands every row of this rank to `take`.
+/// All ranks come back with the same error, or none with any. `output`:
 /// what will be written, for the estimate. Warnings: those of model, sources, method, the check and
 /// the first answers. Errors: those of the work, kNumericalFailure (OnPoor::kFail, before any row).
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce);
+
+/// A .npy array that ranks write together: each its rows, into the file of the first one, which is
+/// renamed when all are done. Alone it is written as NpyRows does it.
+class SharedRows {
+ public:
+  /// All ranks. Errors: kBadFile, the same on all.
+  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
+                                 NpyType type);
+  SharedRows(SharedRows&&) noexcept;
+  ~SharedRows();
+
+  /// Errors: kBadFile, kBadInput (a row that does not fit the type).
+  Result<void> write(std::size_t row, std::span<const double> distances);
+  /// On the first rank, when the others have written theirs.
+  Result<void> finish();
+
+ private:
+  struct State;
+  explicit SharedRows(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
 
 /// accuracy_note() of what was checked.
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,

@@ -44,7 +44,7 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
   EXPECT_GT(q.eikonal_error_mean, 0);
   EXPECT_LE(q.eikonal_error_mean, kSlopeError);
   EXPECT_EQ(q.iterations_heat > 0, iterative);
-  EXPECT_EQ(q.iterations_poisson > 0, iterative);
+  EXPECT_EQ(q.iterations_poisson > 0, iterative || backend == "petsc");  // that of Poisson alone
   EXPECT_TRUE(result.warnings.empty()) << sentence(result.warnings.front());
 }
 

@@ -40,6 +40,8 @@ report isolines isolines bunny -s 0 --count 5 -o lines.csv
 report sample sample bunny -n 5 -o samples.ply
 report backends backends
 report models models
+report batch batch bunny -s 0,3 --each --out-dir batch
+report plan plan --vertices 1e6 --sources 100 --ranks 8
 if "$program" devices >/dev/null 2>&1; then
   report devices devices
   report render render bunny -s 0 --path 99 --size 160x120 -o a.png
