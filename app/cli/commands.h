@@ -96,6 +96,8 @@ struct SolveArguments {
   bool each = false;       ///< a row of distances for each source
   bool pairs = false;      ///< distances between the sources alone
   bool symmetric = false;  ///< of pairs: the mean of both directions
+  std::string max_distance;          ///< beyond it nothing is asked; empty: all is
+  std::vector<std::string> targets;  ///< vertices, as sources are typed; none: all
   std::string dtype;       ///< of .npy rows; empty: float64
   bool float32 = false;    ///< the same as --dtype float32
   SequenceArguments sequence;

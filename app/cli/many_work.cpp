@@ -69,6 +69,43 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
   return {};
 }
 
+Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option) {
+  std::vector<Index> vertices;
+  for (const SourceSet& set : each.sets) {
+    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
+                           set.points.front().is_vertex();
+    if (!is_vertex || !set.offsets.empty()) {
+      return Error{ErrorCode::kBadInput, option + " " + std::to_string(vertices.size() + 1) +
+                                             (is_vertex ? " has an offset" : " is no vertex") +
+                                             "; distances are between vertices, such as 3,99,512 "
+                                             "or random:20"};
+    }
+    vertices.push_back(set.points.front().vertex);
+  }
+  return vertices;
+}
+
+Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
+  Reach reach;
+  if (!arguments.max_distance.empty()) {
+    const auto most = number_in<double>(arguments.max_distance);
+    if (!most || !(*most > 0) || !std::isfinite(*most)) {
+      return Error{ErrorCode::kBadInput, "--max-distance: '" + one_line(arguments.max_distance) +
+                                             "' is no length above 0; give one in model units"};
+    }
+    reach.max_distance = *most;
+  }
+  if (arguments.targets.empty()) return reach;
+  const auto named = sources_of({arguments.targets, {}, false});
+  if (!named) return about("--target", named.error());
+  const auto each = resolve_each(*named, model);
+  if (!each) return about("--target", each.error());
+  auto vertices = vertices_of_each(*each, "--target: number");
+  if (!vertices) return vertices.error();
+  reach.targets = *std::move(vertices);
+  return reach;
+}
+
 Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
@@ -82,12 +119,14 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
   if (auto pin = check_pin(options.constraint, *model); !pin) return pin.error();
   auto sources = resolve_each(*named, *model);
   if (!sources) return sources.error();
+  auto reach = reach_of(arguments, *model);
+  if (!reach) return reach.error();
   const std::size_t chunk =
       std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
                sources->sets.size());
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
+  return ManySources{*std::move(model), mesh, options, *std::move(sources), *std::move(reach), *check, chunk};
 }
 
 Result<void> check_room(const std::string& path, double bytes) {
@@ -126,16 +165,18 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   const std::size_t rows = work.sources.sets.size();
   StreamOptions stream;
   stream.chunk = work.chunk;
+  stream.query.reach = work.reach;
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
-    auto taken = take(row, answer.distances);
+    auto taken = take(row, answer);
     if (!taken) {
       not_taken = taken.error();
       return taken;
     }
     add_warnings(of_answers, answer.warnings);
     answer.distances = {};
+    answer.vertices = {};
     if (row == 0) figures.first = std::move(answer);
     return {};
   };

@@ -37,6 +37,14 @@ bool fits_float(std::span<const double> row) {
 
 }  // namespace
 
+Result<void> io::check_float_range(const std::string& path, std::span<const double> values) {
+  if (fits_float(values)) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
+      {"write float64"}};
+}
+
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
   return header_of(rows, columns, type).size() + rows * columns * size_of(type);
 }
@@ -72,12 +80,7 @@ Result<void> NpyRows::append(std::span<const double> row) {
   if (type == NpyType::kFloat64) {
     for (const double value : row) io::append_little(bytes, value);
   } else {
-    if (!fits_float(row)) {
-      return Error{
-          ErrorCode::kBadInput,
-          io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
-          {"write float64"}};
-    }
+    if (auto fits = io::check_float_range(path, row); !fits) return fits;
     for (const double value : row) io::append_little(bytes, static_cast<float>(value));
   }
   --missing;
