@@ -92,8 +92,8 @@ Result<Model> build_triangles(const geotherm_shape& shape) {
   auto mesh = TriangleMesh::build(*std::move(positions), grouped_by<3>(*corners));
   if (!mesh || marks->empty()) return model_of(nullptr, std::move(mesh));
   Mask mask;
-  const bool of_faces = std::ssize(*marks) == mesh->face_count() &&
-                        std::ssize(*marks) != mesh->vertex_count();
+  const bool of_faces =
+      std::ssize(*marks) == mesh->face_count() && std::ssize(*marks) != mesh->vertex_count();
   auto& list = of_faces ? mask.faces : mask.vertices;
   for (const double mark : *marks) list.push_back(mark != 0 ? 1 : 0);
   return model_of(nullptr, masked(*mesh, mask));

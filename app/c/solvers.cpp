@@ -115,8 +115,7 @@ Result<void> stream_to_file(const Solver& solver, const app::EachSource& each,
   }
   const Index vertices = solver.model().mesh->vertex_count();
   const auto columns = static_cast<std::uint64_t>(selection.columns(vertices));
-  const NpyType type =
-      rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64;
+  const NpyType type = rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64;
   if (sparse) {
     selection.make_sparse();
     auto file = SparseRows::open(path, columns, type);
@@ -129,10 +128,10 @@ Result<void> stream_to_file(const Solver& solver, const app::EachSource& each,
   }
   auto file = NpyRows::open(path, each.sets.size(), columns, type);
   if (!file) return file.error();
-  const auto done = stream(solver, each, selection.reach(), progress,
-                           [&](std::size_t, DistanceResult&& answer) {
-                             return file->append(selection.row_of(answer, vertices));
-                           });
+  const auto done =
+      stream(solver, each, selection.reach(), progress, [&](std::size_t, DistanceResult&& answer) {
+        return file->append(selection.row_of(answer, vertices));
+      });
   return done ? file->finish() : done;
 }
 
@@ -142,11 +141,10 @@ Result<void> stream_to_memory(const Solver& solver, const app::EachSource& each,
   const Index vertices = solver.model().mesh->vertex_count();
   auto fits = check_output(array, std::ssize(each.sets), selection.columns(vertices), "out");
   if (!fits) return fits;
-  return stream(solver, each, selection.reach(), progress,
-                [&](std::size_t row, DistanceResult&& answer) {
-                  return write_row(array, static_cast<std::int64_t>(row),
-                                   selection.row_of(answer, vertices));
-                });
+  return stream(
+      solver, each, selection.reach(), progress, [&](std::size_t row, DistanceResult&& answer) {
+        return write_row(array, static_cast<std::int64_t>(row), selection.row_of(answer, vertices));
+      });
 }
 
 /// The words of geotherm_solve().

@@ -36,8 +36,9 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   }
   if (is_npz(path) && !arguments.targets.empty()) {
     return Error{ErrorCode::kBadInput,
-                 one_line(path) + ": sparse rows are of all vertices, and --target asks for some; "
-                                  "write a .npy, or leave --target out"};
+                 one_line(path) +
+                     ": sparse rows are of all vertices, and --target asks for some; "
+                     "write a .npy, or leave --target out"};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   if (arguments.json.empty()) return {};
@@ -152,7 +153,8 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
                            counted(file->columns(), "vertex", "vertices") + ", " + to_text(*type) +
                            ", " + file->size_in_words();
 
-  if (sums.unreached > 0 && !work->reach.is_bounded()) figures->warnings.push_back({unreached_note(*work, sums.unreached)});
+  if (sums.unreached > 0 && !work->reach.is_bounded())
+    figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
   if (!arguments.json.empty()) {
     const auto reported = outputs.write_text(

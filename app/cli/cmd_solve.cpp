@@ -88,13 +88,13 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
   command
-      .add_option(
-          "-o,--output", arguments.outputs,
-          "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
-          "or - for CSV on "
-          "standard output; "
-          "may be repeated; with --each .npy and .npz, with --pairs .npy and .csv, with --sequence .npy "
-          "and .pvd")
+      .add_option("-o,--output", arguments.outputs,
+                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
+                  "or - for CSV on "
+                  "standard output; "
+                  "may be repeated; with --each .npy and .npz, with --pairs .npy and .csv, with "
+                  "--sequence .npy "
+                  "and .pvd")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -173,7 +173,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
       "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv\n"
       "  geotherm solve bunny -s random:500 --each --float32 -o rows.npy\n"
-      "  geotherm solve bunny -s random:500 --each --method wavefront --max-distance 0.2 -o near.npz\n"
+      "  geotherm solve bunny -s random:500 --each --method wavefront --max-distance 0.2 -o "
+      "near.npz\n"
       "  geotherm solve bunny -s 17 --target 3,99 --method exact -o -\n"
       "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv\n"
       "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy");

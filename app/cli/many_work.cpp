@@ -126,7 +126,8 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
                sources->sets.size());
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{*std::move(model), mesh, options, *std::move(sources), *std::move(reach), *check, chunk};
+  return ManySources{*std::move(model), mesh,   options, *std::move(sources),
+                     *std::move(reach), *check, chunk};
 }
 
 Result<void> check_room(const std::string& path, double bytes) {

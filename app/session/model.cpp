@@ -105,8 +105,8 @@ Result<void> leave_out(const std::string& text, Model& model) {
   Index faces = 0;
   for (const Face& face : left->faces()) faces += face[0] == face[1] && face[1] == face[2] ? 1 : 0;
   const auto vertices = std::ranges::count_if(mask->vertices, [](char out) { return out != 0; });
-  model.notes.push_back({"the mask leaves out " + counted(vertices, "vertex", "vertices") + " and " +
-                         counted(faces, "face", "faces")});
+  model.notes.push_back({"the mask leaves out " + counted(vertices, "vertex", "vertices") +
+                         " and " + counted(faces, "face", "faces")});
   model.mesh = std::make_shared<const TriangleMesh>(*std::move(left));
   return {};
 }

@@ -233,9 +233,8 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
   return answer;
 }
 
-Result<Answer> ModelSolver::answer_all(const MethodOptions& options,
-                                       const ResolvedSources& sources, const Wanted& wanted,
-                                       const Progress& progress) {
+Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const ResolvedSources& sources,
+                                       const Wanted& wanted, const Progress& progress) {
   const bool checks = wanted.check.against != Check::kOff;
   const double solved = checks ? 0.8 : 1.0;  // share of the whole
   auto answer = distances(options, sources, wanted.query, part_of(progress, 0.0, solved));

@@ -95,11 +95,11 @@ MaskNumbers numbers_in_npy(std::string_view bytes) {
   out.flags = header.type == "b1";
   const std::string_view data = bytes.substr(header.begins);
   const std::pair<std::string_view, void (*)(std::string_view, std::endian, std::vector<double>&)>
-      kTypes[] = {{"b1", append_numbers<std::uint8_t>},  {"u1", append_numbers<std::uint8_t>},
-                  {"i1", append_numbers<std::int8_t>},   {"u2", append_numbers<std::uint16_t>},
-                  {"i2", append_numbers<std::int16_t>},  {"u4", append_numbers<std::uint32_t>},
-                  {"i4", append_numbers<std::int32_t>},  {"u8", append_numbers<std::uint64_t>},
-                  {"i8", append_numbers<std::int64_t>},  {"f4", append_numbers<float>},
+      kTypes[] = {{"b1", append_numbers<std::uint8_t>}, {"u1", append_numbers<std::uint8_t>},
+                  {"i1", append_numbers<std::int8_t>},  {"u2", append_numbers<std::uint16_t>},
+                  {"i2", append_numbers<std::int16_t>}, {"u4", append_numbers<std::uint32_t>},
+                  {"i4", append_numbers<std::int32_t>}, {"u8", append_numbers<std::uint64_t>},
+                  {"i8", append_numbers<std::int64_t>}, {"f4", append_numbers<float>},
                   {"f8", append_numbers<double>}};
   const auto* const type = std::ranges::find(kTypes, header.type, [](auto& t) { return t.first; });
   if (type == std::end(kTypes)) {
@@ -204,7 +204,8 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
     const std::string extension = io::file_extension(what.path);
     const io::MaskNumbers numbers = io::numbers_in_file(what, bytes.bytes(), extension);
     const auto is_flag = [](double value) { return value == 0 || value == 1; };
-    const bool flags = numbers.flags || (!numbers.ids && std::ranges::all_of(numbers.values, is_flag));
+    const bool flags =
+        numbers.flags || (!numbers.ids && std::ranges::all_of(numbers.values, is_flag));
     const auto size = static_cast<Index>(numbers.values.size());
     const Index vertices = mesh.vertex_count(), faces = mesh.face_count();
     const bool of_faces = what.of_faces || (flags && size == faces && size != vertices);

@@ -25,8 +25,8 @@ namespace {
 constexpr std::size_t kAtOnce = std::size_t{1} << 20;
 
 std::uint32_t checksum(std::uint32_t before, std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(
-      before, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<z_size_t>(bytes.size())));
+  return static_cast<std::uint32_t>(crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()),
+                                            static_cast<z_size_t>(bytes.size())));
 }
 
 /// Bytes that wait on the disk, in a file without a name that goes with its descriptor.
@@ -62,7 +62,8 @@ class WaitingBytes {
 
   std::string& buffer() { return buffer_; }
   Error failure() const {
-    return {ErrorCode::kBadFile, io::printable(path_) + ": what waits beside it cannot be written: " +
+    return {ErrorCode::kBadFile, io::printable(path_) +
+                                     ": what waits beside it cannot be written: " +
                                      std::generic_category().message(errno)};
   }
   /// Writes the buffer where there is much in it.
@@ -110,7 +111,8 @@ class ZipWriter {
   explicit ZipWriter(GrowingFile& file) : file_(file) {}
 
   /// `rest`: what follows `bytes` in the entry; may be null.
-  Result<void> add(const std::string& name, const std::string& bytes, WaitingBytes* rest = nullptr) {
+  Result<void> add(const std::string& name, const std::string& bytes,
+                   WaitingBytes* rest = nullptr) {
     Entry entry{name, checksum(0, bytes), bytes.size(), place_};
     if (rest != nullptr) {
       entry.sum = static_cast<std::uint32_t>(
@@ -152,7 +154,8 @@ class ZipWriter {
     io::append_little(list, std::uint16_t{45});
     io::append_little(list, std::uint16_t{45});
     list.append(8, '\0');
-    for (const std::uint64_t number : {count, count, bytes, begins}) io::append_little(list, number);
+    for (const std::uint64_t number : {count, count, bytes, begins})
+      io::append_little(list, number);
     io::append_little(list, std::uint32_t{0x07064b50});
     io::append_little(list, std::uint32_t{0});
     io::append_little(list, begins + bytes);
@@ -176,8 +179,8 @@ class ZipWriter {
   /// From the version that can read it to the length of the name.
   static void add_common(const Entry& entry, std::string& to) {
     constexpr std::uint16_t kFirstDay = 33;  // 1980-01-01, the first that a zip file knows
-    for (const std::uint16_t number : {std::uint16_t{45}, std::uint16_t{0}, std::uint16_t{0},
-                                       std::uint16_t{0}, kFirstDay}) {
+    for (const std::uint16_t number :
+         {std::uint16_t{45}, std::uint16_t{0}, std::uint16_t{0}, std::uint16_t{0}, kFirstDay}) {
       io::append_little(to, number);
     }
     io::append_little(to, entry.sum);
@@ -271,8 +274,9 @@ Result<void> SparseRows::finish() {
   if (done) done = zip.add("indptr.npy", npy_of(s.starts));
   if (done) done = zip.add("format.npy", io::npy_header("|S3", {}) + "csr");
   if (done) {
-    done = zip.add("shape.npy", npy_of({static_cast<std::int64_t>(rows()),
-                                        static_cast<std::int64_t>(s.columns)}));
+    done =
+        zip.add("shape.npy",
+                npy_of({static_cast<std::int64_t>(rows()), static_cast<std::int64_t>(s.columns)}));
   }
   if (done) done = zip.add("data.npy", io::npy_header(number, count), &s.data);
   if (done) done = zip.finish();

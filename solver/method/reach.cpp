@@ -17,10 +17,10 @@ Result<void> check_reach(const Reach& reach, Index vertices) {
   for (std::size_t i = 0; i < reach.targets.size(); ++i) {
     const Index v = reach.targets[i];
     if (v >= 0 && v < vertices) continue;
-    return Error{ErrorCode::kBadInput,
-                 "target " + std::to_string(i) + " is vertex " + std::to_string(v) +
-                     ", which is not there",
-                 {"vertices are 0 to " + std::to_string(vertices - 1)}};
+    return Error{
+        ErrorCode::kBadInput,
+        "target " + std::to_string(i) + " is vertex " + std::to_string(v) + ", which is not there",
+        {"vertices are 0 to " + std::to_string(vertices - 1)}};
   }
   return {};
 }

@@ -67,7 +67,8 @@ Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality && !reach.is_bounded()) assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
+  if (query.quality && !reach.is_bounded())
+    assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
   for (double& distance : result.distances) distance *= surface->base.length_unit();
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);

@@ -45,8 +45,8 @@ class BucketRing {
 
 /// How far a wave runs. Lengths in units of the intrinsic mesh.
 struct WaveReach {
-  double radius = kUnreached;       ///< what is farther need not have its distance
-  std::span<const Index> ranks{};   ///< ends when these have theirs; empty: all within the radius
+  double radius = kUnreached;      ///< what is farther need not have its distance
+  std::span<const Index> ranks{};  ///< ends when these have theirs; empty: all within the radius
   bool is_bounded() const { return radius < kUnreached || !ranks.empty(); }
 };
 

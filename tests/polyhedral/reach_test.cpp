@@ -71,11 +71,12 @@ TEST_P(ReachOnTheZoo, HasTheBitsOfTheWholeAnswerAtTargets) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Meshes, ReachOnTheZoo, testing::Combine(testing::ValuesIn(zoo()), testing::ValuesIn(kAll)),
-    [](const auto& each) {
-      return std::string(std::get<0>(each.param).name) + "_" + kind_name(std::get<1>(each.param));
-    });
+INSTANTIATE_TEST_SUITE_P(Meshes, ReachOnTheZoo,
+                         testing::Combine(testing::ValuesIn(zoo()), testing::ValuesIn(kAll)),
+                         [](const auto& each) {
+                           return std::string(std::get<0>(each.param).name) + "_" +
+                                  kind_name(std::get<1>(each.param));
+                         });
 
 class Reaches : public testing::TestWithParam<MethodKind> {};
 
@@ -151,7 +152,8 @@ TEST(ReachOfWaves, TakesTheTimeOfWhatIsReached) {
       part = std::min(part, solve(*method, set, near).timing.query);
     }
     const auto few = solve(*method, set, near);
-    EXPECT_NEAR(static_cast<double>(few.vertices.size()), 0.01 * kSide * kSide, 0.0005 * kSide * kSide);
+    EXPECT_NEAR(static_cast<double>(few.vertices.size()), 0.01 * kSide * kSide,
+                0.0005 * kSide * kSide);
     EXPECT_GT(whole / part, 20) << kind_name(kind) << ": " << whole << " and " << part << " ms";
   }
 }

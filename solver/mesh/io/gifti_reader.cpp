@@ -19,11 +19,12 @@ namespace {
 constexpr struct {
   std::string_view name;
   VtkType type;
-} kNiftiTypes[] = {{"NIFTI_TYPE_UINT8", VtkType::kUint8},     {"NIFTI_TYPE_INT8", VtkType::kInt8},
-                   {"NIFTI_TYPE_INT16", VtkType::kInt16},     {"NIFTI_TYPE_UINT16", VtkType::kUint16},
-                   {"NIFTI_TYPE_INT32", VtkType::kInt32},     {"NIFTI_TYPE_UINT32", VtkType::kUint32},
-                   {"NIFTI_TYPE_INT64", VtkType::kInt64},     {"NIFTI_TYPE_UINT64", VtkType::kUint64},
-                   {"NIFTI_TYPE_FLOAT32", VtkType::kFloat32}, {"NIFTI_TYPE_FLOAT64", VtkType::kFloat64}};
+} kNiftiTypes[] = {
+    {"NIFTI_TYPE_UINT8", VtkType::kUint8},     {"NIFTI_TYPE_INT8", VtkType::kInt8},
+    {"NIFTI_TYPE_INT16", VtkType::kInt16},     {"NIFTI_TYPE_UINT16", VtkType::kUint16},
+    {"NIFTI_TYPE_INT32", VtkType::kInt32},     {"NIFTI_TYPE_UINT32", VtkType::kUint32},
+    {"NIFTI_TYPE_INT64", VtkType::kInt64},     {"NIFTI_TYPE_UINT64", VtkType::kUint64},
+    {"NIFTI_TYPE_FLOAT32", VtkType::kFloat32}, {"NIFTI_TYPE_FLOAT64", VtkType::kFloat64}};
 
 struct GiftiArray {
   std::string_view intent;
@@ -44,7 +45,8 @@ GiftiArray read_array_tag(std::string_view bytes, const XmlTag& tag) {
   out.array.type = known->type;
   const std::string_view encoding = attribute(tag, "Encoding").value_or("");
   if (encoding != "ASCII" && encoding != "Base64Binary" && encoding != "GZipBase64Binary") {
-    fail_at_tag(bytes, tag, "the encoding " + quoted(encoding, encoding.data()) + " is not supported",
+    fail_at_tag(bytes, tag,
+                "the encoding " + quoted(encoding, encoding.data()) + " is not supported",
                 {"save it as GZipBase64Binary"});
   }
   out.array.format = encoding == "ASCII" ? VtuArray::Format::kText : VtuArray::Format::kBase64;
@@ -59,9 +61,10 @@ GiftiArray read_array_tag(std::string_view bytes, const XmlTag& tag) {
   const bool fits = out.columns == 0 || static_cast<std::uint64_t>(out.rows) <=
                                             most / static_cast<std::uint64_t>(out.columns);
   if (dimensions < 1 || dimensions > 2 || !fits) {
-    fail_at_tag(bytes, tag, "an array of " + std::to_string(dimensions) + " dimensions, " +
-                                std::to_string(out.rows) + " x " + std::to_string(out.columns) +
-                                ", does not fit in " + std::to_string(bytes.size()) + " bytes");
+    fail_at_tag(bytes, tag,
+                "an array of " + std::to_string(dimensions) + " dimensions, " +
+                    std::to_string(out.rows) + " x " + std::to_string(out.columns) +
+                    ", does not fit in " + std::to_string(bytes.size()) + " bytes");
   }
   return out;
 }
@@ -92,16 +95,16 @@ std::string_view until_end(std::string_view bytes, const GiftiArray& array) {
 
 const GiftiArray& surface_array(std::string_view bytes, const std::vector<GiftiArray>& arrays,
                                 const char* intent) {
-  const auto found = std::ranges::find(arrays, std::string("NIFTI_INTENT_") + intent,
-                                       &GiftiArray::intent);
+  const auto found =
+      std::ranges::find(arrays, std::string("NIFTI_INTENT_") + intent, &GiftiArray::intent);
   if (found == arrays.end()) {
     fail_at_line(bytes, bytes.data(), std::string("there is no array ") + intent,
                  {"take the file of a surface (.surf.gii); masks and values have none"});
   }
   if (found->columns != 3) {
-    fail_at_line(bytes, found->intent.data(), std::string("the array ") + intent + " has " +
-                                                  std::to_string(found->columns) +
-                                                  " columns instead of 3");
+    fail_at_line(bytes, found->intent.data(),
+                 std::string("the array ") + intent + " has " + std::to_string(found->columns) +
+                     " columns instead of 3");
   }
   return *found;
 }
@@ -112,7 +115,8 @@ std::size_t place_in(const GiftiArray& array, std::int64_t row, int column) {
                                                      : row * array.columns + column);
 }
 
-Face face_of(const std::array<std::int64_t, 3>& corners, std::int64_t number, std::size_t vertices) {
+Face face_of(const std::array<std::int64_t, 3>& corners, std::int64_t number,
+             std::size_t vertices) {
   Face face;
   for (std::size_t k = 0; k < 3; ++k) {
     if (corners[k] < 0 || static_cast<std::uint64_t>(corners[k]) >= vertices) {
@@ -177,7 +181,8 @@ RawMesh read_gifti(std::string_view bytes) {
 
 std::vector<double> read_gifti_numbers(std::string_view bytes) {
   for (const GiftiArray& array : arrays_of(bytes)) {
-    if (array.intent == "NIFTI_INTENT_POINTSET" || array.intent == "NIFTI_INTENT_TRIANGLE") continue;
+    if (array.intent == "NIFTI_INTENT_POINTSET" || array.intent == "NIFTI_INTENT_TRIANGLE")
+      continue;
     if (array.columns != 1) continue;
     return read_vtu_reals(until_end(bytes, array), array.encoding, array.array, "of values",
                           array.rows, false);
