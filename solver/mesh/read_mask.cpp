@@ -13,6 +13,7 @@
 #include "solver/mesh/io/formats.h"
 #include "solver/mesh/io/gifti_reader.h"
 #include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/mask_numbers.h"
 #include "solver/mesh/io/npy_header.h"
 #include "solver/mesh/io/ply_body.h"
 #include "solver/mesh/io/text_scanner.h"
@@ -44,12 +45,6 @@ MaskText parse_mask_text(std::string text) {
   if (named) out.property = text.substr(colon + 1);
   return out;
 }
-
-/// What a file holds, and whether its numbers can only be one for each vertex or face.
-struct MaskNumbers {
-  std::vector<double> values;
-  bool flags = false, ids = false;
-};
 
 MaskNumbers numbers_in_text(std::string_view text) {
   MaskNumbers out;
@@ -160,14 +155,18 @@ MaskNumbers numbers_in_ply(std::string_view bytes, const std::string& name) {
   return out;
 }
 
-MaskNumbers numbers_in_file(const MaskText& text, std::string_view bytes,
-                            const std::string& extension) {
+}  // namespace
+
+MaskNumbers read_mask_numbers(std::string_view bytes, const std::string& extension,
+                              const std::string& property) {
   if (extension == ".npy") return numbers_in_npy(bytes);
   if (extension == ".label") return numbers_in_label(bytes);
-  if (extension == ".ply") return numbers_in_ply(bytes, text.property);
+  if (extension == ".ply") return numbers_in_ply(bytes, property);
   if (extension == ".gii") return {read_gifti_numbers(bytes), true, false};
   return numbers_in_text(bytes);
 }
+
+namespace {
 
 /// A list of flags of numbers. `count`: how many there are of what they number.
 Result<std::vector<char>> flags_of(const MaskNumbers& numbers, const MaskText& text, bool of_flags,
@@ -202,7 +201,7 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
   return io::guarded_read(io::printable(what.path), "mask", file->size(), [&]() -> Result<Mask> {
     const io::FileBytes bytes(*file);
     const std::string extension = io::file_extension(what.path);
-    const io::MaskNumbers numbers = io::numbers_in_file(what, bytes.bytes(), extension);
+    const io::MaskNumbers numbers = io::read_mask_numbers(bytes.bytes(), extension, what.property);
     const auto is_flag = [](double value) { return value == 0 || value == 1; };
     const bool flags =
         numbers.flags || (!numbers.ids && std::ranges::all_of(numbers.values, is_flag));

@@ -145,7 +145,7 @@ class DistanceMethod {
 
   /// Distance to the nearest source. Errors: kBadInput (no source, a vertex or face out of range,
   /// weights that are negative or do not sum to 1, offsets that are negative or that the method
-  /// does not know, a reach that is none), kBudgetEnded, kNumericalFailure, kOutOfMemory, kCancelled.
+  /// does not know, an empty reach), kBudgetEnded, kNumericalFailure, kOutOfMemory, kCancelled.
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query = {},
                                const Progress& progress = {}) const;
 
