@@ -123,12 +123,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
-  command
-      .add_option("--max-distance", arguments.max_distance,
-                  "asks for no more than this far (model units): farther is infinite, and waves, "
-                  "fast marching and exact windows spend no time there")
-      ->type_name("R")
-      ->group("Reach");
+  add_max_distance_option(command, arguments.max_distance);
   command
       .add_option("--target", arguments.targets,
                   "asks for the distances of these vertices alone, given as sources are; may be "

@@ -224,6 +224,7 @@ struct RenderArguments {
   PictureArguments picture;
   CheckArguments check;
   SequenceArguments sequence;
+  std::string max_distance;              ///< beyond it nothing is asked; empty: all is
   std::vector<std::string> targets;      ///< paths lead there from the sources
   std::vector<std::string> more_models;  ///< beside `model`
   std::string field;                     ///< a file of values of vertices; empty: distances

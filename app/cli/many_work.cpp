@@ -87,14 +87,9 @@ Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::s
 
 Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
   Reach reach;
-  if (!arguments.max_distance.empty()) {
-    const auto most = number_in<double>(arguments.max_distance);
-    if (!most || !(*most > 0) || !std::isfinite(*most)) {
-      return Error{ErrorCode::kBadInput, "--max-distance: '" + one_line(arguments.max_distance) +
-                                             "' is no length above 0; give one in model units"};
-    }
-    reach.max_distance = *most;
-  }
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
+  reach.max_distance = *most;
   if (arguments.targets.empty()) return reach;
   const auto named = sources_of({arguments.targets, {}, false});
   if (!named) return about("--target", named.error());
