@@ -117,21 +117,23 @@ GEOTHERM_API geotherm_status geotherm_features(const char** json);
 typedef struct geotherm_model geotherm_model;
 
 /* Reads a file, or a bundled model by its name. Of `options` (or NULL) those about models count:
- * domain, weld, format, grid. Errors: BAD_FILE, BAD_INPUT, NOT_AVAILABLE. */
+ * domain, mask, weld, format, grid. Errors: BAD_FILE, BAD_INPUT, NOT_AVAILABLE. */
 GEOTHERM_API geotherm_status geotherm_model_read(const char* path, const geotherm_options* options,
                                                  const geotherm_watch* watch,
                                                  geotherm_model** model);
 
 /* What a model is made of. */
 typedef enum geotherm_kind {
-  GEOTHERM_TRIANGLES = 0, /* positions V x 3, cells F x 3 */
-  GEOTHERM_POLYGONS = 1,  /* positions, cells: corners of all faces, one after the other; starts */
-  GEOTHERM_TETS = 2,      /* positions, cells T x 4 */
-  GEOTHERM_POINTS = 3,    /* positions; values: normals V x 3, or none */
-  GEOTHERM_GRID = 4,      /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
-                             wall; or none: 1 everywhere. The answer is travel time */
-  GEOTHERM_LENGTHS = 5 /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
-                          side opposite each corner; the heat method alone, not checked */
+  GEOTHERM_TRIANGLES =
+      0,                 /* positions V x 3, cells F x 3; values: none, or a mask of V numbers, or
+                            of F: what is marked by other than 0 is left out, and keeps its number */
+  GEOTHERM_POLYGONS = 1, /* positions, cells: corners of all faces, one after the other; starts */
+  GEOTHERM_TETS = 2,     /* positions, cells T x 4 */
+  GEOTHERM_POINTS = 3,   /* positions; values: normals V x 3, or none */
+  GEOTHERM_GRID = 4,     /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
+                            wall; or none: 1 everywhere. The answer is travel time */
+  GEOTHERM_LENGTHS = 5   /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
+                            side opposite each corner; the heat method alone, not checked */
 } geotherm_kind;
 
 /* A model as arrays. */
@@ -213,10 +215,12 @@ GEOTHERM_API geotherm_status geotherm_distance(const geotherm_solver* solver,
 typedef struct geotherm_rows {
   geotherm_array array;   /* the caller's memory, of which a path leaves all but the type alone;
                              without data and path the call only says its rows and columns */
-  const char* path;       /* NULL, or a file .npy of array.type, there whole or not at all */
+  const char* path;       /* NULL, or a file .npy of array.type, there whole or not at all; .npz:
+                             what is reached alone, as scipy.sparse.load_npz() reads it */
   const int64_t* targets; /* NULL, or the vertices whose distances are kept */
   int64_t target_count;
-  double max_distance; /* > 0; farther is infinite. INFINITY for all. It saves no time */
+  double max_distance; /* > 0; farther is infinite. INFINITY for all. The methods but heat spend
+                          no time beyond it, nor beyond the last of the targets */
 } geotherm_rows;
 
 /* From each set by itself, in blocks of sixteen, in memory for two chunks of these however many
@@ -232,7 +236,8 @@ typedef struct geotherm_answer geotherm_answer;
 
 /* From one set with all that there is to say: what `solve` of the command line reports. `wanted`:
  * NULL, or words with blanks between: "labels" (nearest_source), "fields" (heat, log_heat and the
- * fields that need them), "check=..." in place of the option `check` of the solver. */
+ * fields that need them), "check=..." in place of the option `check` of the solver,
+ * "max-distance=..." (farther is infinite; where nothing is checked no time is spent there). */
 GEOTHERM_API geotherm_status geotherm_solve(const geotherm_solver* solver,
                                             const geotherm_sources* sources, const char* wanted,
                                             const geotherm_watch* watch, geotherm_answer** answer);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "app/cli/commands.h"
@@ -16,6 +17,8 @@
 namespace geotherm::app {
 namespace {
 
+bool is_npz(const std::string& path) { return io::file_extension(path) == ".npz"; }
+
 Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   if (arguments.outputs.size() != 1) {
@@ -26,11 +29,17 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
                      "output"};
   }
   const std::string& path = arguments.outputs.front();
-  if (path != "-" && io::file_extension(path) != ".npy") {
+  if (path != "-" && io::file_extension(path) != ".npy" && !is_npz(path)) {
     return Error{ErrorCode::kNotAvailable,
                  one_line(path) +
-                     ": --each writes an array of sources x vertices as .npy; choose "
-                     "another name"};
+                     ": --each writes an array of sources x vertices as .npy, or sparse rows as "
+                     ".npz; choose another name"};
+  }
+  if (is_npz(path) && !arguments.targets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 one_line(path) +
+                     ": sparse rows are of all vertices, and --target asks for some; "
+                     "write a .npy, or leave --target out"};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   if (arguments.json.empty()) return {};
@@ -41,13 +50,73 @@ Error about_file(const Error& error) {
   return with_hint(error, {"make room there, or choose another place"});
 }
 
+/// The rows of --each as they come: an array, or what is reached alone.
+class RowsFile {
+ public:
+  static Result<RowsFile> open(const std::string& path, const ManySources& work, NpyType type) {
+    RowsFile out;
+    const std::size_t targets = work.reach.targets.size();
+    out.columns_ = targets > 0 ? static_cast<Index>(targets) : work.mesh.vertices;
+    out.number_bytes_ = type == NpyType::kFloat64 ? 8 : 4;
+    const auto columns = static_cast<std::uint64_t>(out.columns_);
+    if (work.reach.sparse && !work.ranks.alone()) {
+      return Error{ErrorCode::kBadInput,
+                   one_line(path) + ": sparse rows are written by one process; give -o FILE.npy"};
+    }
+    if (work.reach.sparse) {
+      auto file = SparseRows::open(path, columns, type);
+      if (!file) return about_file(file.error());
+      out.sparse_ = *std::move(file);
+      return out;
+    }
+    const std::uint64_t rows = work.sources.sets.size();
+    out.bytes_ = static_cast<double>(npy_bytes_of(rows, columns, type));
+    if (auto fits = work.ranks.agree(check_room(path, out.bytes_)); !fits) return fits.error();
+    auto file = SharedRows::open(path, work, out.columns_, type);
+    if (!file) return about_file(file.error());
+    out.rows_.emplace(*std::move(file));
+    return out;
+  }
+
+  Result<void> write(std::size_t row, const DistanceResult& answer) {
+    return rows_ ? rows_->write(row, answer.distances)
+                 : sparse_->append(answer.vertices, answer.distances);
+  }
+  Result<void> finish() { return rows_ ? rows_->finish() : sparse_->finish(); }
+
+  Index columns() const { return columns_; }
+  /// Of sparse rows: so many distances.
+  std::optional<std::uint64_t> entries() const {
+    return sparse_ ? std::optional(sparse_->entries()) : std::nullopt;
+  }
+  /// Of sparse rows those of the numbers so far.
+  double bytes() const {
+    if (!sparse_) return bytes_;
+    return static_cast<double>(sparse_->entries()) * (number_bytes_ + sizeof(Index)) +
+           static_cast<double>(sparse_->rows()) * sizeof(std::int64_t);
+  }
+  std::string size_in_words() const {
+    if (!sparse_) return bytes_in_words(bytes_);
+    const auto count = static_cast<std::int64_t>(sparse_->entries());
+    if (count == 0) return "sparse rows";
+    return counted(count, "entry", "entries") + " in " + bytes_in_words(bytes());
+  }
+
+ private:
+  std::optional<SharedRows> rows_;
+  std::optional<SparseRows> sparse_;
+  Index columns_ = 0;
+  double bytes_ = 0, number_bytes_ = 8;
+};
+
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
-               NpyType type, double bytes) {
+               NpyType type, const RowsFile& file) {
   Json json = many_json(work, figures);
   json["rows"] = work.sources.sets.size();
-  json["columns"] = work.mesh.vertices;
+  json["columns"] = file.columns();
   json["dtype"] = to_text(type);
-  json["bytes"] = bytes;
+  json["bytes"] = file.bytes();
+  if (const auto entries = file.entries()) json["entries"] = *entries;
   json["distance"] = {
       {"min", sums.least}, {"max", sums.most}, {"mean", sums.mean}, {"unreached", sums.unreached}};
   return json;
@@ -68,36 +137,34 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   if (!work) return work.error();
 
   const std::string& path = arguments.outputs.front();
+  work->reach.sparse = is_npz(path);
   const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
-  const Index vertices = work->mesh.vertices;
-  const auto bytes = static_cast<double>(
-      npy_bytes_of(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(vertices), *type));
-  if (auto fits = work->ranks.agree(check_room(path, bytes)); !fits) return fits.error();
-  const std::string size = counted(rows, "source", "sources") + " x " +
-                           counted(vertices, "vertex", "vertices") + ", " + to_text(*type) + ", " +
-                           bytes_in_words(bytes);
-  auto array = SharedRows::open(path, *work, vertices, *type);
-  if (!array) return about_file(array.error());
+  auto file = RowsFile::open(path, *work, *type);
+  if (!file) return file.error();
   RowSums sums;
   auto figures = solve_many(
       *work, arguments,
-      [&](std::size_t row, std::span<const double> distances) -> Result<void> {
-        sums.add(distances);
-        const auto written = array->write(row, distances);
+      [&](std::size_t row, const DistanceResult& answer) -> Result<void> {
+        sums.add(answer.distances);
+        const auto written = file->write(row, answer);
         return written ? written : about_file(written.error());
       },
-      "a file of " + bytes_in_words(bytes), progress, announce);
+      "a file of " + file->size_in_words(), progress, announce);
   if (!figures) return figures.error();
   sums = sums_of_all(sums, work->ranks);
   if (!work->ranks.is_first()) return CommandOutput();
-  const auto written = outputs.write(path, [&] { return array->finish(); });
+  const auto written = outputs.write(path, [&] { return file->finish(); });
   if (!written) return written.error();
+  const std::string size = counted(rows, "source", "sources") + " x " +
+                           counted(file->columns(), "vertex", "vertices") + ", " + to_text(*type) +
+                           ", " + file->size_in_words();
 
-  if (sums.unreached > 0) figures->warnings.push_back({unreached_note(*work, sums.unreached)});
+  if (sums.unreached > 0 && !work->reach.is_bounded())
+    figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
   if (!arguments.json.empty()) {
     const auto reported = outputs.write_text(
-        arguments.json, report_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
+        arguments.json, report_text(each_json(*work, *figures, sums, *type, *file)), out.text);
     if (!reported) return reported.error();
   }
   out.note = sample_note(arguments, outputs, *figures);
@@ -140,25 +207,12 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
   return outputs.expect(arguments.json, "--json");
 }
 
-/// The vertices of sources that are one each. Errors: kBadInput.
-Result<std::vector<Index>> vertices_of_each(const EachSource& each) {
-  std::vector<Index> vertices;
-  for (const SourceSet& set : each.sets) {
-    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
-                           set.points.front().is_vertex();
-    if (!is_vertex || !set.offsets.empty()) {
-      return Error{ErrorCode::kBadInput,
-                   "--pairs: source " + std::to_string(vertices.size() + 1) +
-                       (is_vertex ? " has an offset" : " is no vertex") +
-                       "; distances are between vertices, such as -s 3,99,512 or -s random:20"};
-    }
-    vertices.push_back(set.points.front().vertex);
-  }
-  if (vertices.size() < 2) {
-    return Error{ErrorCode::kBadInput,
-                 "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
-  }
-  return vertices;
+/// Two at least. Errors: kBadInput.
+Result<std::vector<Index>> vertices_of_pairs(const EachSource& each) {
+  auto vertices = vertices_of_each(each, "--pairs: source");
+  if (!vertices || vertices->size() >= 2) return vertices;
+  return Error{ErrorCode::kBadInput,
+               "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
 }
 
 Result<void> check_memory(std::size_t vertices) {
@@ -283,9 +337,14 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   auto work = begin_many(arguments, expect_matrix(arguments, outputs), progress);
   if (!work) return work.error();
   PairMatrix pairs;
-  auto vertices = vertices_of_each(work->sources);
+  auto vertices = vertices_of_pairs(work->sources);
   if (!vertices) return vertices.error();
   pairs.vertices = *std::move(vertices);
+  if (!arguments.targets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--target: the targets of --pairs are its sources; leave it out, or take --each"};
+  }
+  work->reach.targets = pairs.vertices;
   const auto rows = static_cast<std::uint64_t>(pairs.size());
   Result<void> fits = check_memory(pairs.size());
   for (const std::string& path : arguments.outputs) {
@@ -297,10 +356,9 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   std::string mine;  // the entries of this rank's rows, as bytes
   auto figures = solve_many(
       *work, arguments,
-      [&](std::size_t, std::span<const double> distances) -> Result<void> {
-        for (const Index v : pairs.vertices) {
-          mine.append(reinterpret_cast<const char*>(&distances[v]), sizeof(double));
-        }
+      [&mine](std::size_t, const DistanceResult& answer) -> Result<void> {
+        mine.append(reinterpret_cast<const char*>(answer.distances.data()),
+                    answer.distances.size() * sizeof(double));
         return {};
       },
       "a matrix of " + bytes_in_words(static_cast<double>(sizeof(double) * rows * rows)), progress,
@@ -317,7 +375,9 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   if (arguments.symmetric) symmetrise(pairs);
 
   const auto unreached = std::ranges::count(pairs.entries, kUnreached);
-  if (unreached > 0) figures->warnings.push_back({unreached_note(*work, unreached)});
+  if (unreached > 0 && arguments.max_distance.empty()) {
+    figures->warnings.push_back({unreached_note(*work, unreached)});
+  }
   CommandOutput out{"", figures->warnings, {}};
   for (const std::string& path : arguments.outputs) {
     const auto written = outputs.write(path, [&]() -> Result<void> {

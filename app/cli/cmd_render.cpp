@@ -130,6 +130,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("FILE");
   command.add_option("--fps", arguments.fps, "pictures a second of a film, 1 to 120, default 25")
       ->type_name("N");
+  add_max_distance_option(command, arguments.max_distance);
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.settings, arguments.picture);

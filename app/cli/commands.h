@@ -90,14 +90,16 @@ struct SolveArguments {
   std::vector<std::string> outputs;
   std::string json;
   CheckArguments check;
-  std::string fields;      ///< quality fields beside the distances, empty: none
-  std::string bake;        ///< the colour map that .ply files have colours of; empty: none
-  bool labels = false;     ///< nearest sources in .csv and .npy, too
-  bool each = false;       ///< a row of distances for each source
-  bool pairs = false;      ///< distances between the sources alone
-  bool symmetric = false;  ///< of pairs: the mean of both directions
-  std::string dtype;       ///< of .npy rows; empty: float64
-  bool float32 = false;    ///< the same as --dtype float32
+  std::string fields;        ///< quality fields beside the distances, empty: none
+  std::string bake;          ///< the colour map that .ply files have colours of; empty: none
+  bool labels = false;       ///< nearest sources in .csv and .npy, too
+  bool each = false;         ///< a row of distances for each source
+  bool pairs = false;        ///< distances between the sources alone
+  bool symmetric = false;    ///< of pairs: the mean of both directions
+  std::string max_distance;  ///< beyond it nothing is asked; empty: all is
+  std::vector<std::string> targets;  ///< vertices, as sources are typed; none: all
+  std::string dtype;                 ///< of .npy rows; empty: float64
+  bool float32 = false;              ///< the same as --dtype float32
   SequenceArguments sequence;
   bool quiet = false;
 };
@@ -216,6 +218,8 @@ struct PathArguments {
   SettingArguments settings;
   std::string from;
   std::vector<std::string> to, via;
+  std::string pairs;    ///< a file with the points of many paths, in place of those
+  std::string lengths;  ///< where a table of the lengths goes
   std::string field = "geodesic";
   bool closed = false, hold = false;
   LineFileArguments files;
@@ -247,6 +251,7 @@ struct RenderArguments {
   PictureArguments picture;
   CheckArguments check;
   SequenceArguments sequence;
+  std::string max_distance;              ///< beyond it nothing is asked; empty: all is
   std::vector<std::string> targets;      ///< paths lead there from the sources
   std::vector<std::string> more_models;  ///< beside `model`
   std::string field;                     ///< a file of values of vertices; empty: distances

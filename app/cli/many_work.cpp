@@ -99,6 +99,38 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
   return {};
 }
 
+Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option) {
+  std::vector<Index> vertices;
+  for (const SourceSet& set : each.sets) {
+    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
+                           set.points.front().is_vertex();
+    if (!is_vertex || !set.offsets.empty()) {
+      return Error{ErrorCode::kBadInput, option + " " + std::to_string(vertices.size() + 1) +
+                                             (is_vertex ? " has an offset" : " is no vertex") +
+                                             "; distances are between vertices, such as 3,99,512 "
+                                             "or random:20"};
+    }
+    vertices.push_back(set.points.front().vertex);
+  }
+  return vertices;
+}
+
+Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
+  Reach reach;
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
+  reach.max_distance = *most;
+  if (arguments.targets.empty()) return reach;
+  const auto named = sources_of({arguments.targets, {}, false});
+  if (!named) return about("--target", named.error());
+  const auto each = resolve_each(*named, model);
+  if (!each) return about("--target", each.error());
+  auto vertices = vertices_of_each(*each, "--target: number");
+  if (!vertices) return vertices.error();
+  reach.targets = *std::move(vertices);
+  return reach;
+}
+
 namespace {
 
 Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ranks,
@@ -115,6 +147,8 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ran
   if (auto pin = check_pin(options.constraint, *model); !pin) return pin.error();
   auto sources = resolve_each(*named, *model);
   if (!sources) return sources.error();
+  auto reach = reach_of(arguments, *model);
+  if (!reach) return reach.error();
   // Blocks of sixteen are solved as one, and shared out whole.
   constexpr std::size_t kBlock = 16;
   const std::size_t rows = sources->sets.size(), blocks = (rows + kBlock - 1) / kBlock;
@@ -128,8 +162,16 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ran
                std::max<std::size_t>(count, 1));
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{
-      *std::move(model), mesh, options, *std::move(sources), *check, chunk, ranks, first, count};
+  return ManySources{*std::move(model),
+                     mesh,
+                     options,
+                     *std::move(sources),
+                     *std::move(reach),
+                     *check,
+                     chunk,
+                     ranks,
+                     first,
+                     count};
 }
 
 }  // namespace
@@ -179,16 +221,18 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
 
   StreamOptions stream;
   stream.chunk = work.chunk;
+  stream.query.reach = work.reach;
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
-    auto taken = take(work.first + row, answer.distances);
+    auto taken = take(work.first + row, answer);
     if (!taken) {
       not_taken = taken.error();
       return taken;
     }
     add_warnings(of_answers, answer.warnings);
     answer.distances = {};
+    answer.vertices = {};
     if (row == 0) figures.first = std::move(answer);
     return {};
   };

@@ -34,6 +34,7 @@ struct ManySources {
   MeshReport mesh;
   MethodOptions options;
   EachSource sources;
+  Reach reach;
   CheckSettings check;
   std::size_t chunk = 1;  ///< sources solved at once
   Ranks ranks;            ///< that share the sources
@@ -70,9 +71,15 @@ RowSums sums_of_all(const RowSums& mine, const Ranks& ranks);
 /// Adds the warnings that are not there yet.
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more);
 
-/// Takes the distances from source number `row`. In the order of the sources. An error ends the
-/// work and is what solve_many() returns.
-using TakeRow = std::function<Result<void>(std::size_t row, std::span<const double> distances)>;
+/// Takes the answer to source number `row`, whose distances are those that the reach asks for. In
+/// the order of the sources. An error ends the work and is what solve_many() returns.
+using TakeRow = std::function<Result<void>(std::size_t row, const DistanceResult& answer)>;
+
+/// What `--max-distance` and `--target` ask for. Errors: kBadInput, with the option.
+Result<Reach> reach_of(const SolveArguments& arguments, const Model& model);
+
+/// The vertices of sources that are one each. `option`: for messages. Errors: kBadInput.
+Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option);
 
 /// `--dtype` and `--float32`. Errors: kBadInput, kNotAvailable.
 Result<NpyType> number_type(const SolveArguments& arguments);

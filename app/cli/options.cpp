@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"
@@ -199,6 +200,23 @@ void note_unused_settings(const SettingArguments& arguments, const MethodOptions
   warnings.push_back({"--time-factor " + factor->second + " is not used: --time-step " +
                       arguments.texts.find("time-step")->second +
                       " is the time itself; leave one of them out"});
+}
+
+void add_max_distance_option(CLI::App& command, std::string& text) {
+  command
+      .add_option("--max-distance", text,
+                  "asks for no more than this far (model units): farther is infinite, and waves, "
+                  "fast marching and exact windows spend no time there")
+      ->type_name("R")
+      ->group("Reach");
+}
+
+Result<double> max_distance_in(const std::string& text) {
+  if (text.empty()) return kUnreached;
+  const auto most = number_in<double>(text);
+  if (most && *most > 0 && std::isfinite(*most)) return *most;
+  return Error{ErrorCode::kBadInput, "--max-distance: '" + one_line(text) +
+                                         "' is no length above 0; give one in model units"};
 }
 
 void add_check_options(CLI::App& command, CheckArguments& arguments) {

@@ -203,6 +203,8 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
                                     std::vector<Warning>& warnings) {
   const auto& [sources, targets] = places;
   const MethodOptions& options = asked.options;
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
   auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
@@ -226,6 +228,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
     return data;
   }
   QueryOptions query;
+  query.reach.max_distance = *most;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
   if (view == View::kExactError) check.against = Check::kAuto;

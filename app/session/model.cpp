@@ -95,6 +95,22 @@ Result<Model> from_standard_input(const ModelReading& reading, const Progress& p
   return model;
 }
 
+/// Applies a mask to a model that was read.
+Result<void> leave_out(const std::string& text, Model& model) {
+  if (auto surface = refuse_space(model, "masks are"); !surface) return surface;
+  const auto mask = read_mask(text, *model.mesh);
+  if (!mask) return mask.error();
+  auto left = masked(*model.mesh, *mask);
+  if (!left) return about(one_line(text), left.error());
+  Index faces = 0;
+  for (const Face& face : left->faces()) faces += face[0] == face[1] && face[1] == face[2] ? 1 : 0;
+  const auto vertices = std::ranges::count_if(mask->vertices, [](char out) { return out != 0; });
+  model.notes.push_back({"the mask leaves out " + counted(vertices, "vertex", "vertices") +
+                         " and " + counted(faces, "face", "faces")});
+  model.mesh = std::make_shared<const TriangleMesh>(*std::move(left));
+  return {};
+}
+
 std::string weld_note(Index merged, double distance) {
   const std::string where = distance > 0 ? "within " + significant(distance) + " of another"
                                          : "exactly where another one is";
@@ -111,6 +127,9 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   auto model = text == kStandardInput ? from_standard_input(reading, progress)
                : is_bundled(text)     ? bundled(text, reading, progress)
                                       : from_file(text, reading, progress);
+  if (model && !reading.mask.empty()) {
+    if (auto done = leave_out(reading.mask, *model); !done) return done.error();
+  }
   if (!model || !reading.weld) return model;
   if (auto surface = refuse_space(*model, "welded vertices are"); !surface) {
     return surface.error();

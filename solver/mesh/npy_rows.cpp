@@ -37,6 +37,14 @@ std::string io::npy_rows_header(std::uint64_t rows, std::uint64_t columns, NpyTy
   return io::npy_header(type == NpyType::kFloat64 ? "<f8" : "<f4", shape);
 }
 
+Result<void> io::check_float_range(const std::string& path, std::span<const double> values) {
+  if (fits_float(values)) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
+      {"write float64"}};
+}
+
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
   return io::npy_rows_header(rows, columns, type).size() + rows * columns * size_of(type);
 }
@@ -49,12 +57,7 @@ Result<void> io::npy_row(const std::string& path, std::span<const double> row, N
     for (const double value : row) io::append_little(bytes, value);
     return {};
   }
-  if (!fits_float(row)) {
-    return Error{
-        ErrorCode::kBadInput,
-        io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
-        {"write float64"}};
-  }
+  if (auto fits = check_float_range(path, row); !fits) return fits;
   for (const double value : row) io::append_little(bytes, static_cast<float>(value));
   return {};
 }

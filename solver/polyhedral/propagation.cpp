@@ -50,8 +50,11 @@ Propagation::Propagation(const WindowMesh& mesh, std::size_t most_bytes)
       waiting_(leaders_.size(), nullptr),
       at_branches_(static_cast<std::size_t>(mesh.branch_count())) {}
 
-Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress) {
+Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress, double radius,
+                              std::span<const Index> targets) {
   const double base = least_offset(seeds);
+  radius_ = radius - base;
+  targets_ = targets;
   seed(seeds, base);
   if (auto fine = spread(progress); !fine) return fine;
   for (VertexState& state : vertices_) state.distance += base;
@@ -72,8 +75,19 @@ void Propagation::seed(const SourceSeeds& seeds, double base) {
   }
 }
 
+/// Whether no window that is left can be the nearest to what is asked for. A window finds nothing
+/// below its key, and hands on nothing with a smaller one, but for rounding.
+bool Propagation::has_all() {
+  constexpr double kLess = 1 - 1e-9;
+  const double least = queue_.least_key() * kLess;
+  if (least > radius_) return true;
+  while (has_ < targets_.size() && distance_at(targets_[has_]) < least) ++has_;
+  return has_ == targets_.size() && has_ > 0;
+}
+
 Result<void> Propagation::spread(const Progress& progress) {
   while (const Window* next = queue_.pop()) {
+    if (has_all()) return {};
     const Window window = *next;
     if (window.side < 0) {
       send_from(~window.side, window.sigma, window.group());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geotherm/progress.h"
@@ -30,10 +31,13 @@ class Propagation {
   explicit Propagation(const WindowMesh& mesh, std::size_t most_bytes = kMaxBytes);
 
   /// Propagates from the seeds to the end; to be called once. Lengths as those of the surface;
-  /// until the end they are measured from the least offset, so that they keep their digits.
+  /// until the end they are measured from the least offset, so that they keep their digits. Ends
+  /// when the vertices within `radius` have their distance, or all targets do; the others may have
+  /// too large ones then.
   /// `progress` is asked now and then, as stage "solve". Errors: kCancelled, kBudgetEnded (windows
   /// that multiply without end), kOutOfMemory. Throws std::bad_alloc.
-  Result<void> run(const SourceSeeds& seeds, const Progress& progress);
+  Result<void> run(const SourceSeeds& seeds, const Progress& progress, double radius = kUnreached,
+                   std::span<const Index> targets = {});
 
   const std::vector<VertexState>& vertices() const { return vertices_; }
   std::int64_t windows() const { return windows_; }  ///< that were followed
@@ -41,6 +45,7 @@ class Propagation {
  private:
   void seed(const SourceSeeds& seeds, double base);
   Result<void> spread(const Progress& progress);
+  bool has_all();
   void seed_point(const SourceSeeds::Piece& piece);
   void seed_segment(const SourceSeeds::Piece& piece);
   void reach(Index vertex, double distance, Index group, bool send_anyway = false);
@@ -65,6 +70,9 @@ class Propagation {
   std::vector<std::vector<Window>> at_branches_;  ///< of non-manifold edges: what crossed them
   std::int64_t windows_ = 0;
   std::int64_t work_ = 0, next_check_ = 1 << 18;
+  double radius_ = kUnreached;
+  std::span<const Index> targets_;
+  std::size_t has_ = 0;  ///< so many targets have their distance
   Index reached_ = 0;
   std::size_t crossed_ = 0;  ///< windows in at_branches_
 };

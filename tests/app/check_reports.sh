@@ -26,6 +26,8 @@ report curve solve bunny -s curve:0,9 -s 5
 report tets solve ball.mesh -s xyz:0:0:0
 report poor solve poor.ply -s 0
 report each solve bunny -s random:5 --each -o rows.npy
+report near solve bunny -s 17 --method wavefront --max-distance 0.3 --target 5,900
+report sparse solve bunny -s random:5 --each --method wavefront --max-distance 0.3 -o rows.npz
 report pairs solve bunny -s 3,9,40 --pairs -o pairs.csv
 report sequence solve bunny -s 0 --sequence waving.npy -o frames.npy
 report info info bunny

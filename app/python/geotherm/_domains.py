@@ -150,6 +150,7 @@ def read(
     path: str | os.PathLike[str],
     *,
     domain: str | None = None,
+    mask: str | None = None,
     weld: float | None = None,
     format: str | None = None,
     grid: str | None = None,
@@ -159,7 +160,7 @@ def read(
 
     Args:
         path: .obj .ply .off .stl and what else features() lists under formats.
-        domain, weld, format, grid: as on the command line.
+        domain, mask, weld, format, grid: as on the command line.
 
     Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
     Raises: Error, with the path, the line and the cause.
@@ -167,7 +168,13 @@ def read(
     >>> geotherm.read("bunny").n_faces
     3996
     """
-    settings = {"domain": domain, "weld": weld, "format": format, "grid": grid}
+    settings = {
+        "domain": domain,
+        "mask": mask,
+        "weld": weld,
+        "format": format,
+        "grid": grid,
+    }
     name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
     with Watch(progress) as watch:
         options = options_of(settings)

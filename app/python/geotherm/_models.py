@@ -193,6 +193,8 @@ class Mesh(Model):
         faces: (F, 3) vertex numbers from 0. Nothing is asked of them: they may be of no area,
             disagree in orientation, share an edge three times.
         weld: vertices at most this far apart are one; 0: equal ones. All keep their numbers.
+        mask: (V,) or (F,) numbers; vertices, or faces, of other than 0 are left out. Distances are
+            those on the mesh that is left, infinite at what is not; all keep their numbers.
 
     Raises: InputError, with the number of what is out of range or not finite.
 
@@ -201,7 +203,9 @@ class Mesh(Model):
     4
     """
 
-    def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
+    def __init__(
+        self, vertices: Any, faces: Any = None, *, weld: float | None = None, mask: Any = None
+    ) -> None:
         if isinstance(vertices, (str, os.PathLike)):
             raise InputError(
                 f"vertices is the name {os.fspath(vertices)!r}", hint="geotherm.read() reads files"
@@ -218,10 +222,12 @@ class Mesh(Model):
             TRIANGLES,
             positions=(vertices, "vertices", 3),
             cells=(faces, "faces", 3),
+            values=None if mask is None else (mask, "mask", 1),
             options=options,
         )
         # Faces of a welded mesh are others, by which it cannot be welded again.
-        welded = (_mesh_again, np.array(vertices), np.array(faces), weld)
+        marks = None if mask is None else np.array(mask)
+        welded = (_mesh_again, np.array(vertices), np.array(faces), weld, marks)
         self._recipe = () if weld is None else welded
 
     @classmethod
@@ -287,5 +293,7 @@ def _lengths_again(faces: AnyArray, lengths: AnyArray) -> Model:
     return Mesh.from_edge_lengths(faces, lengths)
 
 
-def _mesh_again(vertices: AnyArray, faces: AnyArray, weld: float | None) -> Mesh:
-    return Mesh(vertices, faces, weld=weld)
+def _mesh_again(
+    vertices: AnyArray, faces: AnyArray, weld: float | None, mask: AnyArray | None = None
+) -> Mesh:
+    return Mesh(vertices, faces, weld=weld, mask=mask)
