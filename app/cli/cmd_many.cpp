@@ -7,6 +7,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/many_work.h"
+#include "app/cli/rows_file.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -45,69 +46,6 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
 }
-
-Error about_file(const Error& error) {
-  return with_hint(error, {"make room there, or choose another place"});
-}
-
-/// The rows of --each as they come: an array, or what is reached alone.
-class RowsFile {
- public:
-  static Result<RowsFile> open(const std::string& path, const ManySources& work, NpyType type) {
-    RowsFile out;
-    const std::size_t targets = work.reach.targets.size();
-    out.columns_ = targets > 0 ? static_cast<Index>(targets) : work.mesh.vertices;
-    out.number_bytes_ = type == NpyType::kFloat64 ? 8 : 4;
-    const auto columns = static_cast<std::uint64_t>(out.columns_);
-    if (work.reach.sparse && !work.ranks.alone()) {
-      return Error{ErrorCode::kBadInput,
-                   one_line(path) + ": sparse rows are written by one process; give -o FILE.npy"};
-    }
-    if (work.reach.sparse) {
-      auto file = SparseRows::open(path, columns, type);
-      if (!file) return about_file(file.error());
-      out.sparse_ = *std::move(file);
-      return out;
-    }
-    const std::uint64_t rows = work.sources.sets.size();
-    out.bytes_ = static_cast<double>(npy_bytes_of(rows, columns, type));
-    if (auto fits = work.ranks.agree(check_room(path, out.bytes_)); !fits) return fits.error();
-    auto file = SharedRows::open(path, work, out.columns_, type);
-    if (!file) return about_file(file.error());
-    out.rows_.emplace(*std::move(file));
-    return out;
-  }
-
-  Result<void> write(std::size_t row, const DistanceResult& answer) {
-    return rows_ ? rows_->write(row, answer.distances)
-                 : sparse_->append(answer.vertices, answer.distances);
-  }
-  Result<void> finish() { return rows_ ? rows_->finish() : sparse_->finish(); }
-
-  Index columns() const { return columns_; }
-  /// Of sparse rows: so many distances.
-  std::optional<std::uint64_t> entries() const {
-    return sparse_ ? std::optional(sparse_->entries()) : std::nullopt;
-  }
-  /// Of sparse rows those of the numbers so far.
-  double bytes() const {
-    if (!sparse_) return bytes_;
-    return static_cast<double>(sparse_->entries()) * (number_bytes_ + sizeof(Index)) +
-           static_cast<double>(sparse_->rows()) * sizeof(std::int64_t);
-  }
-  std::string size_in_words() const {
-    if (!sparse_) return bytes_in_words(bytes_);
-    const auto count = static_cast<std::int64_t>(sparse_->entries());
-    if (count == 0) return "sparse rows";
-    return counted(count, "entry", "entries") + " in " + bytes_in_words(bytes());
-  }
-
- private:
-  std::optional<SharedRows> rows_;
-  std::optional<SparseRows> sparse_;
-  Index columns_ = 0;
-  double bytes_ = 0, number_bytes_ = 8;
-};
 
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
                NpyType type, const RowsFile& file) {

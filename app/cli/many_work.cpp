@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "app/cli/many_work.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -22,8 +17,6 @@
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/io/format_writers.h"
-#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -269,73 +262,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const Progress& progress, const Announce& announce) {
   return work.ranks.agree_on(solve_share(work, arguments, take, output, progress, announce));
 }
-
-struct SharedRows::State {
-  std::optional<GrowingFile> file;  ///< of the first rank
-  std::string path, bytes;
-  int place = -1;  ///< where rows are written; -1: through the file, one after the other
-  std::uint64_t header = 0, row = 0;
-  NpyType type;
-
-  Error failure(int code) const {
-    return {ErrorCode::kBadFile,
-            one_line(path) + ": cannot be written: " + std::generic_category().message(code)};
-  }
-};
-
-SharedRows::SharedRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
-SharedRows::SharedRows(SharedRows&&) noexcept = default;
-SharedRows::~SharedRows() {
-  if (state_ && state_->place >= 0) ::close(state_->place);
-}
-
-Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& work, Index columns,
-                                    NpyType type) {
-  const std::uint64_t rows = work.sources.sets.size();
-  const auto width = static_cast<std::uint64_t>(columns);
-  const std::string header = io::npy_rows_header(rows, width, type);
-  SharedRows out(std::make_unique<State>());
-  State& state = *out.state_;
-  state.path = path;
-  state.type = type;
-  state.header = header.size();
-  state.row = npy_bytes_of(1, width, type) - npy_bytes_of(0, width, type);
-  const auto begin = [&]() -> Result<void> {
-    if (!work.ranks.is_first()) return {};
-    if (!work.ranks.alone() && path == "-") {
-      return Error{ErrorCode::kBadInput,
-                   "several processes cannot share standard output; give -o FILE.npy"};
-    }
-    auto file = GrowingFile::open(path);
-    if (!file) return file.error();
-    state.file = *std::move(file);
-    return state.file->append(header);
-  };
-  if (auto begun = work.ranks.agree(begin()); !begun) return begun.error();
-  if (work.ranks.alone()) return out;
-  const std::string place =
-      work.ranks.exchange(work.ranks.is_first() ? state.file->place() : std::string()).front();
-  state.place = ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
-  const auto opened = work.ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
-  return opened ? Result<SharedRows>(std::move(out)) : opened.error();
-}
-
-Result<void> SharedRows::write(std::size_t row, std::span<const double> distances) {
-  State& state = *state_;
-  if (auto made = io::npy_row(state.path, distances, state.type, state.bytes); !made) return made;
-  if (state.place < 0) return state.file->append(state.bytes);
-  std::string_view left = state.bytes;
-  for (auto at = state.header + row * state.row; !left.empty();) {
-    const ssize_t written = ::pwrite(state.place, left.data(), left.size(), static_cast<off_t>(at));
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return state.failure(errno);
-    left.remove_prefix(static_cast<std::size_t>(written));
-    at += static_cast<std::uint64_t>(written);
-  }
-  return {};
-}
-
-Result<void> SharedRows::finish() { return state_->file->finish(); }
 
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
                         const ManyFigures& figures) {

@@ -104,27 +104,6 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
                                const TakeRow& take, const std::string& output,
                                const Progress& progress, const Announce& announce);
 
-/// A .npy array that ranks write together: each its rows, into the file of the first one, which is
-/// renamed when all are done. Alone it is written as NpyRows does it.
-class SharedRows {
- public:
-  /// All ranks. Errors: kBadFile, the same on all.
-  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
-                                 NpyType type);
-  SharedRows(SharedRows&&) noexcept;
-  ~SharedRows();
-
-  /// Errors: kBadFile, kBadInput (a row that does not fit the type).
-  Result<void> write(std::size_t row, std::span<const double> distances);
-  /// On the first rank, when the others have written theirs.
-  Result<void> finish();
-
- private:
-  struct State;
-  explicit SharedRows(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
-};
-
 /// accuracy_note() of what was checked.
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
                         const ManyFigures& figures);
