@@ -148,6 +148,7 @@ Result<std::string> text_in(const Solver& solver, const std::string& name) {
 Result<std::string> text_in(const Answer& answer, const std::string& name) {
   if (!answer.solved) {
     if (name == "warnings") return app::to_text(Json(app::told(answer.warnings)));
+    if (name == "end" && !answer.end.empty()) return answer.end;
     return no_name("text", name, {"warnings"});
   }
   if (name == "json") return app::to_text(app::solve_json(*answer.solved));
@@ -170,7 +171,7 @@ Result<void> write(const Answer& answer, const std::string& path) {
     }
     return write_polylines(path, *answer.lines->mesh, lines);
   }
-  if (!answer.solved) return bad_argument("samples are not written: they are arrays");
+  if (!answer.solved) return bad_argument("this answer is not written: it is arrays");
   const app::Answer& solved = *answer.solved;
   if (auto fits = app::check_answer_path(solved.model, path); !fits) return fits;
   return app::write_answer(path, solved.model, solved.result.distances,
