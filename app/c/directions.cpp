@@ -41,6 +41,35 @@ void add_frame(const TangentFrame& frame, std::vector<double>& out) {
   }
 }
 
+Result<SpreadOptions> spread_options(const geotherm_options* options) {
+  if (options == nullptr) return SpreadOptions{};
+  const auto given = object_of<Options>(options, "options");
+  if (!given) return given.error();
+  const std::lock_guard lock((*given)->lock);
+  const MethodOptions& asked = (*given)->state.options;
+  return SpreadOptions{asked.backend, asked.time_step.factor, asked.threads};
+}
+
+/// Each set of points as one curve.
+Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
+                                           const Model& model, const Progress& progress) {
+  const auto sets = many_sets(sources, model);
+  if (!sets) return sets.error();
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  app::ModelSolver solver(model);
+  const auto ready = solver.prepare(options, part_of(progress, 0.0, 0.3));
+  if (!ready) return ready.error();
+  const PathFinder finder(model.mesh, ready->method);
+  std::vector<SurfacePath> curves;
+  for (const SourceSet& set : sets->sets) {
+    auto found = finder.find(set.points, {PathField::kGeodesic, closed, closed}, progress);
+    if (!found) return found.error();
+    curves.push_back(std::move(found->path));
+  }
+  return curves;
+}
+
 /// What transport and extend have in common.
 struct SpreadCall {
   std::shared_ptr<const Model> model;
@@ -63,14 +92,8 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
   if (auto surface = app::refuse_space(**object, "vectors and values are carried"); !surface) {
     return surface.error();
   }
-  SpreadOptions spread;
-  if (options != nullptr) {
-    const auto given = object_of<Options>(options, "options");
-    if (!given) return given.error();
-    const std::lock_guard lock((*given)->lock);
-    const MethodOptions& asked = (*given)->state.options;
-    spread = {asked.backend, asked.time_step.factor, asked.threads};
-  }
+  const auto spread = spread_options(options);
+  if (!spread) return spread.error();
   auto at = indices_in(*vertices, 1, "vertices");
   if (!at) return at.error();
   auto values = numbers_in(*numbers, columns, name);
@@ -80,7 +103,7 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
                         std::to_string(std::ssize(*values) / columns) + " rows for " +
                         std::to_string(at->size()) + " vertices");
   }
-  auto heat = VectorHeat::build((*object)->mesh, spread, part_of(progress, 0, 0.7));
+  auto heat = VectorHeat::build((*object)->mesh, *spread, part_of(progress, 0, 0.7));
   if (!heat) return heat.error();
   return SpreadCall{*object, *std::move(at), *std::move(values), *std::move(heat)};
 }
@@ -122,7 +145,7 @@ geotherm_status geotherm_trace(const geotherm_model* model, const geotherm_sourc
     auto found = from->directions->trace(from->point, direction, length);
     if (!found) return found.error();
     auto made = std::make_shared<Answer>();
-    made->end = to_text(found->end);
+    made->texts = {{"end", to_text(found->end)}};
     made->lines = Lines{from->model->mesh, {{0, std::move(found->path)}}, false};
     keep_lines(*made);
     hand_out_answer(std::move(made), line);
@@ -171,6 +194,37 @@ geotherm_status geotherm_extend(const geotherm_model* model, const geotherm_opti
     if (!found) return found.error();
     auto made = std::make_shared<Answer>();
     keep(*made, "values", std::move(found->values));
+    made->warnings = std::move(found->warnings);
+    hand_out_answer(std::move(made), answer);
+    return {};
+  });
+}
+
+geotherm_status geotherm_signed_distance(const geotherm_model* model,
+                                         const geotherm_options* options,
+                                         const geotherm_sources* curves, int closed,
+                                         const char* rule, const geotherm_watch* watch,
+                                         geotherm_answer** answer) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Model>(model, "model");
+    if (!object) return object.error();
+    if (auto there = require(answer, "answer"); !there) return there;
+    if (auto surface = app::refuse_space(**object, "signed distances are"); !surface)
+      return surface;
+    const auto side = rule == nullptr ? Result<SideRule>(SideRule::kAuto) : parse<SideRule>(rule);
+    if (!side) return side.error();
+    const auto spread = spread_options(options);
+    if (!spread) return spread.error();
+    const Watched watched(watch);
+    const auto lines =
+        curves_of(curves, closed != 0, **object, part_of(watched.progress(), 0.0, 0.3));
+    if (!lines) return lines.error();
+    auto found = signed_distance((*object)->mesh, *lines, *side, *spread,
+                                 part_of(watched.progress(), 0.3, 1.0));
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    keep(*made, "distances", std::move(found->distances));
+    made->texts = {{"rule", to_text(found->rule)}};
     made->warnings = std::move(found->warnings);
     hand_out_answer(std::move(made), answer);
     return {};

@@ -288,6 +288,17 @@ GEOTHERM_API geotherm_status geotherm_extend(const geotherm_model* model,
                                              const geotherm_array* values,
                                              const geotherm_watch* watch, geotherm_answer** answer);
 
+/* Distance to directed curves, negative to their left: the array distances V, the text "rule". Each
+ * set of `curves` is one, through its points by geodesics; `closed`: not 0 leads each back to its
+ * first. `rule`: "auto" (or NULL), "sides" (exact, for curves that separate the surface), "heat"
+ * (the signed heat method, which closes gaps). Of `options` (or NULL) backend, time-factor and
+ * threads count. */
+GEOTHERM_API geotherm_status geotherm_signed_distance(const geotherm_model* model,
+                                                      const geotherm_options* options,
+                                                      const geotherm_sources* curves, int closed,
+                                                      const char* rule, const geotherm_watch* watch,
+                                                      geotherm_answer** answer);
+
 /* ---- What a handle holds ----------------------------------------------------------------------*/
 
 /* An array inside of a model or an answer, to be read and not written, valid as long as the handle.
@@ -302,7 +313,8 @@ GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* n
 
 /* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
  * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and
- * samples: "warnings" (JSON). Lines of geotherm_trace(): "end". */
+ * samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
+ * distances: "rule". */
 GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
                                               const char** text);
 

@@ -70,7 +70,8 @@ struct Lines {
 struct Answer {
   std::optional<app::Answer> solved;
   std::optional<Lines> lines;
-  std::string end;  ///< of a straightest line: why it ends
+  /// Texts beside the warnings by their names.
+  std::vector<std::pair<std::string, std::string>> texts;
   std::vector<Warning> warnings;
   mutable std::mutex lock;
   mutable std::vector<std::unique_ptr<const NamedArray>> arrays;  ///< some are made when asked for

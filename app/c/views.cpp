@@ -148,8 +148,12 @@ Result<std::string> text_in(const Solver& solver, const std::string& name) {
 Result<std::string> text_in(const Answer& answer, const std::string& name) {
   if (!answer.solved) {
     if (name == "warnings") return app::to_text(Json(app::told(answer.warnings)));
-    if (name == "end" && !answer.end.empty()) return answer.end;
-    return no_name("text", name, {"warnings"});
+    std::vector<std::string> names = {"warnings"};
+    for (const auto& [called, text] : answer.texts) {
+      if (called == name) return text;
+      names.push_back(called);
+    }
+    return no_name("text", name, names);
   }
   if (name == "json") return app::to_text(app::solve_json(*answer.solved));
   if (name == "table") return app::solve_table(*answer.solved);

@@ -214,7 +214,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
                         {position_at(mesh, work->point)},
                         0,
                         work->model.name + ", squares of the log map"};
-    for (const Isoline& line : *grid) picture.lines.push_back({&line.path, {}});
+    for (const Isoline& line : *grid) picture.lines.push_back({&line.path, line.value});
     const LineFileArguments file{{path}, ""};
     const auto written = write_line_files(file, picture, asked->picture, progress, outputs, out);
     if (!written) return written.error();

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "app/cli/commands.h"
@@ -105,9 +107,9 @@ Json spread_json(const SpreadWork& work, const std::vector<AtVertex>& given, Ind
           {"warnings", told(work.spread.warnings)}};
 }
 
-/// Short lines along the vectors of vertices that lie evenly, the longest as long as their spacing.
-Result<std::vector<TracedLine>> needles(const SpreadWork& work, std::vector<Vec3>& begins) {
-  constexpr double kCells = 26;
+/// Arrows along the vectors of vertices that lie evenly, the longest as long as their spacing.
+Result<std::vector<SurfacePath>> arrows(const SpreadWork& work) {
+  constexpr double kCells = 18, kBarb = 0.3, kBarbAngle = 0.5;
   const TriangleMesh& mesh = *work.model.mesh;
   const auto directions = Directions::build(work.model.mesh);
   if (!directions) return directions.error();
@@ -122,18 +124,25 @@ Result<std::vector<TracedLine>> needles(const SpreadWork& work, std::vector<Vec3
   }
   const double cell = (high - low).maxCoeff() / kCells;
   std::set<std::array<int, 3>> taken;
-  std::vector<TracedLine> lines;
+  std::vector<SurfacePath> lines;
+  const auto draw = [&](const SurfacePoint& from, double direction, double length) {
+    auto line = (*directions)->trace(from, direction, length);
+    const bool drawn = line && line->path.length > 0;  // else it leaves the surface
+    if (drawn) lines.push_back(line->path);
+    return drawn ? *line : TracedLine{};
+  };
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const auto [x, y] = work.spread.components[v];
-    if (!std::isfinite(x) || !(std::hypot(x, y) > 0)) continue;
+    const double length = 0.8 * cell * std::hypot(x, y) / longest;
+    if (!std::isfinite(x) || !(length > 0)) continue;
     const Vec3 place = (mesh.positions()[v] - low) / cell;
     if (!taken.insert({int(place.x()), int(place.y()), int(place.z())}).second) continue;
-    auto line = (*directions)
-                    ->trace(SurfacePoint::at_vertex(v), std::atan2(y, x),
-                            0.8 * cell * std::hypot(x, y) / longest);
-    if (!line || !(line->path.length > 0)) continue;  // over the border
-    begins.push_back(mesh.positions()[v]);
-    lines.push_back(*std::move(line));
+    const TracedLine line = draw(SurfacePoint::at_vertex(v), std::atan2(y, x), length);
+    if (line.path.points.empty() || std::isnan(line.direction)) continue;
+    for (const double hand : {-1, 1}) {
+      draw(line.path.points.back(), line.direction + std::numbers::pi + hand * kBarbAngle,
+           kBarb * length);
+    }
   }
   return lines;
 }
@@ -150,13 +159,13 @@ std::string spread_table(const SpreadWork& work, const char* what, Index reached
   return table.text();
 }
 
-Result<void> write_needles(const std::string& path, const SpreadWork& work,
-                           const PictureSettings& settings, const Progress& progress,
-                           Outputs& outputs, CommandOutput& out) {
+Result<void> write_arrows(const std::string& path, const SpreadWork& work,
+                          const PictureSettings& settings, const Progress& progress,
+                          Outputs& outputs, CommandOutput& out) {
   LinePicture picture{work.model.mesh, {}, {}, 0, work.model.name + ", transported vectors"};
-  const auto lines = needles(work, picture.markers);
+  const auto lines = arrows(work);
   if (!lines) return lines.error();
-  for (const TracedLine& line : *lines) picture.lines.push_back({&line.path, {}});
+  for (const SurfacePath& line : *lines) picture.lines.push_back({&line, 0.0});
   return write_line_files({{path}, ""}, picture, settings, progress, outputs, out);
 }
 
@@ -184,7 +193,7 @@ void add_transport_options(CLI::App& command, SpreadArguments& arguments) {
                      "the vectors, in space (vx, vy, vz) and in the frames (u, v),", true);
   command.footer(
       "The vector heat method: each vertex gets the vector of the nearest of those given, carried "
-      "along the shortest path. A picture has needles whose dots are where vectors begin.\n"
+      "along the shortest path. A picture has arrows on the surface.\n"
       "Examples:\n"
       "  geotherm transport bunny --vector 17:1:0 -o vectors.npy\n"
       "  geotherm transport bunny --vector 17:1:0 --vector 900:0:2 -o vectors.svg");
@@ -217,7 +226,7 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
   CommandOutput out{"", work->spread.warnings, {}};
   for (const std::string& path : arguments.outputs) {
     const auto written = io::file_extension(path) == ".svg"
-                             ? write_needles(path, *work, asked->picture, progress, outputs, out)
+                             ? write_arrows(path, *work, asked->picture, progress, outputs, out)
                              : write_columns(path, *work->model.mesh, columns, outputs, out.text);
     if (!written) return written.error();
   }

@@ -149,6 +149,7 @@ struct AllArguments {
   LogMapArguments log_map;
   TraceArguments trace;
   SpreadArguments transport, extend;
+  SignedArguments signed_;
   IsolinesArguments isolines;
   SampleArguments sample;
   StudyArguments study;
@@ -204,8 +205,10 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_trace_options, a.trace), with_bar(a.trace, run_trace)},
       {"transport", "Tangent vectors carried over the surface without turning.",
        options(add_transport_options, a.transport), with_bar(a.transport, run_transport)},
-      {"extend", "Values of some vertices carried to all.",
-       options(add_extend_options, a.extend), with_bar(a.extend, run_extend)},
+      {"extend", "Values of some vertices carried to all.", options(add_extend_options, a.extend),
+       with_bar(a.extend, run_extend)},
+      {"signed", "Distance to curves, with the side.", options(add_signed_options, a.signed_),
+       with_bar(a.signed_, run_signed)},
       {"isolines", "Lines of equal distance, closed or open.",
        options(add_isolines_options, a.isolines), with_bar(a.isolines, run_isolines)},
       {"sample", "Farthest-point samples, and the nearest of them to every vertex.",

@@ -242,6 +242,20 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments,
 void add_extend_options(CLI::App& command, SpreadArguments& arguments);
 Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progress& progress = {});
 
+struct SignedArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> through;
+  bool closed = false;
+  std::string curves, rule;  ///< empty: no file; auto
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_signed_options(CLI::App& command, SignedArguments& arguments);
+Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progress& progress = {});
+
 struct IsolinesArguments {
   std::string model;
   SettingArguments settings;

@@ -27,14 +27,6 @@ Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b - a).cross(c - a).stableNormalized();
 }
 
-double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
-
-Error out_of_memory(Index faces) {
-  return {ErrorCode::kOutOfMemory,
-          "the memory ended in the directions on " + std::to_string(faces) + " faces",
-          {"take a mesh with fewer faces"}};
-}
-
 }  // namespace
 
 Vec3 TangentFrame::vector(double direction, double length) const {
@@ -54,7 +46,7 @@ Result<std::shared_ptr<const Directions>> Directions::build(
   auto state = std::make_unique<const State>(std::move(mesh), *std::move(waves));
   return std::shared_ptr<const Directions>(new Directions(std::move(state)));
 } catch (const std::bad_alloc&) {
-  return out_of_memory(mesh ? mesh->face_count() : 0);
+  return directions_out_of_memory(mesh ? mesh->face_count() : 0);
 }
 
 Result<SurfacePoint> Directions::State::point(const SurfacePoint& given) const {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "geotherm/directions.h"
@@ -11,6 +14,19 @@
 #include "solver/polyhedral/window_mesh.h"
 
 namespace geotherm {
+
+/// The angle of a vector in a layout, and a place there by its weights.
+inline double angle_of(const Eigen::Vector2d& v) { return std::atan2(v.y(), v.x()); }
+inline Eigen::Vector2d place_of(const std::array<Eigen::Vector2d, 3>& at,
+                                const std::array<double, 3>& w) {
+  return w[0] * at[0] + w[1] * at[1] + w[2] * at[2];
+}
+
+inline Error directions_out_of_memory(Index faces) {
+  return {ErrorCode::kOutOfMemory,
+          "the memory ended in directions on " + std::to_string(faces) + " faces",
+          {"take a mesh with fewer faces"}};
+}
 
 /// The faces of the mesh without flips, so that what is straight in them is so on the mesh; both
 /// surfaces number clean faces alike.

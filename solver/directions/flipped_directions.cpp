@@ -49,6 +49,10 @@ Result<FlippedDirections> flip_with_directions(const WaveSurface& surface, const
   auto flips = flip_to_delaunay(out.mesh, progress);
   if (!flips) return flips.error();
   for (const Edit& flip : *flips) carry(flip, out.at_begin);
+  out.flips = *std::move(flips);
+  for (Index v = 0; v < surface.base.mesh->vertex_count(); ++v) {
+    out.scale.push_back(fans.vertex(v).scale());
+  }
   for (Side s = 0; s < sides; ++s) {
     const Side twin = out.mesh.twin[s], next = next_side(s);
     if (twin != kNoSide) {
@@ -62,8 +66,8 @@ Result<FlippedDirections> flip_with_directions(const WaveSurface& surface, const
   }
   for (Side s = 0; s < sides; ++s) {
     const Face& face = out.mesh.faces[face_of(s)];
-    out.at_begin[s] *= fans.vertex(face[corner_of(s)]).scale();
-    out.at_end[s] *= fans.vertex(face[next_corner(corner_of(s))]).scale();
+    out.at_begin[s] *= out.scale[face[corner_of(s)]];
+    out.at_end[s] *= out.scale[face[next_corner(corner_of(s))]];
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/directions/tangent_fans.h"
+#include "solver/geometry/edit.h"
 
 namespace geotherm {
 
@@ -14,6 +15,8 @@ struct FlippedDirections {
   /// 3F: the direction of each side at the vertex where it begins, in that vertex's frame
   /// (TangentFrame), and at the vertex where it ends, seen from there.
   std::vector<double> at_begin, at_end;
+  std::vector<double> scale;  ///< V: from angles of corners to directions
+  std::vector<Edit> flips;    ///< from the faces of the surface to these
   /// The first vertex without a frame that its neighbours share: of several fans, at an edge with
   /// three faces, or where orientations disagree. The directions are of use where there is none.
   std::optional<Index> broken;

@@ -30,19 +30,14 @@ std::vector<Turn> turns_at(Index v, const WindowMesh& windows, const TangentFans
   return turns;
 }
 
-double direction(const std::array<Eigen::Vector2d, 3>& at, int from, int to) {
-  const Eigen::Vector2d way = at[static_cast<std::size_t>(to)] - at[static_cast<std::size_t>(from)];
-  return std::atan2(way.y(), way.x());
-}
-
 /// The turn of the layout of a face beyond side `k` of `own`, whose turn is known.
 Turn turn_across(const PathSurface& paths, const Turn& turn, Index own, int k,
                  const std::array<Eigen::Vector2d, 3>& own_layout, Index other,
                  const std::array<Eigen::Vector2d, 3>& other_layout) {
   const Index a = paths.face(own)[k], b = paths.face(own)[next_corner(k)];
   const int from = paths.corner_of_vertex(other, a), to = paths.corner_of_vertex(other, b);
-  const double here = direction(own_layout, k, next_corner(k));
-  const double there = direction(other_layout, from, to);
+  const double here = angle_of(own_layout[next_corner(k)] - own_layout[k]);
+  const double there = angle_of(other_layout[to] - other_layout[from]);
   const bool agree = from == next_corner(to);
   const double moved = agree ? here - there : here + there;
   return {turn.mirrored ? turn.turn - moved : turn.turn + moved, turn.mirrored == agree};
@@ -111,10 +106,7 @@ Result<LogMap> Directions::log_map(const SurfacePoint& point, const Progress& pr
   }
   return map;
 } catch (const std::bad_alloc&) {
-  return Error{ErrorCode::kOutOfMemory,
-               "the memory ended in a log map on " +
-                   std::to_string(state_->paths.mesh()->face_count()) + " faces",
-               {"take a mesh with fewer faces"}};
+  return directions_out_of_memory(state_->paths.mesh()->face_count());
 }
 
 }  // namespace geotherm

@@ -2,6 +2,8 @@
 // Straightest lines from face to face.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 
 #include "solver/core/text.h"
@@ -51,6 +53,10 @@ class Tracer {
     add_point(SurfacePoint::at_vertex(v));
     return go_from_vertex(v, angle);
   }
+
+  /// Of the last piece, in the layout of its face.
+  double direction() const { return std::atan2(direction_.y(), direction_.x()); }
+  Index face() const { return face_; }
 
   Result<TracedLine> run() {
     while (going_) {
@@ -217,7 +223,16 @@ Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction
                    {"choose one from 0 to " + number_text(vertex.angle)}};
     }
   }
-  return tracer.run();
+  auto line = tracer.run();
+  if (!line) return line;
+  if (line->path.points.back().is_vertex()) {
+    line->direction = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    const auto turn = state.face_turn(tracer.face());
+    const double angle = turn.turn + (turn.mirrored ? -1 : 1) * tracer.direction();
+    line->direction = std::remainder(angle, 2 * std::numbers::pi);
+  }
+  return line;
 }
 
 }  // namespace geotherm

@@ -5,16 +5,12 @@
 #include <limits>
 #include <new>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "solver/core/parallel.h"
 #include "solver/core/text.h"
-#include "solver/directions/directions_state.h"
-#include "solver/directions/flipped_directions.h"
-#include "solver/directions/spread_system.h"
-#include "solver/geometry/domain_operator.h"
+#include "solver/directions/vector_heat_state.h"
 
 namespace geotherm {
 namespace {
@@ -24,12 +20,6 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastHeat = 1e-290;
 /// A time is made four times as long so often at most: half a million times the width.
 constexpr int kMostTimes = 20;
-
-/// -w r of an edge, r the rotation from its end to its begin.
-struct Link {
-  Index from, to;
-  double weight, cosine, sine;
-};
 
 /// Rows 2 i and 2 i + 1 of a pattern's row i.
 SymmetricPattern doubled(const SymmetricPattern& pattern) {
@@ -44,50 +34,9 @@ SymmetricPattern doubled(const SymmetricPattern& pattern) {
   return out;
 }
 
-/// What the matrices of one time are.
-struct Factors {
-  double t = 0;  ///< in squares of the mean edge
-  std::shared_ptr<const Factorization> scalar, vector;
-};
-
-Error out_of_memory(Index faces) {
-  return {ErrorCode::kOutOfMemory,
-          "the memory ended in the vector heat method on " + std::to_string(faces) + " faces",
-          {"take a mesh with fewer faces"}};
-}
-
 }  // namespace
 
-struct VectorHeat::State {
-  std::shared_ptr<const TriangleMesh> mesh;
-  int threads = 1;
-  double unit = 1;
-  std::vector<TangentFrame> frames;
-  std::optional<Error> no_vectors;
-  std::vector<Index> row_of_vertex;  ///< V, kNoIndex where in no face
-  std::vector<double> mass;          ///< n
-  std::vector<Link> links;           ///< of faces: an inner edge stands twice
-  Components parts;                  ///< of the rows
-  SpreadSystem scalar, vector;
-  Factors factors;
-
-  Index size() const { return static_cast<Index>(mass.size()); }
-
-  void add_links(const FlippedDirections& flipped);
-  Result<Factors> factorize(double t) const;
-  Result<std::vector<Index>> rows_of(std::span<const Index> vertices) const;
-  std::vector<char> reached(std::span<const Index> rows) const;
-
-  /// Finds a time with which heat from the rows reaches all of their parts, and its heat.
-  Result<Factors> warm(std::span<const Index> rows, std::span<const char> in_reach,
-                       std::vector<double>& heat, std::vector<Warning>& warnings,
-                       const Progress& progress) const;
-  Result<std::vector<double>> spread(const Factors& at, std::span<const Index> rows,
-                                     std::span<const double> values,
-                                     const Progress& progress) const;
-};
-
-void VectorHeat::State::add_links(const FlippedDirections& flipped) {
+void VectorHeat::State::add_links() {
   const IntrinsicMesh& intrinsic = flipped.mesh;
   for (Side s = 0; s < static_cast<Side>(intrinsic.twin.size()); ++s) {
     const Face& face = intrinsic.faces[face_of(s)];
@@ -227,12 +176,14 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
   auto waves = build_wave_surface(std::make_shared<const IntrinsicSurface>(*std::move(base)),
                                   part_of(progress, 0.1, 0.2));
   if (!waves) return waves.error();
-  const Directions::State directions(mesh, *std::move(waves));
+  auto state = std::make_unique<State>();
+  state->directions = std::make_unique<const Directions::State>(mesh, *std::move(waves));
+  const Directions::State& directions = *state->directions;
   auto flipped =
       flip_with_directions(*directions.surface, directions.fans, part_of(progress, 0.2, 0.3));
   if (!flipped) return flipped.error();
+  state->flipped = *std::move(flipped);
 
-  auto state = std::make_unique<State>();
   state->mesh = mesh;
   state->threads = thread_count(options.threads);
   state->unit = directions.surface->base.length_unit();
@@ -247,17 +198,17 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
     places_twice.insert(places_twice.end(), 2, places.back());
   }
   state->mass.assign(places.size(), 0.0);
-  state->add_links(*flipped);
-  if (flipped->broken) {
+  state->add_links();
+  if (state->flipped.broken) {
     state->no_vectors =
         Error{ErrorCode::kBadInput,
               "vectors cannot be carried where the surface is no oriented manifold, "
               "as at vertex " +
-                  std::to_string(*flipped->broken),
+                  std::to_string(*state->flipped.broken),
               {"repair the mesh; log maps and values need no such"}};
   }
   std::vector<Face> faces;
-  for (const Face& f : flipped->mesh.faces) {
+  for (const Face& f : state->flipped.mesh.faces) {
     faces.push_back(
         {state->row_of_vertex[f[0]], state->row_of_vertex[f[1]], state->row_of_vertex[f[2]]});
   }
@@ -278,7 +229,7 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
   state->factors = *std::move(factors);
   return std::shared_ptr<const VectorHeat>(new VectorHeat(std::move(state)));
 } catch (const std::bad_alloc&) {
-  return out_of_memory(mesh ? mesh->face_count() : 0);
+  return directions_out_of_memory(mesh ? mesh->face_count() : 0);
 }
 
 Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
@@ -329,7 +280,7 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
   }
   return out;
 } catch (const std::bad_alloc&) {
-  return out_of_memory(state_->mesh->face_count());
+  return directions_out_of_memory(state_->mesh->face_count());
 }
 
 Result<Spread> VectorHeat::extend(std::span<const Index> vertices, std::span<const double> values,
@@ -364,7 +315,7 @@ Result<Spread> VectorHeat::extend(std::span<const Index> vertices, std::span<con
   }
   return out;
 } catch (const std::bad_alloc&) {
-  return out_of_memory(state_->mesh->face_count());
+  return directions_out_of_memory(state_->mesh->face_count());
 }
 
 }  // namespace geotherm

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "tests/app/program_fixture.h"
 
@@ -74,6 +75,34 @@ TEST_F(Program, TransportAndExtendReachAllVertices) {
                           "--backend", "cholmod", "-o", "bunny.svg", "--json", "-"});
   EXPECT_EQ(said["given"].size(), 2U);
   EXPECT_EQ(said["reached"], said["model"]["vertices"]);
+}
+
+TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
+  folder.write("square.obj", kFlatSquare);
+  const std::vector<std::string> loop = {"signed",    "square.obj",    "--through", "xyz:0.5:0.5:0",
+                                         "--through", "xyz:1.5:0.5:0", "--through", "xyz:1.5:1.5:0",
+                                         "--through", "xyz:0.5:1.5:0", "--closed"};
+  auto words = loop;
+  words.insert(words.end(), {"-o", "-"});
+  const std::string csv = run(words).out;
+  EXPECT_TRUE(csv.starts_with("vertex,distance\n0,0.7071067811865")) << csv;
+  EXPECT_NE(csv.find("\n4,-0.5\n"), std::string::npos) << csv;
+  words = loop;
+  words.insert(words.end(), {"--json", "-", "-o", "signed.svg"});
+  const Json said = json(words);
+  EXPECT_EQ(said["rule"], "sides");
+  EXPECT_NEAR(said["length"].get<double>(), 4, 1e-9);
+  EXPECT_NEAR(said["range"][0].get<double>(), -0.5, 1e-9);
+  // Lines of other commands are curves, too; one that is open has no sides.
+  run({"path", "square.obj", "--from", "xyz:0.5:0.5:0", "--to", "xyz:1.5:0.5:0", "-o", "p.csv"});
+  const Json open = json({"signed", "square.obj", "--curves", "p.csv", "--json", "-"});
+  EXPECT_EQ(open["rule"], "heat");
+  EXPECT_EQ(open["warnings"].size(), 1U);
+  expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "sides"},
+                 "do not separate the surface");
+  expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "luck"}, "luck");
+  expect_refused({"signed", "square.obj", "--curves", "square.obj"}, "line 2 is no point");
+  expect_refused({"signed", "square.obj"}, "--through");
 }
 
 TEST_F(Program, DirectionsThatCannotBeAreOneLine) {

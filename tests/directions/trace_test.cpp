@@ -60,6 +60,10 @@ TEST_P(TracedOnThePlane, LinesAreStraight) {
       const Vec3 to = position_at(*mesh, line.path.points.back());
       EXPECT_NEAR((to - from - std::min(length, most) * way).norm(), 0, kExact);
       expect_sound(*mesh, line, 1);
+      if (std::isnan(line.direction)) continue;
+      const auto last = directions->frame_at(line.path.points.back());
+      ASSERT_TRUE(last);
+      EXPECT_NEAR((last->vector(line.direction) - way).norm(), 0, kExact);
     }
   }
 }

@@ -10,7 +10,7 @@ import numpy as np
 
 from geotherm._answers import Line, Lines
 from geotherm._arrays import AnyArray, given, view
-from geotherm._library import Handle, Progress, Watch, create
+from geotherm._library import Handle, Progress, Watch, create, text_bytes
 from geotherm._models import Model
 from geotherm._options import options_of
 from geotherm._sources import Taken
@@ -166,3 +166,45 @@ def extend(
     """
     settings = {"backend": backend, "time_factor": time_factor, "threads": threads}
     return view(_spread("extend", model, vertices, values, 1, settings, progress), "values")
+
+
+def signed_distance(
+    model: Model,
+    curves: Any,
+    *,
+    closed: bool = True,
+    rule: str = "auto",
+    backend: str | None = None,
+    time_factor: float | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> AnyArray:
+    """Distance to directed curves, (V,), negative to their left: inside a loop that runs
+    counterclockwise.
+
+    Args:
+        model: a mesh.
+        curves: a list of curves, each a list of points (vertices, (face, weights), places), joined by
+            geodesics.
+        closed: each leads back to its first point.
+        rule: "sides" (exact, for curves that separate the surface), "heat" (the signed heat method,
+            which closes gaps), "auto": the first of them that works.
+
+    >>> d = geotherm.signed_distance(mesh, [[17, 900, 1500]])
+    >>> d.min() < 0 < d.max()
+    True
+    """
+    settings = {"backend": backend, "time_factor": time_factor, "threads": threads}
+    taken = Taken(curves, "curves", sets=True)
+    options = options_of(settings)
+    with Watch(progress) as watch:
+        handle = create(
+            "signed_distance",
+            model._handle.value,
+            options.value,
+            taken.pointer,
+            int(closed),
+            text_bytes(rule, "rule"),
+            watch.pointer,
+        )
+    return view(handle, "distances")

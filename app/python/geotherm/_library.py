@@ -137,6 +137,9 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "trace": (c_void_p, POINTER(Sources), c_double, c_double, c_void_p, _Handles),
     "transport": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
     "extend": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
+    "signed_distance": (
+        c_void_p, c_void_p, POINTER(Sources), c_int, c_char_p, c_void_p, _Handles
+    ),
     "array_of": (c_void_p, c_char_p, POINTER(Array)),
     "text_of": (c_void_p, c_char_p, _Text),
     "write": (c_void_p, c_char_p),

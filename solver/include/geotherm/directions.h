@@ -13,8 +13,8 @@
 #include "geotherm/path.h"
 #include "geotherm/progress.h"
 
-// Directions on a triangle mesh: tangent planes, logarithmic maps, straightest lines, and vectors
-// and values carried over the surface.
+// Directions on a triangle mesh: tangent planes, logarithmic maps, straightest lines, vectors and
+// values carried over the surface, and on which side of a curve it is.
 namespace geotherm {
 
 /// The axes in which directions at a point are said. A direction is an angle in radians from e1
@@ -61,6 +61,27 @@ inline NamedValues<TraceEnd> named_values(TraceEnd) {
 struct TracedLine {
   SurfacePath path;                  ///< its length is that asked for unless it ends before
   TraceEnd end = TraceEnd::kLength;  ///< why it ends
+  /// In which it would go on, in the frame of its last point; NaN where that is a vertex.
+  double direction = 0;
+};
+
+/// How the side of a curve is told.
+enum class SideRule {
+  kAuto,   ///< kSides where the curves separate the surface, else kHeat
+  kSides,  ///< exact distance, with the sign of the part of the surface that a vertex is in
+  kHeat,   ///< the signed heat method (Feng, Crane 2024), which closes gaps
+};
+inline NamedValues<SideRule> named_values(SideRule) {
+  using enum SideRule;
+  return {"there is no rule '*'", {{kAuto, "auto"}, {kSides, "sides"}, {kHeat, "heat"}}};
+}
+
+/// Distance to curves, negative to the left of their direction: inside a loop that runs
+/// counterclockwise.
+struct SignedDistance {
+  std::vector<double> distances;     ///< V, model units; kUnreached where no curve is
+  SideRule rule = SideRule::kSides;  ///< kSides or kHeat: which it was
+  std::vector<Warning> warnings;     ///< one sentence each
 };
 
 /// The directions of a mesh. Immutable; several threads may ask at once. Edges of degenerate faces
@@ -87,9 +108,16 @@ class Directions {
   /// surface), kBudgetEnded (ten million pieces). Cost: O(pieces).
   Result<TracedLine> trace(const SurfacePoint& point, double direction, double length) const;
 
+  /// Signed distance to directed curves that separate the surface, each piece of which lies in one
+  /// face (PathFinder finds such): exact on the faces, by windows. Errors: kBadInput (no curve, a
+  /// piece that is in no face, curves that leave the surface in one part or go round a part in both
+  /// directions), those of exact distances. Cost: an exact query.
+  Result<SignedDistance> signed_distance(std::span<const SurfacePath> curves,
+                                         const Progress& progress = {}) const;
+
+  struct State;  ///< internal
+
  private:
-  friend class VectorHeat;  // which has the same frames
-  struct State;
   explicit Directions(std::unique_ptr<const State> state);
   std::unique_ptr<const State> state_;
 };
@@ -144,10 +172,25 @@ class VectorHeat {
   Result<Spread> extend(std::span<const Index> vertices, std::span<const double> values,
                         const Progress& progress = {}) const;
 
+  /// Signed distance to directed curves by the signed heat method, whether or not they are closed:
+  /// their normals diffuse, and gaps are closed by what they point to. Errors: kBadInput (no curve,
+  /// a piece that is in no face, a mesh that is no oriented manifold), those of the backend. Cost:
+  /// a factorisation more.
+  Result<SignedDistance> signed_distance(std::span<const SurfacePath> curves,
+                                         const Progress& progress = {}) const;
+
  private:
   struct State;
   explicit VectorHeat(std::unique_ptr<const State> state);
   std::unique_ptr<const State> state_;
 };
+
+/// Signed distance by a rule: that of Directions, or of VectorHeat. With kAuto a warning says that
+/// curves do not separate the surface. Errors: those of both.
+Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
+                                       std::span<const SurfacePath> curves,
+                                       SideRule rule = SideRule::kAuto,
+                                       const SpreadOptions& options = {},
+                                       const Progress& progress = {});
 
 }  // namespace geotherm
