@@ -77,6 +77,9 @@ Result<void> write_columns(const std::string& path, const TriangleMesh& mesh,
     return outputs.write_text(path, columns_csv(mesh.vertex_count(), columns), standard_output);
   }
   return outputs.write(path, [&]() -> Result<void> {
+    if (ending == ".npy" && columns.size() == 1) {
+      return write_file(outputs.place_of(path), io::npy_bytes(columns.front().values));
+    }
     if (ending == ".npy") {
       return write_rows(outputs.place_of(path), mesh.vertex_count(), columns);
     }

@@ -26,8 +26,8 @@ void add_column_options(CLI::App& command, std::vector<std::string>& outputs, st
 Result<void> expect_columns(const std::vector<std::string>& outputs, const std::string& json,
                             bool pictures, Outputs& expected);
 
-/// Writes .csv (vertex, then the columns; "-" into `standard_output`), .npy (V x columns) or .ply
-/// (the mesh with properties). Errors: kBadFile, kOutOfMemory.
+/// Writes .csv (vertex, then the columns; "-" into `standard_output`), .npy (V, or V x columns) or
+/// .ply (the mesh with properties). Errors: kBadFile, kOutOfMemory.
 Result<void> write_columns(const std::string& path, const TriangleMesh& mesh,
                            const std::vector<VertexColumn>& columns, Outputs& outputs,
                            std::string& standard_output);
