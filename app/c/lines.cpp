@@ -39,7 +39,7 @@ Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathFi
 
 }  // namespace
 
-void keep_lines(Answer& answer) {
+void keep_lines(const Answer& answer) {
   const Lines& lines = *answer.lines;
   std::vector<double> points, weights, lengths, values;
   std::vector<Index> faces, closed;

@@ -225,6 +225,7 @@ Result<TracedLine> Directions::trace(const SurfacePoint& point, double direction
   }
   auto line = tracer.run();
   if (!line) return line;
+  if (line->end == TraceEnd::kLength) line->path.length = length;  // not what its pieces add up to
   if (line->path.points.back().is_vertex()) {
     line->direction = std::numeric_limits<double>::quiet_NaN();
   } else {

@@ -104,7 +104,7 @@ TEST_F(CDirections, WhatIsNullIsAnError) {
   EXPECT_EQ(geotherm_transport(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
             GEOTHERM_BAD_INPUT);
   EXPECT_EQ(geotherm_signed_distance(model, nullptr, &point, 0, "none", nullptr, &answer),
-            GEOTHERM_NOT_AVAILABLE);
+            GEOTHERM_BAD_INPUT);
 }
 
 }  // namespace
