@@ -260,6 +260,50 @@ GEOTHERM_API geotherm_status geotherm_samples(const geotherm_solver* solver, int
                                               int64_t first, const geotherm_watch* watch,
                                               geotherm_answer** samples);
 
+/* ---- Directions: on triangles and points alone ------------------------------------------------*/
+
+/* In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
+ * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi
+ * round it, but on the border; in a face e1 leads from its first corner to the second. */
+
+/* Polar coordinates of all vertices about one point, exact on the faces: the arrays distances V,
+ * directions V (no number where no path leads), frame 1 x 9. */
+GEOTHERM_API geotherm_status geotherm_log_map(const geotherm_model* model,
+                                              const geotherm_sources* point,
+                                              const geotherm_watch* watch, geotherm_answer** map);
+
+/* The straightest line from one point. The text "end" of the line is "length", or why it is
+ * shorter: "border", "split" (three faces at an edge, or several fans at a vertex). */
+GEOTHERM_API geotherm_status geotherm_trace(const geotherm_model* model,
+                                            const geotherm_sources* point, double direction,
+                                            double length, const geotherm_watch* watch,
+                                            geotherm_answer** line);
+
+/* Vectors given at vertices (K numbers, K x 2 along e1 and e2 there) carried to all: the arrays
+ * vectors V x 3 (in space), components V x 2, frames V x 9. Of `options` (or NULL) backend,
+ * time-factor and threads count. */
+GEOTHERM_API geotherm_status geotherm_transport(
+    const geotherm_model* model, const geotherm_options* options, const geotherm_array* vertices,
+    const geotherm_array* vectors, const geotherm_watch* watch, geotherm_answer** answer);
+
+/* The same of values (K numbers): the array values V. */
+GEOTHERM_API geotherm_status geotherm_extend(const geotherm_model* model,
+                                             const geotherm_options* options,
+                                             const geotherm_array* vertices,
+                                             const geotherm_array* values,
+                                             const geotherm_watch* watch, geotherm_answer** answer);
+
+/* Distance to directed curves, negative to their left: the array distances V, the text "rule". Each
+ * set of `curves` is one, through its points by geodesics; `closed`: not 0 leads each back to its
+ * first. `rule`: "auto" (or NULL), "sides" (exact, for curves that separate the surface), "heat"
+ * (the signed heat method, which closes gaps). Of `options` (or NULL) backend, time-factor and
+ * threads count. */
+GEOTHERM_API geotherm_status geotherm_signed_distance(const geotherm_model* model,
+                                                      const geotherm_options* options,
+                                                      const geotherm_sources* curves, int closed,
+                                                      const char* rule, const geotherm_watch* watch,
+                                                      geotherm_answer** answer);
+
 /* ---- What a handle holds ----------------------------------------------------------------------*/
 
 /* An array inside of a model or an answer, to be read and not written, valid as long as the handle.
@@ -274,7 +318,8 @@ GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* n
 
 /* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
  * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and
- * samples: "warnings" (JSON). */
+ * samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
+ * distances: "rule". */
 GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
                                               const char** text);
 

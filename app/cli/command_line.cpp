@@ -164,6 +164,10 @@ struct AllArguments {
   CompareArguments compare;
   RenderArguments render;
   PathArguments path;
+  LogMapArguments log_map;
+  TraceArguments trace;
+  SpreadArguments transport, extend;
+  SignedArguments signed_;
   IsolinesArguments isolines;
   SampleArguments sample;
   StudyArguments study;
@@ -217,6 +221,16 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_render_options, a.render), with_bar(a.render, render)},
       {"path", "Geodesic paths and streamlines.", options(add_path_options, a.path),
        with_bar(a.path, run_path)},
+      {"logmap", "Where each vertex is seen from a point: start direction and distance.",
+       options(add_log_map_options, a.log_map), with_bar(a.log_map, run_log_map)},
+      {"trace", "Straightest lines from a point in given directions.",
+       options(add_trace_options, a.trace), with_bar(a.trace, run_trace)},
+      {"transport", "Tangent vectors carried over the surface without turning.",
+       options(add_transport_options, a.transport), with_bar(a.transport, run_transport)},
+      {"extend", "Values of some vertices carried to all.", options(add_extend_options, a.extend),
+       with_bar(a.extend, run_extend)},
+      {"signed", "Distance to curves, with the side.", options(add_signed_options, a.signed_),
+       with_bar(a.signed_, run_signed)},
       {"isolines", "Lines of equal distance, closed or open.",
        options(add_isolines_options, a.isolines), with_bar(a.isolines, run_isolines)},
       {"sample", "Farthest-point samples, and the nearest of them to every vertex.",

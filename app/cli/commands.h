@@ -230,6 +230,63 @@ struct PathArguments {
 void add_path_options(CLI::App& command, PathArguments& arguments);
 Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress = {});
 
+struct LogMapArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string source;
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_log_map_options(CLI::App& command, LogMapArguments& arguments);
+Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progress& progress = {});
+
+struct TraceArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string from;
+  std::vector<std::string> directions;  ///< radians
+  std::string fan;                      ///< so many more, evenly spread; empty: none
+  std::string length;
+  LineFileArguments files;
+  bool quiet = false;
+};
+
+void add_trace_options(CLI::App& command, TraceArguments& arguments);
+Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress& progress = {});
+
+/// Of `transport` and `extend`.
+struct SpreadArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> given;  ///< V:X:Y of vectors, V:X of values
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_transport_options(CLI::App& command, SpreadArguments& arguments);
+Result<CommandOutput> run_transport(const SpreadArguments& arguments,
+                                    const Progress& progress = {});
+
+void add_extend_options(CLI::App& command, SpreadArguments& arguments);
+Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progress& progress = {});
+
+struct SignedArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> through;
+  bool closed = false;
+  std::string curves, rule;  ///< empty: no file; auto
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_signed_options(CLI::App& command, SignedArguments& arguments);
+Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progress& progress = {});
+
 struct IsolinesArguments {
   std::string model;
   SettingArguments settings;

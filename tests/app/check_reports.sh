@@ -39,6 +39,11 @@ report path path bunny --from 0 --to 99
 report tree path bunny --from face:3:0.2:0.3:0.5 --to 99 --to 300
 report streamline path bunny --from 0 --to 99 --field distance
 report isolines isolines bunny -s 0 --count 5 -o lines.csv
+report log_map logmap bunny -s 17
+report trace trace bunny --from 17 --fan 3 --length 1
+report transport transport bunny --vector 17:1:0
+report extend extend bunny --value 17:1 --value 99:2
+report signed signed bunny --through 17 --through 900 --through 1500 --closed
 report sample sample bunny -n 5 -o samples.ply
 report backends backends
 report models models
