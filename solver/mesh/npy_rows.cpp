@@ -16,7 +16,7 @@
 namespace geotherm {
 namespace {
 
-std::size_t size_of(NpyType type) {
+std::size_t bytes_each(NpyType type) {
   return type == NpyType::kFloat64 ? sizeof(double) : sizeof(float);
 }
 
@@ -46,13 +46,13 @@ Result<void> io::check_float_range(const std::string& path, std::span<const doub
 }
 
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
-  return io::npy_rows_header(rows, columns, type).size() + rows * columns * size_of(type);
+  return io::npy_rows_header(rows, columns, type).size() + rows * columns * bytes_each(type);
 }
 
 Result<void> io::npy_row(const std::string& path, std::span<const double> row, NpyType type,
                          std::string& bytes) {
   bytes.clear();
-  bytes.reserve(row.size() * size_of(type));
+  bytes.reserve(row.size() * bytes_each(type));
   if (type == NpyType::kFloat64) {
     for (const double value : row) io::append_little(bytes, value);
     return {};
