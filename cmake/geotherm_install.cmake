@@ -44,6 +44,10 @@ install(FILES "${PROJECT_BINARY_DIR}/geotherm-solver.pc" "${PROJECT_BINARY_DIR}/
         DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
 install(FILES LICENSE README.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
+if(TARGET geotherm_mpi)
+  install(TARGETS geotherm_mpi
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/geotherm" COMPONENT mpi)
+endif()
 if(TARGET geotherm)
   install(TARGETS geotherm RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT program)
   install(DIRECTORY assets/models DESTINATION "${CMAKE_INSTALL_DATADIR}/geotherm"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Debian packages, made by cpack (scripts/package.sh): `geotherm`, the program with what a desktop and
 # shells know of it, `libgeotherm0`, the C interface, `python3-geotherm`, and `libgeotherm-dev` to
-# compile with both interfaces. Parts that are not built are left out.
+# compile with both interfaces, and `geotherm-mpi`, which the program loads for MPI and PETSc. Parts that are not built are left out.
 include(GNUInstallDirs)
 
 set(share "${CMAKE_INSTALL_DATADIR}")
@@ -72,6 +72,13 @@ draws pictures, finds shortest paths and contours on the command line, and
 has a window to explore models in.")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg")
+endif()
+if(TARGET geotherm_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  geotherm_package(mpi geotherm-mpi science
+"What geotherm loads to share its work between processes (MPI), and its
+backend petsc, which solves Poisson systems by multigrid.")
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "openmpi-bin")
 endif()
 if(TARGET geotherm_c)
   list(APPEND CPACK_COMPONENTS_ALL library python)

@@ -5,7 +5,7 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: scripts/setup.sh [--pictures] [--dev] [--lint] [--package] [--site]
+usage: scripts/setup.sh [--pictures] [--dev] [--lint] [--package] [--site] [--mpi]
 
 Installs, through apt-get, the packages that building and running geotherm needs and that are not
 there yet. Says nothing when nothing is missing. Needs root or sudo only when something is.
@@ -14,13 +14,15 @@ there yet. Says nothing when nothing is missing. Needs root or sudo only when so
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
            display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
            shells that complete words, the judges of Debian packages and a maker of bare systems, NumPy,
-           pytest, pip and mypy for the Python package, a browser for pages (Chromium)
+           SciPy, pytest, pip and mypy for the Python package, a browser for pages (Chromium)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
   --package  also what scripts/package.sh needs: help2man
+  --mpi    also PETSc and MPI: the backend petsc, work shared over mpirun; --dev has it, too
   --site   also what scripts/site.sh needs: Sphinx, Doxygen; the tests use it, so --dev has it, too
 TEXT
 }
 
+cluster=(libpetsc-real-dev libhypre-dev libopenmpi-dev openmpi-bin)
 site=(doxygen python3-sphinx python3-myst-parser python3-breathe furo python3-numpy)
 packages=(g++ cmake ninja-build
   libeigen3-dev libnanoflann-dev zlib1g-dev libpng-dev  # the library
@@ -36,8 +38,9 @@ for argument in "$@"; do
     --pictures) others=() ;;
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
-      shared-mime-info pkg-config mmdebstrap python3-numpy python3-pytest python3-pip python3-venv
-      mypy chromium python3-jsonschema "${site[@]}") ;;
+      shared-mime-info pkg-config mmdebstrap python3-numpy python3-scipy python3-pytest python3-pip
+      python3-venv mypy chromium python3-jsonschema "${site[@]}" "${cluster[@]}") ;;
+    --mpi) packages+=("${cluster[@]}") ;;
     --site) packages+=("${site[@]}") ;;
     --package) packages+=(help2man dpkg-dev) ;;
     --lint) packages+=(ccache clang-format clang-tidy shellcheck git) ;;

@@ -58,30 +58,36 @@ vec3 map_colour(float x) {
 // Lines so close that they are only their mean leave the colours readable.
 const float kDensest = 0.5;
 
+// 0 where a value is the same all around but for rounding, which would be all line: `change` is the
+// square of what it changes by from pixel to pixel.
+float varies(float change, float value) { return change > 1e-12 * value * value ? 1.0 : 0.0; }
+
 // Share of the pixel that isolines cover; `phase` is the value in spacings, and lines are the zeros of
 // sin(pi phase) but the one at 0, where the sources are.
 float isolines(float phase) {
   float dx = dFdx(phase);
   float dy = dFdy(phase);
-  float square = dx * dx + dy * dy + 1e-30;
+  float change = dx * dx + dy * dy;
+  float square = change + 1e-30;
   float apart = inversesqrt(square);  // pixels from line to line
   float away = abs(phase - max(round(phase), 1.0)) * apart;
   float width = frame.line.w;
   float cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0);
   float mean = min(width * (square * apart), kDensest);
-  return mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
+  return varies(change, phase) * mix(mean, cover, clamp(0.3 * apart - 0.75, 0.0, 1.0));
 }
 
 // The same of lines at chosen values, measured from the nearest of them.
 float level_lines(float value) {
   float dx = dFdx(value);
   float dy = dFdy(value);
-  float pixels = inversesqrt(dx * dx + dy * dy + 1e-30);  // of a value of 1
+  float change = dx * dx + dy * dy;
+  float pixels = inversesqrt(change + 1e-30);  // of a value of 1
   float away = kLargestValue;
   for (int i = 0; i < int(frame.level_count.x); ++i) {
     away = min(away, abs(value - frame.levels[i / 4][i % 4]));
   }
-  return clamp(0.5 * frame.line.w + 0.5 - away * pixels, 0.0, 1.0);
+  return varies(change, value) * clamp(0.5 * frame.line.w + 0.5 - away * pixels, 0.0, 1.0);
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.

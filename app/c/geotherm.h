@@ -117,21 +117,23 @@ GEOTHERM_API geotherm_status geotherm_features(const char** json);
 typedef struct geotherm_model geotherm_model;
 
 /* Reads a file, or a bundled model by its name. Of `options` (or NULL) those about models count:
- * domain, weld, format, grid. Errors: BAD_FILE, BAD_INPUT, NOT_AVAILABLE. */
+ * domain, mask, weld, format, grid. Errors: BAD_FILE, BAD_INPUT, NOT_AVAILABLE. */
 GEOTHERM_API geotherm_status geotherm_model_read(const char* path, const geotherm_options* options,
                                                  const geotherm_watch* watch,
                                                  geotherm_model** model);
 
 /* What a model is made of. */
 typedef enum geotherm_kind {
-  GEOTHERM_TRIANGLES = 0, /* positions V x 3, cells F x 3 */
-  GEOTHERM_POLYGONS = 1,  /* positions, cells: corners of all faces, one after the other; starts */
-  GEOTHERM_TETS = 2,      /* positions, cells T x 4 */
-  GEOTHERM_POINTS = 3,    /* positions; values: normals V x 3, or none */
-  GEOTHERM_GRID = 4,      /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
-                             wall; or none: 1 everywhere. The answer is travel time */
-  GEOTHERM_LENGTHS = 5 /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
-                          side opposite each corner; the heat method alone, not checked */
+  GEOTHERM_TRIANGLES =
+      0,                 /* positions V x 3, cells F x 3; values: none, or a mask of V numbers, or
+                            of F: what is marked by other than 0 is left out, and keeps its number */
+  GEOTHERM_POLYGONS = 1, /* positions, cells: corners of all faces, one after the other; starts */
+  GEOTHERM_TETS = 2,     /* positions, cells T x 4 */
+  GEOTHERM_POINTS = 3,   /* positions; values: normals V x 3, or none */
+  GEOTHERM_GRID = 4,     /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
+                            wall; or none: 1 everywhere. The answer is travel time */
+  GEOTHERM_LENGTHS = 5   /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
+                            side opposite each corner; the heat method alone, not checked */
 } geotherm_kind;
 
 /* A model as arrays. */
@@ -213,10 +215,12 @@ GEOTHERM_API geotherm_status geotherm_distance(const geotherm_solver* solver,
 typedef struct geotherm_rows {
   geotherm_array array;   /* the caller's memory, of which a path leaves all but the type alone;
                              without data and path the call only says its rows and columns */
-  const char* path;       /* NULL, or a file .npy of array.type, there whole or not at all */
+  const char* path;       /* NULL, or a file .npy of array.type, there whole or not at all; .npz:
+                             what is reached alone, as scipy.sparse.load_npz() reads it */
   const int64_t* targets; /* NULL, or the vertices whose distances are kept */
   int64_t target_count;
-  double max_distance; /* > 0; farther is infinite. INFINITY for all. It saves no time */
+  double max_distance; /* > 0; farther is infinite. INFINITY for all. The methods but heat spend
+                          no time beyond it, nor beyond the last of the targets */
 } geotherm_rows;
 
 /* From each set by itself, in blocks of sixteen, in memory for two chunks of these however many
@@ -232,7 +236,8 @@ typedef struct geotherm_answer geotherm_answer;
 
 /* From one set with all that there is to say: what `solve` of the command line reports. `wanted`:
  * NULL, or words with blanks between: "labels" (nearest_source), "fields" (heat, log_heat and the
- * fields that need them), "check=..." in place of the option `check` of the solver. */
+ * fields that need them), "check=..." in place of the option `check` of the solver,
+ * "max-distance=..." (farther is infinite; where nothing is checked no time is spent there). */
 GEOTHERM_API geotherm_status geotherm_solve(const geotherm_solver* solver,
                                             const geotherm_sources* sources, const char* wanted,
                                             const geotherm_watch* watch, geotherm_answer** answer);
@@ -255,6 +260,50 @@ GEOTHERM_API geotherm_status geotherm_samples(const geotherm_solver* solver, int
                                               int64_t first, const geotherm_watch* watch,
                                               geotherm_answer** samples);
 
+/* ---- Directions: on triangles and points alone ------------------------------------------------*/
+
+/* In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
+ * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi
+ * round it, but on the border; in a face e1 leads from its first corner to the second. */
+
+/* Polar coordinates of all vertices about one point, exact on the faces: the arrays distances V,
+ * directions V (no number where no path leads), frame 1 x 9. */
+GEOTHERM_API geotherm_status geotherm_log_map(const geotherm_model* model,
+                                              const geotherm_sources* point,
+                                              const geotherm_watch* watch, geotherm_answer** map);
+
+/* The straightest line from one point. The text "end" of the line is "length", or why it is
+ * shorter: "border", "split" (three faces at an edge, or several fans at a vertex). */
+GEOTHERM_API geotherm_status geotherm_trace(const geotherm_model* model,
+                                            const geotherm_sources* point, double direction,
+                                            double length, const geotherm_watch* watch,
+                                            geotherm_answer** line);
+
+/* Vectors given at vertices (K numbers, K x 2 along e1 and e2 there) carried to all: the arrays
+ * vectors V x 3 (in space), components V x 2, frames V x 9. Of `options` (or NULL) backend,
+ * time-factor and threads count. */
+GEOTHERM_API geotherm_status geotherm_transport(
+    const geotherm_model* model, const geotherm_options* options, const geotherm_array* vertices,
+    const geotherm_array* vectors, const geotherm_watch* watch, geotherm_answer** answer);
+
+/* The same of values (K numbers): the array values V. */
+GEOTHERM_API geotherm_status geotherm_extend(const geotherm_model* model,
+                                             const geotherm_options* options,
+                                             const geotherm_array* vertices,
+                                             const geotherm_array* values,
+                                             const geotherm_watch* watch, geotherm_answer** answer);
+
+/* Distance to directed curves, negative to their left: the array distances V, the text "rule". Each
+ * set of `curves` is one, through its points by geodesics; `closed`: not 0 leads each back to its
+ * first. `rule`: "auto" (or NULL), "sides" (exact, for curves that separate the surface), "heat"
+ * (the signed heat method, which closes gaps). Of `options` (or NULL) backend, time-factor and
+ * threads count. */
+GEOTHERM_API geotherm_status geotherm_signed_distance(const geotherm_model* model,
+                                                      const geotherm_options* options,
+                                                      const geotherm_sources* curves, int closed,
+                                                      const char* rule, const geotherm_watch* watch,
+                                                      geotherm_answer** answer);
+
 /* ---- What a handle holds ----------------------------------------------------------------------*/
 
 /* An array inside of a model or an answer, to be read and not written, valid as long as the handle.
@@ -269,7 +318,8 @@ GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* n
 
 /* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
  * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and
- * samples: "warnings" (JSON). */
+ * samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
+ * distances: "rule". */
 GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
                                               const char** text);
 

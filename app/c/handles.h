@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -69,6 +70,8 @@ struct Lines {
 struct Answer {
   std::optional<app::Answer> solved;
   std::optional<Lines> lines;
+  /// Texts beside the warnings by their names.
+  std::vector<std::pair<std::string, std::string>> texts;
   std::vector<Warning> warnings;
   mutable std::mutex lock;
   mutable std::vector<std::unique_ptr<const NamedArray>> arrays;  ///< some are made when asked for
@@ -168,5 +171,21 @@ Result<void> write_row(const geotherm_array& array, std::int64_t row,
 Result<app::ResolvedSources> one_set(const geotherm_sources* sources, const app::Model& model);
 /// A set for each range of `starts` or, without these, for each point; then those of the text.
 Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Model& model);
+
+// lines.cpp
+
+/// Keeps an array with an answer.
+void keep(const Answer& answer, std::string name, auto values, std::int64_t columns = 1) {
+  answer.arrays.push_back(
+      std::make_unique<const NamedArray>(NamedArray{std::move(name), std::move(values), columns}));
+}
+/// The arrays of Answer::lines.
+void keep_lines(const Answer& answer);
+/// The points of all sources, in their order. Errors: kBadInput.
+Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
+                                                  const app::Model& model);
+inline void hand_out_answer(std::shared_ptr<Answer> made, geotherm_answer** answer) {
+  hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
+}
 
 }  // namespace geotherm::c

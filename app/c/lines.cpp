@@ -13,12 +13,33 @@ namespace {
 
 using app::Model;
 
-void keep(const Answer& answer, std::string name, auto values, std::int64_t columns = 1) {
-  answer.arrays.push_back(
-      std::make_unique<const NamedArray>(NamedArray{std::move(name), std::move(values), columns}));
+Result<PathField> field_of(const char* text) {
+  return text == nullptr ? Result<PathField>(PathField::kGeodesic) : parse<PathField>(text);
 }
 
-void keep_lines(Answer& answer) {
+/// Streamlines follow the solver's own distances, geodesics are led by near-exact ones.
+Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathField field,
+                                                    const Progress& progress) {
+  const MethodKind kind = solver.options.method;
+  const bool near_exact = kind != MethodKind::kHeat && kind != MethodKind::kFastMarching;
+  if (field != PathField::kGeodesic) {
+    return std::make_shared<const PathFinder>(solver.model().mesh, solver.ready.method);
+  }
+  if (solver.geodesics) return solver.geodesics;
+  auto method = solver.ready.method;
+  if (!near_exact) {
+    auto ready = solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront),
+                                       progress);
+    if (!ready) return ready.error();
+    method = ready->method;
+  }
+  solver.geodesics = std::make_shared<const PathFinder>(solver.model().mesh, std::move(method));
+  return solver.geodesics;
+}
+
+}  // namespace
+
+void keep_lines(const Answer& answer) {
   const Lines& lines = *answer.lines;
   std::vector<double> points, weights, lengths, values;
   std::vector<Index> faces, closed;
@@ -45,35 +66,6 @@ void keep_lines(Answer& answer) {
   if (lines.have_values) keep(answer, "values", std::move(values));
 }
 
-void hand_out_answer(std::shared_ptr<Answer> made, geotherm_answer** answer) {
-  hand_out(std::shared_ptr<const Answer>(std::move(made)), answer);
-}
-
-Result<PathField> field_of(const char* text) {
-  return text == nullptr ? Result<PathField>(PathField::kGeodesic) : parse<PathField>(text);
-}
-
-/// Streamlines follow the solver's own distances, geodesics are led by near-exact ones.
-Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathField field,
-                                                    const Progress& progress) {
-  const MethodKind kind = solver.options.method;
-  const bool near_exact = kind != MethodKind::kHeat && kind != MethodKind::kFastMarching;
-  if (field != PathField::kGeodesic) {
-    return std::make_shared<const PathFinder>(solver.model().mesh, solver.ready.method);
-  }
-  if (solver.geodesics) return solver.geodesics;
-  auto method = solver.ready.method;
-  if (!near_exact) {
-    auto ready = solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront),
-                                       progress);
-    if (!ready) return ready.error();
-    method = ready->method;
-  }
-  solver.geodesics = std::make_shared<const PathFinder>(solver.model().mesh, std::move(method));
-  return solver.geodesics;
-}
-
-/// The points of all sources, in their order.
 Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* sources,
                                                   const Model& model) {
   const auto each = many_sets(sources, model);
@@ -89,7 +81,6 @@ Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* source
   return points;
 }
 
-}  // namespace
 }  // namespace geotherm::c
 
 using namespace geotherm;     // NOLINT: the functions below are C

@@ -87,7 +87,16 @@ Result<Model> build_triangles(const geotherm_shape& shape) {
   if (!positions) return positions.error();
   const auto corners = indices_in(shape.cells, 3, "faces");
   if (!corners) return corners.error();
-  return model_of(nullptr, TriangleMesh::build(*std::move(positions), grouped_by<3>(*corners)));
+  const auto marks = numbers_in(shape.values, 1, "mask");
+  if (!marks) return marks.error();
+  auto mesh = TriangleMesh::build(*std::move(positions), grouped_by<3>(*corners));
+  if (!mesh || marks->empty()) return model_of(nullptr, std::move(mesh));
+  Mask mask;
+  const bool of_faces =
+      std::ssize(*marks) == mesh->face_count() && std::ssize(*marks) != mesh->vertex_count();
+  auto& list = of_faces ? mask.faces : mask.vertices;
+  for (const double mark : *marks) list.push_back(mark != 0 ? 1 : 0);
+  return model_of(nullptr, masked(*mesh, mask));
 }
 
 Result<Model> build_polygons(const geotherm_shape& shape) {

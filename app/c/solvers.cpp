@@ -7,6 +7,7 @@
 
 #include "app/c/handles.h"
 #include "app/session/wording.h"
+#include "app/text/text.h"
 #include "geotherm/io.h"
 #include "solver/core/memory.h"
 #include "solver/core/text.h"
@@ -33,7 +34,7 @@ Result<std::shared_ptr<const Solver>> made_ready(app::ModelSolver with, const Vi
   return std::make_shared<const Solver>(std::move(with), *std::move(ready), asked);
 }
 
-/// Distances of the targets alone, those that are too far infinite.
+/// How far the rows of many sets go.
 class Selection {
  public:
   static Result<Selection> build(const geotherm_rows& rows, Index vertices) {
@@ -42,8 +43,11 @@ class Selection {
                           {"give a length above 0, or infinity"});
     }
     Selection out;
-    out.most_ = rows.max_distance;
-    if (rows.targets == nullptr) return out;
+    out.reach_.max_distance = rows.max_distance;
+    if (rows.targets == nullptr) {
+      out.reach_.sparse = rows.max_distance < kUnreached;
+      return out;
+    }
     if (rows.target_count < 1) return bad_argument("targets is empty");
     for (std::int64_t i = 0; i < rows.target_count; ++i) {
       const std::int64_t v = rows.targets[i];
@@ -52,69 +56,83 @@ class Selection {
                                 ", which is number " + std::to_string(i),
                             {"vertices are 0 to " + std::to_string(vertices - 1)});
       }
-      out.targets_.push_back(static_cast<Index>(v));
+      out.reach_.targets.push_back(static_cast<Index>(v));
     }
     return out;
   }
 
   std::int64_t columns(Index vertices) const {
-    return targets_.empty() ? vertices : std::ssize(targets_);
+    return reach_.targets.empty() ? vertices : std::ssize(reach_.targets);
   }
+  const Reach& reach() const { return reach_; }
+  void make_sparse() { reach_.sparse = true; }
 
-  std::span<const double> of(std::vector<double>& distances) {
-    if (most_ < kUnreached) {
-      for (double& d : distances) d = d > most_ ? kUnreached : d;
+  /// The whole row. Valid until the next one.
+  std::span<const double> row_of(const DistanceResult& answer, Index vertices) {
+    if (!reach_.sparse) return answer.distances;
+    for (const Index v : in_row_) row_[static_cast<std::size_t>(v)] = kUnreached;
+    row_.resize(static_cast<std::size_t>(vertices), kUnreached);
+    in_row_ = answer.vertices;
+    for (std::size_t i = 0; i < in_row_.size(); ++i) {
+      row_[static_cast<std::size_t>(in_row_[i])] = answer.distances[i];
     }
-    if (targets_.empty()) return distances;
-    kept_.clear();
-    for (const Index v : targets_) kept_.push_back(distances[static_cast<std::size_t>(v)]);
-    return kept_;
+    return row_;
   }
 
  private:
-  double most_ = kUnreached;
-  std::vector<Index> targets_;
-  std::vector<double> kept_;
+  Reach reach_;
+  std::vector<double> row_;
+  std::vector<Index> in_row_;  ///< those in row_ that are finite
 };
 
-Result<void> stream(const Solver& solver, const app::EachSource& each, Selection& selection,
-                    const Progress& progress,
-                    const std::function<Result<void>(std::size_t, std::span<const double>)>& take) {
+Result<void> stream(const Solver& solver, const app::EachSource& each, const Reach& reach,
+                    const Progress& progress, const AnswerSink& take) {
   const Index vertices = solver.model().mesh->vertex_count();
   StreamOptions options;
   options.query.quality = false;
+  options.query.reach = reach;
   options.chunk = std::clamp<std::size_t>(
       each.sets.size(), 1, good_chunk(vertices, solver.options.threads, free_memory()));
-  return stream_answers(
-      *solver.ready.method, each.sets, options,
-      [&](std::size_t row, DistanceResult&& answer) {
-        return take(row, selection.of(answer.distances));
-      },
-      progress);
+  return stream_answers(*solver.ready.method, each.sets, options, take, progress);
 }
 
 Result<void> stream_to_file(const Solver& solver, const app::EachSource& each,
                             const geotherm_rows& rows, Selection& selection,
                             const Progress& progress) {
   const std::string path = rows.path;
-  if (io::file_extension(path) != ".npy") {
+  const bool sparse = io::file_extension(path) == ".npz";
+  if (io::file_extension(path) != ".npy" && !sparse) {
     return Error{ErrorCode::kNotAvailable,
-                 printable(path) + ": rows are written as .npy",
+                 printable(path) + ": rows are written as .npy or, sparse, as .npz",
                  {"choose another name"}};
+  }
+  if (sparse && rows.targets != nullptr) {
+    return bad_argument("targets: sparse rows are of all vertices",
+                        {"write a .npy, or leave targets out"});
   }
   if (rows.array.type != GEOTHERM_FLOAT64 && rows.array.type != GEOTHERM_FLOAT32) {
     return bad_argument("rows.array must be of float64 or float32");
   }
   const Index vertices = solver.model().mesh->vertex_count();
-  auto file =
-      NpyRows::open(path, each.sets.size(), static_cast<std::uint64_t>(selection.columns(vertices)),
-                    rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64);
+  const auto columns = static_cast<std::uint64_t>(selection.columns(vertices));
+  const NpyType type = rows.array.type == GEOTHERM_FLOAT32 ? NpyType::kFloat32 : NpyType::kFloat64;
+  if (sparse) {
+    selection.make_sparse();
+    auto file = SparseRows::open(path, columns, type);
+    if (!file) return file.error();
+    const auto done = stream(solver, each, selection.reach(), progress,
+                             [&](std::size_t, DistanceResult&& answer) {
+                               return file->append(answer.vertices, answer.distances);
+                             });
+    return done ? file->finish() : done;
+  }
+  auto file = NpyRows::open(path, each.sets.size(), columns, type);
   if (!file) return file.error();
   const auto done =
-      stream(solver, each, selection, progress,
-             [&](std::size_t, std::span<const double> values) { return file->append(values); });
-  if (!done) return done;
-  return file->finish();
+      stream(solver, each, selection.reach(), progress, [&](std::size_t, DistanceResult&& answer) {
+        return file->append(selection.row_of(answer, vertices));
+      });
+  return done ? file->finish() : done;
 }
 
 Result<void> stream_to_memory(const Solver& solver, const app::EachSource& each,
@@ -123,10 +141,10 @@ Result<void> stream_to_memory(const Solver& solver, const app::EachSource& each,
   const Index vertices = solver.model().mesh->vertex_count();
   auto fits = check_output(array, std::ssize(each.sets), selection.columns(vertices), "out");
   if (!fits) return fits;
-  return stream(solver, each, selection, progress,
-                [&](std::size_t row, std::span<const double> values) {
-                  return write_row(array, static_cast<std::int64_t>(row), values);
-                });
+  return stream(
+      solver, each, selection.reach(), progress, [&](std::size_t row, DistanceResult&& answer) {
+        return write_row(array, static_cast<std::int64_t>(row), selection.row_of(answer, vertices));
+      });
 }
 
 /// The words of geotherm_solve().
@@ -142,13 +160,20 @@ Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
       wanted.query.nearest = true;
     } else if (word == "fields") {
       wanted.query.fields = solver.options.method == MethodKind::kHeat;
+    } else if (word.starts_with("max-distance=")) {
+      const std::string text(word.substr(word.find('=') + 1));
+      const auto most = app::number_in<double>(text);
+      if (!most || !(*most > 0)) {
+        return bad_argument("max_distance is " + printable(text), {"give a length above 0"});
+      }
+      wanted.query.reach.max_distance = *most;
     } else if (word.starts_with("check=")) {
       const auto check = parse<app::Check>(word.substr(word.find('=') + 1));
       if (!check) return check.error();
       wanted.check.against = *check;
     } else if (!word.empty()) {
       return bad_argument("wanted: there is no '" + printable(word) + "'",
-                          {"there are labels, fields and check=..."});
+                          {"there are labels, fields, check=... and max-distance=..."});
     }
   }
   if (!checks) wanted.check.against = app::Check::kOff;

@@ -148,7 +148,12 @@ Result<std::string> text_in(const Solver& solver, const std::string& name) {
 Result<std::string> text_in(const Answer& answer, const std::string& name) {
   if (!answer.solved) {
     if (name == "warnings") return app::to_text(Json(app::told(answer.warnings)));
-    return no_name("text", name, {"warnings"});
+    std::vector<std::string> names = {"warnings"};
+    for (const auto& [called, text] : answer.texts) {
+      if (called == name) return text;
+      names.push_back(called);
+    }
+    return no_name("text", name, names);
   }
   if (name == "json") return app::to_text(app::solve_json(*answer.solved));
   if (name == "table") return app::solve_table(*answer.solved);
@@ -170,7 +175,7 @@ Result<void> write(const Answer& answer, const std::string& path) {
     }
     return write_polylines(path, *answer.lines->mesh, lines);
   }
-  if (!answer.solved) return bad_argument("samples are not written: they are arrays");
+  if (!answer.solved) return bad_argument("this answer is not written: it is arrays");
   const app::Answer& solved = *answer.solved;
   if (auto fits = app::check_answer_path(solved.model, path); !fits) return fits;
   return app::write_answer(path, solved.model, solved.result.distances,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <optional>
 #include <utility>
 
 #include "app/cli/commands.h"
 #include "app/cli/many_work.h"
+#include "app/cli/rows_file.h"
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -14,6 +17,8 @@
 
 namespace geotherm::app {
 namespace {
+
+bool is_npz(const std::string& path) { return io::file_extension(path) == ".npz"; }
 
 Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
@@ -25,28 +30,31 @@ Result<void> expect_rows(const SolveArguments& arguments, Outputs& outputs) {
                      "output"};
   }
   const std::string& path = arguments.outputs.front();
-  if (path != "-" && io::file_extension(path) != ".npy") {
+  if (path != "-" && io::file_extension(path) != ".npy" && !is_npz(path)) {
     return Error{ErrorCode::kNotAvailable,
                  one_line(path) +
-                     ": --each writes an array of sources x vertices as .npy; choose "
-                     "another name"};
+                     ": --each writes an array of sources x vertices as .npy, or sparse rows as "
+                     ".npz; choose another name"};
+  }
+  if (is_npz(path) && !arguments.targets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 one_line(path) +
+                     ": sparse rows are of all vertices, and --target asks for some; "
+                     "write a .npy, or leave --target out"};
   }
   if (auto expected = outputs.expect(path, "--output"); !expected) return expected;
   if (arguments.json.empty()) return {};
   return outputs.expect(arguments.json, "--json");
 }
 
-Error about_file(const Error& error) {
-  return with_hint(error, {"make room there, or choose another place"});
-}
-
 Json each_json(const ManySources& work, const ManyFigures& figures, const RowSums& sums,
-               NpyType type, double bytes) {
+               NpyType type, const RowsFile& file) {
   Json json = many_json(work, figures);
   json["rows"] = work.sources.sets.size();
-  json["columns"] = work.mesh.vertices;
+  json["columns"] = file.columns();
   json["dtype"] = to_text(type);
-  json["bytes"] = bytes;
+  json["bytes"] = file.bytes();
+  if (const auto entries = file.entries()) json["entries"] = *entries;
   json["distance"] = {
       {"min", sums.least}, {"max", sums.most}, {"mean", sums.mean}, {"unreached", sums.unreached}};
   return json;
@@ -63,40 +71,38 @@ Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& 
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_rows(arguments, outputs); !expected) return expected.error();
-  auto work = begin_many(arguments, progress);
+  auto work = begin_many(arguments, expect_rows(arguments, outputs), progress);
   if (!work) return work.error();
 
   const std::string& path = arguments.outputs.front();
+  work->reach.sparse = is_npz(path);
   const auto rows = static_cast<std::int64_t>(work->sources.sets.size());
-  const Index vertices = work->mesh.vertices;
-  const auto bytes = static_cast<double>(
-      npy_bytes_of(static_cast<std::uint64_t>(rows), static_cast<std::uint64_t>(vertices), *type));
-  if (auto fits = check_room(path, bytes); !fits) return fits.error();
-  const std::string size = counted(rows, "source", "sources") + " x " +
-                           counted(vertices, "vertex", "vertices") + ", " + to_text(*type) + ", " +
-                           bytes_in_words(bytes);
-  auto array = NpyRows::open(path, static_cast<std::uint64_t>(rows),
-                             static_cast<std::uint64_t>(vertices), *type);
-  if (!array) return about_file(array.error());
+  auto file = RowsFile::open(path, *work, *type);
+  if (!file) return file.error();
   RowSums sums;
   auto figures = solve_many(
       *work, arguments,
-      [&](std::size_t, std::span<const double> distances) -> Result<void> {
-        sums.add(distances);
-        const auto written = array->append(distances);
+      [&](std::size_t row, const DistanceResult& answer) -> Result<void> {
+        sums.add(answer.distances);
+        const auto written = file->write(row, answer);
         return written ? written : about_file(written.error());
       },
-      "a file of " + bytes_in_words(bytes), progress, announce);
+      "a file of " + file->size_in_words(), progress, announce);
   if (!figures) return figures.error();
-  const auto written = outputs.write(path, [&] { return array->finish(); });
+  sums = sums_of_all(sums, work->ranks);
+  if (!work->ranks.is_first()) return CommandOutput();
+  const auto written = outputs.write(path, [&] { return file->finish(); });
   if (!written) return written.error();
+  const std::string size = counted(rows, "source", "sources") + " x " +
+                           counted(file->columns(), "vertex", "vertices") + ", " + to_text(*type) +
+                           ", " + file->size_in_words();
 
-  if (sums.unreached > 0) figures->warnings.push_back({unreached_note(*work, sums.unreached)});
+  if (sums.unreached > 0 && !work->reach.is_bounded())
+    figures->warnings.push_back({unreached_note(*work, sums.unreached)});
   CommandOutput out{"", figures->warnings, {}};
   if (!arguments.json.empty()) {
     const auto reported = outputs.write_text(
-        arguments.json, report_text(each_json(*work, *figures, sums, *type, bytes)), out.text);
+        arguments.json, report_text(each_json(*work, *figures, sums, *type, *file)), out.text);
     if (!reported) return reported.error();
   }
   out.note = sample_note(arguments, outputs, *figures);
@@ -139,25 +145,12 @@ Result<void> expect_matrix(const SolveArguments& arguments, Outputs& outputs) {
   return outputs.expect(arguments.json, "--json");
 }
 
-/// The vertices of sources that are one each. Errors: kBadInput.
-Result<std::vector<Index>> vertices_of_each(const EachSource& each) {
-  std::vector<Index> vertices;
-  for (const SourceSet& set : each.sets) {
-    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
-                           set.points.front().is_vertex();
-    if (!is_vertex || !set.offsets.empty()) {
-      return Error{ErrorCode::kBadInput,
-                   "--pairs: source " + std::to_string(vertices.size() + 1) +
-                       (is_vertex ? " has an offset" : " is no vertex") +
-                       "; distances are between vertices, such as -s 3,99,512 or -s random:20"};
-    }
-    vertices.push_back(set.points.front().vertex);
-  }
-  if (vertices.size() < 2) {
-    return Error{ErrorCode::kBadInput,
-                 "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
-  }
-  return vertices;
+/// Two at least. Errors: kBadInput.
+Result<std::vector<Index>> vertices_of_pairs(const EachSource& each) {
+  auto vertices = vertices_of_each(each, "--pairs: source");
+  if (!vertices || vertices->size() >= 2) return vertices;
+  return Error{ErrorCode::kBadInput,
+               "--pairs: one vertex makes no pair; give several, such as -s 3,99,512"};
 }
 
 Result<void> check_memory(std::size_t vertices) {
@@ -279,34 +272,50 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
   const auto type = number_type(arguments);
   if (!type) return type.error();
   Outputs outputs;
-  if (auto expected = expect_matrix(arguments, outputs); !expected) return expected.error();
-  auto work = begin_many(arguments, progress);
+  auto work = begin_many(arguments, expect_matrix(arguments, outputs), progress);
   if (!work) return work.error();
   PairMatrix pairs;
-  auto vertices = vertices_of_each(work->sources);
+  auto vertices = vertices_of_pairs(work->sources);
   if (!vertices) return vertices.error();
   pairs.vertices = *std::move(vertices);
-  if (auto fits = check_memory(pairs.size()); !fits) return fits.error();
+  if (!arguments.targets.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--target: the targets of --pairs are its sources; leave it out, or take --each"};
+  }
+  work->reach.targets = pairs.vertices;
   const auto rows = static_cast<std::uint64_t>(pairs.size());
+  Result<void> fits = check_memory(pairs.size());
   for (const std::string& path : arguments.outputs) {
     const auto bytes = static_cast<double>(npy_bytes_of(rows, rows, *type));
-    if (auto fits = check_room(path, bytes); !fits) return fits.error();
+    if (fits) fits = check_room(path, bytes);
   }
-  pairs.entries.reserve(pairs.size() * pairs.size());
+  fits = work->ranks.agree(fits);
+  if (!fits) return fits.error();
+  std::string mine;  // the entries of this rank's rows, as bytes
   auto figures = solve_many(
       *work, arguments,
-      [&pairs](std::size_t, std::span<const double> distances) -> Result<void> {
-        for (const Index v : pairs.vertices) pairs.entries.push_back(distances[v]);
+      [&mine](std::size_t, const DistanceResult& answer) -> Result<void> {
+        mine.append(reinterpret_cast<const char*>(answer.distances.data()),
+                    answer.distances.size() * sizeof(double));
         return {};
       },
       "a matrix of " + bytes_in_words(static_cast<double>(sizeof(double) * rows * rows)), progress,
       announce);
   if (!figures) return figures.error();
+  for (const std::string& rows_of_rank : work->ranks.exchange(mine)) {
+    const std::size_t before = pairs.entries.size();
+    pairs.entries.resize(before + rows_of_rank.size() / sizeof(double));
+    if (rows_of_rank.empty()) continue;
+    std::memcpy(pairs.entries.data() + before, rows_of_rank.data(), rows_of_rank.size());
+  }
+  if (!work->ranks.is_first()) return CommandOutput();
   const Asymmetry apart = asymmetry(pairs);
   if (arguments.symmetric) symmetrise(pairs);
 
   const auto unreached = std::ranges::count(pairs.entries, kUnreached);
-  if (unreached > 0) figures->warnings.push_back({unreached_note(*work, unreached)});
+  if (unreached > 0 && arguments.max_distance.empty()) {
+    figures->warnings.push_back({unreached_note(*work, unreached)});
+  }
   CommandOutput out{"", figures->warnings, {}};
   for (const std::string& path : arguments.outputs) {
     const auto written = outputs.write(path, [&]() -> Result<void> {

@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/path_report.h"
 #include "app/session/model.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
@@ -16,116 +18,10 @@
 #include "geotherm/build_method.h"
 #include "geotherm/path.h"
 #include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
-
-/// A path with the points it was asked to go through.
-struct FoundLine {
-  std::vector<SurfacePoint> stops;
-  SurfacePath path;
-};
-
-/// All there is to say about the paths of one command; one at least.
-struct PathFigures {
-  Model model;
-  MethodOptions method;
-  PathOptions options;
-  std::vector<FoundLine> paths;
-  double setup_ms = 0, path_ms = 0;
-  std::vector<Warning> warnings;
-  std::optional<AccuracyReport> error;  ///< of the distances from the start that lead the way
-};
-
-/// The first path's keys, then those of the work; with several paths each is in `paths`. points[i]
-/// has the weights barycentric[i] in faces[i], which also holds the piece up to points[i + 1].
-Json path_json(const PathFigures& figures);
-
-/// What is shown to people.
-std::string path_table(const PathFigures& figures);
-
-namespace {
-
-Json line_json(const TriangleMesh& mesh, const FoundLine& line, PathField field) {
-  Json points = Json::array(), faces = Json::array(), weights = Json::array();
-  for (const Vec3& p : positions_of(mesh, line.path)) points.push_back({p.x(), p.y(), p.z()});
-  for (const SurfacePoint& point : points_in_faces(mesh, line.path)) {
-    faces.push_back(point.face);
-    weights.push_back(point.weights);
-  }
-  Json json = {{"from", point_json(line.stops.front())}, {"to", point_json(line.stops.back())}};
-  if (line.stops.size() > 2) {
-    json["via"] = Json::array();
-    for (std::size_t i = 1; i + 1 < line.stops.size(); ++i) {
-      json["via"].push_back(point_json(line.stops[i]));
-    }
-  }
-  json.update({{"length", line.path.length},
-               {"field", to_text(field)},
-               {"closed", line.path.closed},
-               {"points", std::move(points)},
-               {"faces", std::move(faces)},
-               {"barycentric", std::move(weights)}});
-  return json;
-}
-
-std::string point_in_words(const SurfacePoint& point) {
-  return point.is_vertex() ? "vertex " + std::to_string(point.vertex)
-                           : "a point in face " + std::to_string(point.face);
-}
-
-std::string line_in_words(const FoundLine& line) {
-  std::string text =
-      "from " + point_in_words(line.stops.front()) + " to " + point_in_words(line.stops.back());
-  if (line.stops.size() > 2) {
-    text += " via " + counted(static_cast<std::int64_t>(line.stops.size()) - 2, "point", "points");
-  }
-  return text + (line.path.closed ? " and back" : "");
-}
-
-}  // namespace
-
-Json path_json(const PathFigures& figures) {
-  const TriangleMesh& mesh = *figures.model.mesh;
-  Json json = line_json(mesh, figures.paths.front(), figures.options.field);
-  if (figures.paths.size() > 1) {
-    json["paths"] = Json::array();
-    for (const FoundLine& line : figures.paths) {
-      json["paths"].push_back(line_json(mesh, line, figures.options.field));
-    }
-  }
-  json.update(
-      {{"model",
-        {{"name", figures.model.name},
-         {"vertices", mesh.vertex_count()},
-         {"faces", mesh.face_count()}}},
-       {"method", to_text(figures.method.method)},
-       {"timing_ms",
-        {{"load", figures.model.load_ms}, {"setup", figures.setup_ms}, {"path", figures.path_ms}}},
-       {"warnings", told(figures.warnings)}});
-  if (figures.error) json["error"] = error_json(*figures.error);
-  return json;
-}
-
-std::string path_table(const PathFigures& figures) {
-  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  table.add_row({"model", one_line(figures.model.name) + ": " +
-                              counted(figures.model.mesh->vertex_count(), "vertex", "vertices") +
-                              ", " + counted(figures.model.mesh->face_count(), "face", "faces")});
-  table.add_row({"field", to_text(figures.options.field) + ", led by distances of " +
-                              to_text(figures.method.method)});
-  if (figures.error && figures.error->measured) {
-    table.add_row({"error", "of the distances: " + told(accuracy_line(*figures.error))});
-  }
-  table.add_row({"set-up", milliseconds(figures.setup_ms) + " ms"});
-  table.add_row({"search", milliseconds(figures.path_ms) + " ms"});
-  for (const FoundLine& line : figures.paths) {
-    const auto points = static_cast<std::int64_t>(line.path.points.size());
-    table.add_row({"path", line_in_words(line)});
-    table.add_row(
-        {"length", significant(line.path.length, 7) + ", " + counted(points, "point", "points")});
-  }
-  return table.text();
-}
 
 namespace {
 
@@ -135,7 +31,8 @@ struct PathTask {
   PictureSettings picture;
   MethodOptions method;
   PathOptions options;
-  std::vector<Source> points;  ///< from, via, then each to
+  std::vector<std::vector<Source>> routes;  ///< the points of each path, in order
+  bool tree = false;                        ///< the last source of each may be several vertices
 };
 
 Result<Source> point_of(const std::string& text, const std::string& option) {
@@ -147,22 +44,62 @@ Result<Source> point_of(const std::string& text, const std::string& option) {
                                          "or xyz:x:y:z"};
 }
 
-Result<std::vector<Source>> points_of(const PathArguments& arguments) {
-  std::vector<Source> out;
-  const auto add = [&out](const std::string& text, const std::string& option) -> Result<void> {
+/// The paths from --from by way of --via to each --to, which may name several vertices.
+Result<std::vector<std::vector<Source>>> tree_of(const PathArguments& arguments) {
+  if (arguments.from.empty() || arguments.to.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "a path needs two points; give --from and --to, or --pairs FILE"};
+  }
+  std::vector<Source> shared;
+  const auto add = [&shared](const std::string& text, const std::string& option) -> Result<void> {
     auto point = point_of(text, option);
     if (!point) return point.error();
-    out.push_back(*std::move(point));
+    shared.push_back(*std::move(point));
     return {};
   };
   if (auto added = add(arguments.from, "--from"); !added) return added.error();
   for (const std::string& text : arguments.via) {
     if (auto added = add(text, "--via"); !added) return added.error();
   }
+  std::vector<std::vector<Source>> routes;
   for (const std::string& text : arguments.to) {
-    if (auto added = add(text, "--to"); !added) return added.error();
+    auto spec = parse_source(text);
+    if (!spec) return about("--to", spec.error());
+    routes.push_back(shared);
+    routes.back().push_back({*std::move(spec), "--to " + one_line(text)});
   }
-  return out;
+  return routes;
+}
+
+/// The paths of a file, one a line: two points or more, with blanks between.
+Result<std::vector<std::vector<Source>>> pairs_of(const PathArguments& arguments) {
+  if (!arguments.from.empty() || !arguments.to.empty() || !arguments.via.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--pairs: the file has all points; leave --from, --via and --to out"};
+  }
+  const auto file = io::FileBytes::read(arguments.pairs);
+  if (!file) return about("--pairs", file.error());
+  std::vector<std::vector<Source>> routes;
+  std::istringstream lines{std::string(file->bytes())};
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::vector<Source> points;
+    const std::string where = "--pairs line " + std::to_string(number);
+    for (std::string word; words >> word;) {
+      auto point = point_of(word, where);
+      if (!point) return point.error();
+      points.push_back(*std::move(point));
+    }
+    if (points.size() == 1) {
+      return Error{ErrorCode::kBadInput,
+                   where + " has one point; a path is two or more, with blanks between"};
+    }
+    if (!points.empty()) routes.push_back(std::move(points));
+  }
+  if (!routes.empty()) return routes;
+  return Error{ErrorCode::kBadInput, "--pairs: " + one_line(arguments.pairs) +
+                                         " has no points; write two or more a line"};
 }
 
 Result<PathTask> task_of(const PathArguments& arguments) {
@@ -182,7 +119,7 @@ Result<PathTask> task_of(const PathArguments& arguments) {
                                            to_text(task.method.method) +
                                            " has not; use --method heat"};
   }
-  if (arguments.closed && arguments.to.size() != 1) {
+  if (arguments.closed && arguments.pairs.empty() && arguments.to.size() != 1) {
     return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
                                            std::to_string(arguments.to.size()) +
                                            " were given; name the points between with --via"};
@@ -192,22 +129,43 @@ Result<PathTask> task_of(const PathArguments& arguments) {
                  "--hold: only a closed geodesic can leave its points; add --closed, or leave "
                  "--hold out"};
   }
-  auto points = points_of(arguments);
-  if (!points) return points.error();
-  task.points = *std::move(points);
+  task.tree = arguments.pairs.empty();
+  auto routes = task.tree ? tree_of(arguments) : pairs_of(arguments);
+  if (!routes) return routes.error();
+  task.routes = *std::move(routes);
   return task;
 }
 
-Result<std::vector<SurfacePoint>> place(const std::vector<Source>& points, const TriangleMesh& mesh,
-                                        std::vector<Warning>& warnings) {
-  std::vector<SurfacePoint> out;
-  for (const Source& point : points) {
-    const auto placed = resolve_sources({&point, 1}, mesh);
+/// A path to be found.
+struct Route {
+  std::vector<SurfacePoint> stops;
+  std::string where;  ///< its end, for messages
+};
+
+/// Adds the route to each vertex of the last source, or to its one point.
+Result<void> add_routes(const std::vector<Source>& points, bool tree, const TriangleMesh& mesh,
+                        std::vector<Route>& routes, std::vector<Warning>& warnings) {
+  std::vector<SurfacePoint> shared;
+  const auto note = [&warnings](const std::vector<Warning>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const auto placed = resolve_sources({&points[i], 1}, mesh);
     if (!placed) return placed.error();
-    out.push_back(placed->set.points.front());
-    warnings.insert(warnings.end(), placed->warnings.begin(), placed->warnings.end());
+    shared.push_back(placed->set.points.front());
+    note(placed->warnings);
   }
-  return out;
+  const auto ends = resolve_each({&points.back(), 1}, mesh);
+  if (!ends) return ends.error();
+  note(ends->warnings);
+  for (const SourceSet& end : ends->sets) {
+    if (end.points.size() != 1 || (!tree && ends->sets.size() != 1)) {
+      return Error{ErrorCode::kBadInput, points.back().where + " is no point; a path ends in one"};
+    }
+    routes.push_back({shared, points.back().where});
+    routes.back().stops.push_back(end.points.front());
+  }
+  return {};
 }
 
 /// Holds the distances from the start, which lead the way, against better ones. Errors: kCancelled.
@@ -226,11 +184,19 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
   return {};
 }
 
-/// One path for each target: they share the start and the way-points.
-Result<void> find_paths(const PathTask& task, std::size_t targets, Check check,
-                        const Progress& progress, PathFigures& figures) {
-  auto points = place(task.points, *figures.model.mesh, figures.warnings);
-  if (!points) return points.error();
+/// Paths that begin in one point follow each other, so that its distances are computed once.
+Result<void> find_paths(const PathTask& task, Check check, const Progress& progress,
+                        PathFigures& figures) {
+  std::vector<Route> routes;
+  for (const std::vector<Source>& points : task.routes) {
+    auto added = add_routes(points, task.tree, *figures.model.mesh, routes, figures.warnings);
+    if (!added) return added;
+  }
+  if (task.options.closed && task.tree && routes.size() != 1) {
+    return Error{ErrorCode::kBadInput, "--closed: a loop has one --to, and " +
+                                           std::to_string(routes.size()) +
+                                           " were given; name the points between with --via"};
+  }
   Stopwatch watch;
   ModelSolver solver(figures.model);
   const auto ready = solver.prepare(task.method, part_of(progress, 0, 0.5));
@@ -240,24 +206,21 @@ Result<void> find_paths(const PathTask& task, std::size_t targets, Check check,
   const PathFinder finder(figures.model.mesh, ready->method);
   figures.setup_ms = watch.milliseconds();
   const Stopwatch finding;
-  const std::size_t shared = points->size() - targets;
-  for (std::size_t i = 0; i < targets; ++i) {
-    std::vector<SurfacePoint> stops(points->begin(),
-                                    points->begin() + static_cast<std::ptrdiff_t>(shared));
-    stops.push_back((*points)[shared + i]);
-    const double begin = static_cast<double>(i) / static_cast<double>(targets);
-    const double end = static_cast<double>(i + 1) / static_cast<double>(targets);
-    auto found =
-        finder.find(stops, task.options, part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
+  const auto count = static_cast<double>(routes.size());
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    const double begin = static_cast<double>(i) / count, end = static_cast<double>(i + 1) / count;
+    auto found = finder.find(routes[i].stops, task.options,
+                             part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
     if (!found) {
       // The points are on the mesh: that no way leads there is a failure of the work.
-      return about_model(figures.model.name, about(task.points[shared + i].where, found.error()));
+      return about_model(figures.model.name, about(routes[i].where, found.error()));
     }
     figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
-    figures.paths.push_back({std::move(stops), std::move(found->path)});
+    figures.paths.push_back({std::move(routes[i].stops), std::move(found->path)});
   }
   figures.path_ms = finding.milliseconds();
-  return check_way(points->front(), *ready, solver, check, progress, figures);
+  const SurfacePoint start = figures.paths.front().stops.front();
+  return check_way(start, *ready, solver, check, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
@@ -293,12 +256,17 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
       .add_option("--from", arguments.from,
                   "where it begins: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z (the closest point "
                   "of the surface)")
-      ->required()
       ->type_name("POINT")
       ->group("Points");
-  add_points("--to", arguments.to, "where it ends; may be repeated, for a path to each")
-      ->required();
+  add_points("--to", arguments.to,
+             "where it ends; may be repeated, and be several vertices (3,99 or random:20), for a "
+             "path to each");
   add_points("--via", arguments.via, "a point on the way; may be repeated, in order");
+  command
+      .add_option("--pairs", arguments.pairs,
+                  "many paths: the points of each on a line, two or more with blanks between")
+      ->type_name("FILE")
+      ->group("Points");
   command
       .add_flag("--closed", arguments.closed,
                 "goes on from the end to the start; a geodesic loop then leaves its points and is "
@@ -312,6 +280,11 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
                   "distance (-grad phi), heat (X of the heat method)")
       ->type_name("NAME");
   add_line_file_options(command, arguments.files, arguments.settings, "the path");
+  command
+      .add_option("--lengths", arguments.lengths,
+                  "where a table of the lengths goes, as CSV: from, to, points between, length; - "
+                  "is standard output")
+      ->type_name("FILE");
   add_no_check_option(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
@@ -321,6 +294,8 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
       "Examples:\n"
       "  geotherm path bunny --from 0 --to 1200 -o path.obj --json -\n"
       "  geotherm path model.obj --from 17 --to xyz:0:1:0 --to face:12:0.2:0.3:0.5 -o paths.csv\n"
+      "  geotherm path bunny --from 17 --to random:20 --lengths lengths.csv\n"
+      "  geotherm path bunny --pairs pairs.txt -o paths.obj\n"
       "  geotherm path sleeve --from 0 --via 900 --to 1800 --closed -o loop.svg");
 }
 
@@ -333,13 +308,15 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_line_files(arguments.files, outputs);
   if (!expected) return expected.error();
+  if (!arguments.lengths.empty()) {
+    if (auto table = outputs.expect(arguments.lengths, "--lengths"); !table) return table.error();
+  }
   auto model = load_model(arguments.model, task->reading, progress);
   if (!model) return model.error();
   if (auto surface = refuse_space(*model, "paths are"); !surface) return surface.error();
   PathFigures figures{*std::move(model), task->method, task->options, {}, 0, 0, {}, {}};
   figures.warnings = figures.model.notes;
-  if (auto found = find_paths(*task, arguments.to.size(), check->against, progress, figures);
-      !found) {
+  if (auto found = find_paths(*task, check->against, progress, figures); !found) {
     return found.error();
   }
   note_unused_settings(arguments.settings, task->method, figures.warnings);
@@ -352,6 +329,10 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
     const auto json =
         outputs.write_text(arguments.files.json, report_text(path_json(figures)), out.text);
     if (!json) return json.error();
+  }
+  if (!arguments.lengths.empty()) {
+    const auto table = outputs.write_text(arguments.lengths, lengths_csv(figures), out.text);
+    if (!table) return table.error();
   }
   if (!outputs.uses_stdout()) out.text = path_table(figures);
   out.made = outputs.made();

@@ -65,7 +65,9 @@ Result<void> expect_outputs(const RenderArguments& arguments, const PictureSetti
 
 Result<std::vector<Source>> sources_for(const RenderArguments& arguments, View view) {
   auto sources = sources_of(arguments.sources);
-  if (!sources || !sources->empty() || !needs_sources(view)) return sources;
+  if (!sources || !sources->empty() || !needs_sources(view) || !arguments.field.empty()) {
+    return sources;
+  }
   return Error{ErrorCode::kBadInput,
                "no source was given, which --view " + geotherm::to_text(view) +
                    " needs; say where distance is 0, such as -s 17 or -s boundary, or choose "
@@ -121,8 +123,14 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option("--field", arguments.field,
+                  "draws these values of vertices, an array with one axis in .npy, in place of "
+                  "distances; no sources are needed")
+      ->type_name("FILE");
   command.add_option("--fps", arguments.fps, "pictures a second of a film, 1 to 120, default 25")
       ->type_name("N");
+  add_max_distance_option(command, arguments.max_distance);
   add_check_options(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.settings, arguments.picture);
@@ -137,6 +145,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render bunny --view wireframe --size 1920x1080 -o bunny.png\n"
       "  geotherm render sleeve bunny -s 17 --title Shapes -o two.png\n"
       "  geotherm render bunny -s 17 --turntable 72 -o turn.mp4\n"
+      "  geotherm render bunny --field values.npy --bar-label curvature -o field.png\n"
       "  geotherm render bunny -s 0 -o bunny.html\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");
@@ -191,6 +200,9 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
   if (!sources) return sources.error();
   const auto targets = targets_of(arguments.targets);
   if (!targets) return targets.error();
+  if (auto fits = check_field(arguments, settings->view, !sources->empty()); !fits) {
+    return fits.error();
+  }
   if (!targets->empty() && sources->empty()) {
     return Error{ErrorCode::kBadInput,
                  "--path: no source was given, so that no path leads there; add -s"};

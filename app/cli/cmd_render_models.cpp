@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/cli/render_work.h"
+#include "app/cli/scene_output.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_text.h"
 #include "app/session/outputs.h"
@@ -80,9 +81,9 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
                                         const RenderPlaces& places, DrawingDevice device,
                                         Drawing& drawing, Outputs& outputs,
                                         const Progress& progress) {
-  if (figure_format(arguments.output)) {
+  if (figure_format(arguments.output) || scene_format(arguments.output)) {
     return Error{ErrorCode::kBadInput, "--output: " + one_line(arguments.output) +
-                                           ": a figure shows one model; give -o FILE.png"};
+                                           " shows one model; for several give -o FILE.png"};
   }
   const auto columns = columns_of(arguments, asked.settings);
   if (!columns) return columns.error();

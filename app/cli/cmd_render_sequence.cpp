@@ -34,6 +34,9 @@ Result<void> refuse_other_pictures(const RenderArguments& arguments, const Asked
   if (asked.settings.turntable > 0) {
     return refuse("--turntable", "whose pictures are those of the frames; leave one of them out");
   }
+  if (!arguments.max_distance.empty()) {
+    return refuse("--max-distance", "whose scale is that of all frames; leave one of them out");
+  }
   if (!arguments.targets.empty()) {
     return refuse("--path", "which draws distances alone; leave one of them out");
   }

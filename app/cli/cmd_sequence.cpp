@@ -30,6 +30,8 @@ Result<void> refuse_other_answers(const SolveArguments& arguments) {
   if (arguments.symmetric) return refuse("--symmetric", "is about --pairs");
   if (!arguments.fields.empty()) return refuse("--fields", "is about one surface");
   if (arguments.labels) return refuse("--labels", "is about one surface");
+  if (!arguments.max_distance.empty()) return refuse("--max-distance", "is about one surface");
+  if (!arguments.targets.empty()) return refuse("--target", "is about one surface");
   if (!arguments.bake.empty()) return refuse("--bake-colours", "is about one surface");
   return {};
 }

@@ -7,12 +7,17 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/film.h"
+#include "app/cli/many_work.h"
+#include "app/cli/render_work.h"
+#include "app/cli/scene_output.h"
 #include "app/cli/sequence_work.h"
 #include "app/cli/solve_fields.h"
 #include "app/session/answer.h"
 #include "app/session/model_solver.h"
 #include "app/session/outputs.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -21,14 +26,28 @@
 #include "geotherm/io.h"
 #include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
+#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 
 namespace {
 
+/// Files that `render` alone writes.
+bool is_of_render(const std::string& path) {
+  return io::file_extension(path) == ".png" || figure_format(path) || is_film(path) ||
+         scene_format(path);
+}
+
 Result<void> expect_outputs(const SolveArguments& arguments, Outputs& outputs) {
   protect_inputs(arguments.model, arguments.sources, outputs);
   for (const std::string& path : arguments.outputs) {
+    if (is_of_render(path)) {
+      return Error{ErrorCode::kNotAvailable,
+                   "--output: " + one_line(path) +
+                       ": solve writes distances as numbers; geotherm render draws them, with "
+                       "the same model, sources and -o " +
+                       one_line(path)};
+    }
     // What a space writes beside is known when the model is.
     const bool known_of_space = check_tet_distances_path(path) || check_grid_distances_path(path);
     if (auto known = check_distance_path(path); !known && !known_of_space) return known;
@@ -66,17 +85,44 @@ bool has_several_sources(const Answer& figures) { return source_groups(figures.s
 
 }  // namespace
 
+void add_many_options(CLI::App& command, SolveArguments& arguments) {
+  command
+      .add_flag(
+          "--each", arguments.each,
+          "solves for each source point by itself: one row of distances a point, in the order "
+          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
+          "curve and the boundary are one row each; -o FILE.npz holds what is reached alone, as "
+          "sparse rows for SciPy")
+      ->group("Many sources");
+  command
+      .add_flag("--pairs", arguments.pairs,
+                "distances between each two of the source vertices alone: a square matrix, from "
+                "the row's vertex to the column's")
+      ->group("Many sources");
+  command
+      .add_flag("--symmetric", arguments.symmetric,
+                "with --pairs: both directions become their mean; otherwise they differ by the "
+                "error of the method, which the report says")
+      ->group("Many sources");
+  command
+      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
+      ->type_name("TYPE")
+      ->group("Many sources");
+  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
+      ->group("Many sources");
+}
+
 void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   add_source_options(command, arguments.sources);
   command
-      .add_option(
-          "-o,--output", arguments.outputs,
-          "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
-          "or - for CSV on "
-          "standard output; "
-          "may be repeated; with --each .npy, with --pairs .npy and .csv, with --sequence .npy "
-          "and .pvd")
+      .add_option("-o,--output", arguments.outputs,
+                  "where the distances go: .csv .npy .ply .vtp, of a volume .vtu, of a grid .vti, "
+                  "or - for CSV on "
+                  "standard output; "
+                  "may be repeated; with --each .npy and .npz, with --pairs .npy and .csv, with "
+                  "--sequence .npy "
+                  "and .pvd")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -105,29 +151,17 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
   command.add_flag("--labels", arguments.labels,
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
+  add_max_distance_option(command, arguments.max_distance);
   command
-      .add_flag(
-          "--each", arguments.each,
-          "solves for each source point by itself: one row of distances a point, in the order "
-          "of the sources, into -o FILE.npy (sources x vertices), written as rows come; a "
-          "curve and the boundary are one row each")
-      ->group("Many sources");
-  command
-      .add_flag("--pairs", arguments.pairs,
-                "distances between each two of the source vertices alone: a square matrix, from "
-                "the row's vertex to the column's")
-      ->group("Many sources");
-  command
-      .add_flag("--symmetric", arguments.symmetric,
-                "with --pairs: both directions become their mean; otherwise they differ by the "
-                "error of the method, which the report says")
-      ->group("Many sources");
-  command
-      .add_option("--dtype", arguments.dtype, "numbers of .npy arrays: float64 (default), float32")
-      ->type_name("TYPE")
-      ->group("Many sources");
-  command.add_flag("--float32", arguments.float32, "the same as --dtype float32")
-      ->group("Many sources");
+      .add_option("--target", arguments.targets,
+                  "asks for the distances of these vertices alone, given as sources are; may be "
+                  "repeated; the methods but heat end when they have them")
+      ->type_name("VERTICES")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Reach");
+  add_many_options(command, arguments);
   add_sequence_options(command, arguments.sequence);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
@@ -139,6 +173,9 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve bunny -s 0 --fields all -o bunny.vtp\n"
       "  geotherm solve bunny -s 0@0.5 -s 1200 --method wavefront --labels -o regions.csv\n"
       "  geotherm solve bunny -s random:500 --each --float32 -o rows.npy\n"
+      "  geotherm solve bunny -s random:500 --each --method wavefront --max-distance 0.2 -o "
+      "near.npz\n"
+      "  geotherm solve bunny -s 17 --target 3,99 --method exact -o -\n"
       "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv\n"
       "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy");
 }
@@ -173,6 +210,35 @@ Result<CheckSettings> settings_of(const SolveArguments& arguments, const MethodO
 
 }  // namespace
 
+namespace {
+
+Error refuse_fields_of_targets() {
+  return {ErrorCode::kBadInput,
+          "--fields are of all vertices, and --target asks for some; write a .ply or .vtp, or "
+          "leave one of them out"};
+}
+
+/// The rows of the targets alone, as .npy or .csv.
+std::string target_bytes(const std::string& path, const std::vector<Index>& targets,
+                         const std::vector<double>& distances, const std::vector<Index>& nearest) {
+  std::vector<double> at;
+  std::vector<Index> labels;
+  for (const Index v : targets) {
+    at.push_back(distances[static_cast<std::size_t>(v)]);
+    if (!nearest.empty()) labels.push_back(nearest[static_cast<std::size_t>(v)]);
+  }
+  if (io::file_extension(path) == ".npy") return io::npy_bytes(at, labels);
+  std::string text = nearest.empty() ? "vertex,distance\n" : "vertex,distance,nearest_source\n";
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    text += std::to_string(targets[i]) + ',' + number_text(at[i]);
+    if (!labels.empty()) text += ',' + std::to_string(labels[i]);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress, const Announce& announce) {
   if (arguments.each && arguments.pairs) {
@@ -182,6 +248,11 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   }
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
+  }
+  if (!arguments.each && !arguments.pairs) {
+    if (auto alone = refuse_ranks("geotherm solve on one source set"); !alone) {
+      return alone.error();
+    }
   }
   if (!arguments.sequence.frames.empty()) return run_sequence(arguments, progress, announce);
   if (arguments.each) return run_each(arguments, progress, announce);
@@ -206,7 +277,10 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   }
   const auto sources = resolve_sources(*named, *model);
   if (!sources) return sources.error();
+  auto reach = reach_of(arguments, *model);
+  if (!reach) return reach.error();
   QueryOptions query;
+  query.reach = *std::move(reach);
   query.nearest = arguments.labels || needs_nearest(arguments.outputs);
   query.fields = wanted->has_heat();
   ModelSolver solver(*std::move(model));
@@ -239,6 +313,14 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
       }
       std::vector<DataField> held = fields_of_file(path, *fields, out.warnings);
       if (is_ply(path)) held.insert(held.end(), colours->begin(), colours->end());
+      const std::vector<Index>& targets = figures->reach.targets;
+      if (!targets.empty() && !holds_mesh(path)) {
+        if (!held.empty()) return refuse_fields_of_targets();
+        std::string bytes = target_bytes(path, targets, distances, nearest);
+        if (path != "-") return write_file(path, bytes);
+        out.text = std::move(bytes);
+        return {};
+      }
       if (path != "-") return write_answer(path, figures->model, distances, nearest, held);
       out.text = io::csv_bytes(distances, nearest, held);
       return {};

@@ -15,6 +15,7 @@
 #include "app/cli/commands.h"
 #include "app/session/model.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -23,7 +24,12 @@
 namespace geotherm::app {
 namespace {
 
+/// Of several processes that work together the first one speaks.
+bool is_first_rank() { return launched_as().rank == 0; }
+
 int fail(int code, const std::string& message) {
+  // Before MPI is there, the launcher would end the first one for this before it has spoken.
+  if (!is_first_rank()) return mpi_is_started() ? code : 0;
   std::fprintf(stderr, "geotherm: error: %s\n", one_line(message).c_str());
   return code;
 }
@@ -31,6 +37,7 @@ int fail(int code, const std::string& message) {
 int fail(const Error& error) { return fail(exit_code(error.code), told(error)); }
 
 int print(const CommandOutput& output) {
+  if (!is_first_rank()) return 0;
   for (const Warning& warning : output.warnings) {
     std::fprintf(stderr, "geotherm: warning: %s\n", one_line(told(warning)).c_str());
   }
@@ -55,7 +62,7 @@ int finish(const Result<CommandOutput>& result) {
 
 template <class Arguments, class Run>
 int run_with_bar(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal());
+  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
   const Result<CommandOutput> result = run(arguments, bar.progress());
   bar.clear();
   return finish(result);
@@ -64,9 +71,9 @@ int run_with_bar(const Arguments& arguments, Run&& run) {
 /// The same for a command that says more than its bar shows.
 template <class Arguments, class Run>
 int run_with_words(const Arguments& arguments, Run&& run) {
-  ProgressBar bar(!arguments.quiet && error_is_terminal());
-  const Result<CommandOutput> result =
-      run(arguments, bar.progress(), arguments.quiet ? Announce() : bar.announce());
+  ProgressBar bar(!arguments.quiet && error_is_terminal() && is_first_rank());
+  const Result<CommandOutput> result = run(
+      arguments, bar.progress(), arguments.quiet || !is_first_rank() ? Announce() : bar.announce());
   bar.clear();
   return finish(result);
 }
@@ -118,15 +125,24 @@ std::string unknown_option(const CLI::App& command, const std::vector<std::strin
   return {};
 }
 
+/// What CLI11 says, in the words of people where those are others.
+std::string in_words(const CLI::ParseError& error) {
+  std::string what = error.what();
+  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  constexpr std::string_view kExtra = "The following argument was not expected: ";
+  if (what.starts_with(kExtra)) return "there is no place for " + what.substr(kExtra.size());
+  const std::size_t many = what.find(": At Most 1 required but received");
+  return many == what.npos ? what : what.substr(0, many) + " was given more than once";
+}
+
 /// CLI11 describes what is wrong; what helps is the option that was meant, or the command's help.
 int fail_to_parse(const CLI::ParseError& error, const CLI::App& command,
                   const std::vector<std::string>& words) {
   std::vector<std::string> known;
   const std::string unknown = unknown_option(command, words, known);
   const std::string near = nearest_word(unknown, known);
-  std::string what = unknown.empty() ? error.what() : "there is no option " + unknown;
-  while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
-  std::replace(what.begin(), what.end(), '\n', ' ');
+  const std::string what = unknown.empty() ? in_words(error) : "there is no option " + unknown;
   const std::string name = command.get_parent() == nullptr ? "" : command.get_name() + " ";
   return fail(2, what + "; " + (near.empty() ? "" : "did you mean " + near + "? ") +
                      "see geotherm " + name + "--help");
@@ -142,10 +158,16 @@ std::string help_of(const CLI::App& app) {
 struct AllArguments {
   ViewArguments view;
   SolveArguments solve;
+  BatchArguments batch;
+  PlanArguments plan;
   InfoArguments info;
   CompareArguments compare;
   RenderArguments render;
   PathArguments path;
+  LogMapArguments log_map;
+  TraceArguments trace;
+  SpreadArguments transport, extend;
+  SignedArguments signed_;
   IsolinesArguments isolines;
   SampleArguments sample;
   StudyArguments study;
@@ -187,6 +209,10 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_view_options, a.view), with_bar(a.view, view)},
       {"solve", "Distance from a source set to every vertex.", options(add_solve_options, a.solve),
        with_words(a.solve, solve)},
+      {"batch", "Distances on many models, each in a process of its own; goes on where it ended.",
+       options(add_batch_options, a.batch), with_bar(a.batch, run_batch)},
+      {"plan", "Memory and time of a large solve, before it is started.",
+       options(add_plan_options, a.plan), [&a] { return finish(run_plan(a.plan)); }},
       {"info", "What a model is, and what is wrong with it.", options(add_info_options, a.info),
        with_bar(a.info, run_info)},
       {"compare", "The same work through several backends, side by side.",
@@ -195,6 +221,16 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_render_options, a.render), with_bar(a.render, render)},
       {"path", "Geodesic paths and streamlines.", options(add_path_options, a.path),
        with_bar(a.path, run_path)},
+      {"logmap", "Where each vertex is seen from a point: start direction and distance.",
+       options(add_log_map_options, a.log_map), with_bar(a.log_map, run_log_map)},
+      {"trace", "Straightest lines from a point in given directions.",
+       options(add_trace_options, a.trace), with_bar(a.trace, run_trace)},
+      {"transport", "Tangent vectors carried over the surface without turning.",
+       options(add_transport_options, a.transport), with_bar(a.transport, run_transport)},
+      {"extend", "Values of some vertices carried to all.", options(add_extend_options, a.extend),
+       with_bar(a.extend, run_extend)},
+      {"signed", "Distance to curves, with the side.", options(add_signed_options, a.signed_),
+       with_bar(a.signed_, run_signed)},
       {"isolines", "Lines of equal distance, closed or open.",
        options(add_isolines_options, a.isolines), with_bar(a.isolines, run_isolines)},
       {"sample", "Farthest-point samples, and the nearest of them to every vertex.",
@@ -283,7 +319,13 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
     }
   }
   for (const Subcommand& each : commands) {
-    if (root.got_subcommand(each.name)) return each.run();
+    if (!root.got_subcommand(each.name)) continue;
+    if (each.name != "solve" && each.name != "batch") {
+      if (auto alone = refuse_ranks("geotherm " + each.name); !alone) return fail(alone.error());
+    }
+    const int code = each.run();
+    finish_mpi();
+    return code;
   }
   return print({root.help(), {}, {}});
 }

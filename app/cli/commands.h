@@ -90,19 +90,23 @@ struct SolveArguments {
   std::vector<std::string> outputs;
   std::string json;
   CheckArguments check;
-  std::string fields;      ///< quality fields beside the distances, empty: none
-  std::string bake;        ///< the colour map that .ply files have colours of; empty: none
-  bool labels = false;     ///< nearest sources in .csv and .npy, too
-  bool each = false;       ///< a row of distances for each source
-  bool pairs = false;      ///< distances between the sources alone
-  bool symmetric = false;  ///< of pairs: the mean of both directions
-  std::string dtype;       ///< of .npy rows; empty: float64
-  bool float32 = false;    ///< the same as --dtype float32
+  std::string fields;        ///< quality fields beside the distances, empty: none
+  std::string bake;          ///< the colour map that .ply files have colours of; empty: none
+  bool labels = false;       ///< nearest sources in .csv and .npy, too
+  bool each = false;         ///< a row of distances for each source
+  bool pairs = false;        ///< distances between the sources alone
+  bool symmetric = false;    ///< of pairs: the mean of both directions
+  std::string max_distance;  ///< beyond it nothing is asked; empty: all is
+  std::vector<std::string> targets;  ///< vertices, as sources are typed; none: all
+  std::string dtype;                 ///< of .npy rows; empty: float64
+  bool float32 = false;              ///< the same as --dtype float32
   SequenceArguments sequence;
   bool quiet = false;
 };
 
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
+/// --each, --pairs and what goes with them.
+void add_many_options(CLI::App& command, SolveArguments& arguments);
 /// `announce`: for what --each, --pairs and --sequence say before their work.
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress = {}, const Announce& announce = {});
@@ -119,6 +123,31 @@ Result<CommandOutput> run_pairs(const SolveArguments& arguments, const Progress&
 /// and the .pvd file that lists them.
 Result<CommandOutput> run_sequence(const SolveArguments& arguments, const Progress& progress,
                                    const Announce& announce);
+
+struct BatchArguments {
+  std::vector<std::string> models;
+  SolveArguments solve;             ///< what each of them is solved with
+  std::vector<std::string> passed;  ///< the same as words
+  std::string folder, format, jobs, json;
+  bool quiet = false;
+};
+
+void add_batch_options(CLI::App& command, BatchArguments& arguments);
+
+/// `batch`: a solve of each model, in processes of their own, shared out over ranks. Errors: those
+/// of the options and of the folder; a model that cannot be solved is a line of the manifest, and
+/// CommandOutput::failure.
+Result<CommandOutput> run_batch(const BatchArguments& arguments, const Progress& progress = {});
+
+struct PlanArguments {
+  std::string vertices, sources, ranks, json;
+};
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments);
+
+/// Memory and time of a solve over ranks, by figures that were measured. Errors: those of the
+/// options, kBadInput (more vertices than a process can hold).
+Result<CommandOutput> run_plan(const PlanArguments& arguments);
 
 /// Distances between K vertices, row by row: entry (i, j) is the distance at vertex j from a source
 /// at vertex i. On a polyhedral surface it would be that of (j, i); by the heat method it is so but
@@ -189,6 +218,8 @@ struct PathArguments {
   SettingArguments settings;
   std::string from;
   std::vector<std::string> to, via;
+  std::string pairs;    ///< a file with the points of many paths, in place of those
+  std::string lengths;  ///< where a table of the lengths goes
   std::string field = "geodesic";
   bool closed = false, hold = false;
   LineFileArguments files;
@@ -198,6 +229,63 @@ struct PathArguments {
 
 void add_path_options(CLI::App& command, PathArguments& arguments);
 Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& progress = {});
+
+struct LogMapArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string source;
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_log_map_options(CLI::App& command, LogMapArguments& arguments);
+Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progress& progress = {});
+
+struct TraceArguments {
+  std::string model;
+  SettingArguments settings;
+  std::string from;
+  std::vector<std::string> directions;  ///< radians
+  std::string fan;                      ///< so many more, evenly spread; empty: none
+  std::string length;
+  LineFileArguments files;
+  bool quiet = false;
+};
+
+void add_trace_options(CLI::App& command, TraceArguments& arguments);
+Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress& progress = {});
+
+/// Of `transport` and `extend`.
+struct SpreadArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> given;  ///< V:X:Y of vectors, V:X of values
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_transport_options(CLI::App& command, SpreadArguments& arguments);
+Result<CommandOutput> run_transport(const SpreadArguments& arguments,
+                                    const Progress& progress = {});
+
+void add_extend_options(CLI::App& command, SpreadArguments& arguments);
+Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progress& progress = {});
+
+struct SignedArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> through;
+  bool closed = false;
+  std::string curves, rule;  ///< empty: no file; auto
+  std::vector<std::string> outputs;
+  std::string json;
+  bool quiet = false;
+};
+
+void add_signed_options(CLI::App& command, SignedArguments& arguments);
+Result<CommandOutput> run_signed(const SignedArguments& arguments, const Progress& progress = {});
 
 struct IsolinesArguments {
   std::string model;
@@ -220,8 +308,10 @@ struct RenderArguments {
   PictureArguments picture;
   CheckArguments check;
   SequenceArguments sequence;
+  std::string max_distance;              ///< beyond it nothing is asked; empty: all is
   std::vector<std::string> targets;      ///< paths lead there from the sources
   std::vector<std::string> more_models;  ///< beside `model`
+  std::string field;                     ///< a file of values of vertices; empty: distances
   std::string columns;                   ///< of several models; empty: as many as suit
   std::string fps;                       ///< of a film; empty: 25
   std::string output;

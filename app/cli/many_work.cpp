@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "app/session/answer.h"
@@ -15,7 +17,6 @@
 #include "solver/core/memory.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
-#include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -35,6 +36,28 @@ void RowSums::add(std::span<const double> row) {
     most = std::max(most, d);
     mean += (d - mean) / ++reached;  // a sum could leave the range of doubles
   }
+}
+
+void RowSums::add(const RowSums& more) {
+  least = std::min(least, more.least);
+  most = std::max(most, more.most);
+  const double both = reached + more.reached;
+  if (both > 0) mean += (more.mean - mean) * (more.reached / both);
+  reached = both;
+  unreached += more.unreached;
+}
+
+RowSums sums_of_all(const RowSums& mine, const Ranks& ranks) {
+  static_assert(std::is_trivially_copyable_v<RowSums>);
+  std::string bytes(sizeof mine, '\0');
+  std::memcpy(bytes.data(), &mine, sizeof mine);
+  RowSums all;
+  for (const std::string& each : ranks.exchange(bytes)) {
+    RowSums sums;
+    std::memcpy(&sums, each.data(), sizeof sums);
+    all.add(sums);
+  }
+  return all;
 }
 
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more) {
@@ -69,7 +92,42 @@ Result<void> refuse_single_options(const SolveArguments& arguments, const std::s
   return {};
 }
 
-Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress) {
+Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option) {
+  std::vector<Index> vertices;
+  for (const SourceSet& set : each.sets) {
+    const bool is_vertex = set.edges.empty() && set.cell_points.empty() && set.points.size() == 1 &&
+                           set.points.front().is_vertex();
+    if (!is_vertex || !set.offsets.empty()) {
+      return Error{ErrorCode::kBadInput, option + " " + std::to_string(vertices.size() + 1) +
+                                             (is_vertex ? " has an offset" : " is no vertex") +
+                                             "; distances are between vertices, such as 3,99,512 "
+                                             "or random:20"};
+    }
+    vertices.push_back(set.points.front().vertex);
+  }
+  return vertices;
+}
+
+Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
+  Reach reach;
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
+  reach.max_distance = *most;
+  if (arguments.targets.empty()) return reach;
+  const auto named = sources_of({arguments.targets, {}, false});
+  if (!named) return about("--target", named.error());
+  const auto each = resolve_each(*named, model);
+  if (!each) return about("--target", each.error());
+  auto vertices = vertices_of_each(*each, "--target: number");
+  if (!vertices) return vertices.error();
+  reach.targets = *std::move(vertices);
+  return reach;
+}
+
+namespace {
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Ranks& ranks,
+                               const Progress& progress) {
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
   const MethodOptions& options = asked->options;
@@ -82,12 +140,41 @@ Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& 
   if (auto pin = check_pin(options.constraint, *model); !pin) return pin.error();
   auto sources = resolve_each(*named, *model);
   if (!sources) return sources.error();
+  auto reach = reach_of(arguments, *model);
+  if (!reach) return reach.error();
+  // Blocks of sixteen are solved as one, and shared out whole.
+  constexpr std::size_t kBlock = 16;
+  const std::size_t rows = sources->sets.size(), blocks = (rows + kBlock - 1) / kBlock;
+  const auto begin_of = [&](int rank) {
+    return std::min(rows, blocks * static_cast<std::size_t>(rank) /
+                              static_cast<std::size_t>(ranks.count()) * kBlock);
+  };
+  const std::size_t first = begin_of(ranks.rank()), count = begin_of(ranks.rank() + 1) - first;
   const std::size_t chunk =
       std::min(good_chunk(model->mesh->vertex_count(), options.threads, free_memory()),
-               sources->sets.size());
+               std::max<std::size_t>(count, 1));
   MeshReport mesh = inspect_mesh(*model->mesh);
   describe_space(*model, mesh);
-  return ManySources{*std::move(model), mesh, options, *std::move(sources), *check, chunk};
+  return ManySources{*std::move(model),
+                     mesh,
+                     options,
+                     *std::move(sources),
+                     *std::move(reach),
+                     *check,
+                     chunk,
+                     ranks,
+                     first,
+                     count};
+}
+
+}  // namespace
+
+Result<ManySources> begin_many(const SolveArguments& arguments, const Result<void>& before,
+                               const Progress& progress) {
+  const auto ranks = Ranks::join();
+  if (!ranks) return ranks.error();
+  if (const auto all = ranks->agree(before); !all) return all.error();
+  return ranks->agree_on(begin_many(arguments, *ranks, progress));
 }
 
 Result<void> check_room(const std::string& path, double bytes) {
@@ -99,9 +186,11 @@ Result<void> check_room(const std::string& path, double bytes) {
                    " are free there; take fewer rows, --dtype float32 or another place"};
 }
 
-Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
-                               const TakeRow& take, const std::string& output,
-                               const Progress& progress, const Announce& announce) {
+namespace {
+
+Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& arguments,
+                                const TakeRow& take, const std::string& output,
+                                const Progress& progress, const Announce& announce) {
   constexpr double kMethodShare = kSetupShare / 2;  // the other half is the check's
   ModelSolver solver(work.model);
   auto ready = solver.prepare(work.options, part_of(progress, 0.0, kMethodShare));
@@ -123,19 +212,20 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   add_warnings(figures.warnings, figures.method->warnings());
   add_warnings(figures.warnings, work.sources.warnings);
 
-  const std::size_t rows = work.sources.sets.size();
   StreamOptions stream;
   stream.chunk = work.chunk;
+  stream.query.reach = work.reach;
   std::vector<Warning> of_answers;
   std::optional<Error> not_taken;
   const auto sink = [&](std::size_t row, DistanceResult&& answer) -> Result<void> {
-    auto taken = take(row, answer.distances);
+    auto taken = take(work.first + row, answer);
     if (!taken) {
       not_taken = taken.error();
       return taken;
     }
     add_warnings(of_answers, answer.warnings);
     answer.distances = {};
+    answer.vertices = {};
     if (row == 0) figures.first = std::move(answer);
     return {};
   };
@@ -146,9 +236,9 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
       " of memory for answers and " + bytes_in_words(figures.method->memory_mb() * kMegabyte) +
       " for the method";
   const auto done = stream_answers(
-      *figures.method, work.sources.sets, stream, sink,
+      *figures.method, std::span(work.sources.sets).subspan(work.first, work.count), stream, sink,
       with_estimate(part_of(progress, kSetupShare, 1.0), announce, kSourcesStage,
-                    counted(static_cast<std::int64_t>(rows), "source", "sources"), details));
+                    counted(static_cast<std::int64_t>(work.count), "source", "sources"), details));
   if (!done) return not_taken ? *not_taken : about_model(work.model.name, done.error());
   figures.queries_ms = watch.milliseconds();
   figures.peak_rss_mb = peak_rss_mb();
@@ -163,6 +253,14 @@ Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& ar
   add_warnings(figures.warnings, of_answers);
   note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;
+}
+
+}  // namespace
+
+Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,
+                               const TakeRow& take, const std::string& output,
+                               const Progress& progress, const Announce& announce) {
+  return work.ranks.agree_on(solve_share(work, arguments, take, output, progress, announce));
 }
 
 std::string sample_note(const SolveArguments& arguments, const Outputs& outputs,
@@ -210,6 +308,7 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
         {"answers", static_cast<double>(chunk_bytes(work.mesh.vertices, work.chunk)) / kMegabyte},
         {"peak_rss", figures.peak_rss_mb}}},
       {"warnings", told(figures.warnings)}};
+  if (!work.ranks.alone()) json["ranks"] = work.ranks.count();
   if (figures.error) json["error"] = error_json(*figures.error);
   if (figures.replaced) json["replaced"] = error_json(*figures.replaced);
   return json;
@@ -224,6 +323,7 @@ std::string many_table(const ManySources& work, const ManyFigures& figures,
                                (heat ? ", " + figures.first.backend : std::string()) + ", " +
                                counted(thread_count(work.options.threads), "thread", "threads")});
   const auto rows = static_cast<double>(work.sources.sets.size());
+  if (!work.ranks.alone()) table.add_row({"ranks", std::to_string(work.ranks.count())});
   table.add_row({"set-up", milliseconds(figures.method->timing().setup) + " ms"});
   table.add_row({"queries", milliseconds(figures.queries_ms) + " ms, " +
                                 milliseconds(figures.queries_ms / rows) + " ms each"});

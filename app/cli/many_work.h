@@ -14,6 +14,7 @@
 #include "app/session/model.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/sources.h"
 #include "geotherm/io.h"
@@ -33,8 +34,13 @@ struct ManySources {
   MeshReport mesh;
   MethodOptions options;
   EachSource sources;
+  Reach reach;
   CheckSettings check;
   std::size_t chunk = 1;  ///< sources solved at once
+  Ranks ranks;            ///< that share the sources
+  /// Of this rank: those from `first` on, `count` of them. Shares begin at multiples of sixteen, so
+  /// that the rows have the bits of one rank.
+  std::size_t first = 0, count = 0;
 };
 
 /// Statistics over all source sets; the distances have been streamed out.
@@ -56,14 +62,24 @@ struct RowSums {
   std::int64_t unreached = 0;
 
   void add(std::span<const double> row);
+  void add(const RowSums& more);
 };
+
+/// The sums of all ranks, on each of them.
+RowSums sums_of_all(const RowSums& mine, const Ranks& ranks);
 
 /// Adds the warnings that are not there yet.
 void add_warnings(std::vector<Warning>& all, const std::vector<Warning>& more);
 
-/// Takes the distances from source number `row`. In the order of the sources. An error ends the
-/// work and is what solve_many() returns.
-using TakeRow = std::function<Result<void>(std::size_t row, std::span<const double> distances)>;
+/// Takes the answer to source number `row`, whose distances are those that the reach asks for. In
+/// the order of the sources. An error ends the work and is what solve_many() returns.
+using TakeRow = std::function<Result<void>(std::size_t row, const DistanceResult& answer)>;
+
+/// What `--max-distance` and `--target` ask for. Errors: kBadInput, with the option.
+Result<Reach> reach_of(const SolveArguments& arguments, const Model& model);
+
+/// The vertices of sources that are one each. `option`: for messages. Errors: kBadInput.
+Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option);
 
 /// `--dtype` and `--float32`. Errors: kBadInput, kNotAvailable.
 Result<NpyType> number_type(const SolveArguments& arguments);
@@ -71,13 +87,17 @@ Result<NpyType> number_type(const SolveArguments& arguments);
 /// Refuses options of a solve that have no meaning for many. Errors: kBadInput.
 Result<void> refuse_single_options(const SolveArguments& arguments, const std::string& option);
 
-/// Reads model and sources. Errors: those of the options, of load_model() and resolve_each().
-Result<ManySources> begin_many(const SolveArguments& arguments, const Progress& progress);
+/// Reads model and sources, and joins the other ranks. Errors: those of the options, of
+/// load_model(), resolve_each() and Ranks::join(), and `before`, what came of checks so far: the
+/// same on all ranks.
+Result<ManySources> begin_many(const SolveArguments& arguments, const Result<void>& before,
+                               const Progress& progress);
 
 /// Whether a file of so many bytes fits where it is to be. Errors: kBadFile, with both sizes.
 Result<void> check_room(const std::string& path, double bytes);
 
-/// Sets the method up, checks it on some of the sources and hands every row to `take`. `output`:
+/// Sets the method up, checks it on some of the sources and hands every row of this rank to `take`.
+/// All ranks come back with the same error, or none with any. `output`:
 /// what will be written, for the estimate. Warnings: those of model, sources, method, the check and
 /// the first answers. Errors: those of the work, kNumericalFailure (OnPoor::kFail, before any row).
 Result<ManyFigures> solve_many(const ManySources& work, const SolveArguments& arguments,

@@ -4,12 +4,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/picture/picture_text.h"
 #include "app/session/model.h"
 #include "app/session/state.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 
@@ -200,6 +202,23 @@ void note_unused_settings(const SettingArguments& arguments, const MethodOptions
                       " is the time itself; leave one of them out"});
 }
 
+void add_max_distance_option(CLI::App& command, std::string& text) {
+  command
+      .add_option("--max-distance", text,
+                  "asks for no more than this far (model units): farther is infinite, and waves, "
+                  "fast marching and exact windows spend no time there")
+      ->type_name("R")
+      ->group("Reach");
+}
+
+Result<double> max_distance_in(const std::string& text) {
+  if (text.empty()) return kUnreached;
+  const auto most = number_in<double>(text);
+  if (most && *most > 0 && std::isfinite(*most)) return *most;
+  return Error{ErrorCode::kBadInput, "--max-distance: '" + one_line(text) +
+                                         "' is no length above 0; give one in model units"};
+}
+
 void add_check_options(CLI::App& command, CheckArguments& arguments) {
   add_no_check_option(command, arguments);
   command
@@ -262,8 +281,9 @@ Result<void> choose_colour_map(bool typed, std::span<const std::string> colour_m
                                std::string& chosen) {
   if (!typed && !colour_maps.empty()) chosen = colour_maps.front();
   if (std::ranges::count(colour_maps, chosen) > 0) return {};
-  return Error{ErrorCode::kBadInput, "--colour-map: there is no colour map '" + one_line(chosen) +
-                                         "'; there are " + joined(colour_maps)};
+  return Error{ErrorCode::kBadInput,
+               "--colour-map: there is no colour map '" + one_line(chosen) + "'; " +
+                   known_words(chosen, {colour_maps.begin(), colour_maps.end()})};
 }
 
 /// A logarithmic scale has no 0.

@@ -60,6 +60,9 @@ void face_head_on(const Model& model, const SettingArguments& typed, PictureSett
 CLI::Option* add_model_option(CLI::App& command, std::string& model, SettingArguments& settings);
 void add_source_options(CLI::App& command, SourceArguments& arguments);
 void add_quiet_option(CLI::App& command, bool& quiet);
+/// --max-distance, and what it says. Errors: kBadInput.
+void add_max_distance_option(CLI::App& command, std::string& text);
+Result<double> max_distance_in(const std::string& text);
 
 /// The files that these name, which no output may replace.
 void protect_inputs(const std::string& model, const SourceArguments& sources, Outputs& outputs);

@@ -20,7 +20,8 @@ namespace geotherm::app {
 namespace {
 
 bool has_colours(const PictureFigures& f) {
-  return face_field(f.settings.view) || (f.solve && maps_values(f.settings.view));
+  if (face_field(f.settings.view)) return true;
+  return (f.solve || !f.field.empty()) && maps_values(f.settings.view);
 }
 
 /// Keywords of this program begin with its name, as the PNG specification advises.
@@ -103,7 +104,7 @@ std::string view_in_words(const PictureFigures& f) {
           significant(f.scale.min) + " to " + significant(f.scale.max);
   if (f.scale.kind == ColourScale::kLog) text += ", logarithmic";
   if (f.settings.bands > 0) text += ", in " + std::to_string(f.settings.bands) + " bands";
-  if (!f.scale.levels.empty()) {
+  if (!f.scale.levels.empty() && f.scale.spacing == 0) {
     text += ", isolines at " +
             counted(static_cast<std::int64_t>(f.scale.levels.size()), "value", "values");
   }
@@ -129,6 +130,7 @@ std::vector<FileText> picture_texts(const PictureFigures& f, int frame) {
   add(texts, "command", f.command);
   add(texts, "model", f.model_argument);
   add(texts, "sources", joined(f.sources, " "));
+  add(texts, "field", f.field);
   if (f.solve) add_solve_texts(*f.solve, texts);
   const ViewerState state = settings_of(f, frame);
   for (const Setting& setting : settings()) {
@@ -150,6 +152,7 @@ Json picture_json(const PictureFigures& f) {
               : Json{{"model", {{"name", f.model}, {"vertices", f.vertices}, {"faces", f.faces}}}};
   Json picture = settings_json(f);
   picture["files"] = f.paths;
+  if (!f.field.empty()) picture["field"] = f.field;
   if (f.scene_bytes > 0) {
     picture["bytes"] = f.scene_bytes;
   } else {

@@ -17,6 +17,7 @@ struct PictureFigures {
   std::string model;                 ///< its name
   std::string model_argument;        ///< as typed: a path or a bundled name
   std::vector<std::string> sources;  ///< as typed
+  std::string field;                 ///< the file of the values in place of distances, or empty
   std::string command;               ///< the command line; empty: unknown
   Index vertices = 0, faces = 0;
   std::string size;             ///< size_in_words()

@@ -3,6 +3,7 @@
 #include "app/cli/render_work.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/picture/cut_picture.h"
@@ -13,12 +14,46 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
+#include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
 
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
+
+/// Values of vertices that a file holds, in place of distances.
+Result<void> draw_field(const std::string& path, const Model& model,
+                        const PictureSettings& settings, PictureData& data,
+                        PictureFigures& figures) {
+  if (auto surface = refuse_space(model, "values of vertices are drawn"); !surface) return surface;
+  auto file = io::FileBytes::read(path);
+  if (!file) return about("--field", file.error());
+  const std::string name = io::printable(path);
+  const auto values = io::guarded_read(
+      name, "values", file->bytes().size(),
+      [&]() -> Result<std::vector<double>> { return io::read_npy_values(file->bytes()); });
+  if (!values) return about("--field", values.error());
+  const auto vertices = static_cast<std::size_t>(model.mesh->vertex_count());
+  if (values->size() != vertices) {
+    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(values->size()) +
+                                           " values and " + one_line(model.name) + " " +
+                                           grouped(vertices) + " vertices; give one a vertex"};
+  }
+  figures.field = path;
+  add_field(data, *values);
+  if (settings.colour_scale == ColourScale::kDiverging && !data.is_signed) {
+    return Error{ErrorCode::kBadInput, "--colour-scale diverging: the values of " + name +
+                                           " do not have both signs; choose linear"};
+  }
+  if (settings.colour_scale == ColourScale::kLog && data.smallest_value <= 0) {
+    return Error{ErrorCode::kBadInput, "--colour-scale log: " + name +
+                                           " has values that are not above 0 and have no "
+                                           "logarithm; choose linear"};
+  }
+  return {};
+}
 
 /// Adds the paths to all targets, and what is to be said about them to the warnings.
 Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver, Answer& solved,
@@ -46,11 +81,12 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
 
 void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   const std::optional<double>& asked = figures.settings.line_spacing;
-  if (!asked || *asked <= 0 || figures.scale.spacing > 0 || !figures.scale.coloured) return;
+  const bool drawn = figures.scale.spacing > 0 || !figures.scale.levels.empty();
+  if (!asked || *asked <= 0 || drawn || !figures.scale.coloured) return;
   const double room = figures.scale.max - figures.scale.min;
-  warnings.push_back({"isolines every " + significant(*asked) +
-                          " would be closer together than pixels and are left out",
-                      {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
+  warnings.push_back(
+      {"isolines every " + significant(*asked) + " would be too close together and are left out",
+       {"try ", SettingHint{"spacing", {significant(round_spacing(room))}}}});
 }
 
 bool shows_faces(const PictureData& data) {
@@ -90,8 +126,13 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
     note({"bar-label", "units", "number-format"}, "the picture has no colour bar");
   }
   const bool mapped = figures.scale.coloured || face_field(figures.settings.view);
-  if (!mapped) note({"bands"}, "the picture shows no values in colours");
-  if (!figures.scale.coloured) note({"values", "colour-scale"}, "the picture shows no distances");
+  if (!mapped) {
+    note({"bands", "colour-map", "reverse"}, "the picture shows no values in colours");
+  }
+  if (!figures.scale.coloured) {
+    note({"values", "colour-scale", "range", "spacing"}, "the picture shows no distances");
+  }
+  if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
   const PictureSettings& s = figures.settings;
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
@@ -109,7 +150,7 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
 
 Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
                           const RenderArguments& arguments) {
-  const bool is_error = settings.view == View::kExactError;
+  const bool is_error = settings.view == View::kExactError || !arguments.field.empty();
   if (settings.colour_scale == ColourScale::kDiverging && !is_error) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale diverging is for differences, and --view " +
@@ -121,10 +162,14 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
                                            geotherm::to_text(settings.view) +
                                            " does not show in colours; choose --view contours"};
   }
-  if (settings.colour_scale == ColourScale::kLog && is_error) {
+  if (settings.colour_scale == ColourScale::kLog && settings.view == View::kExactError) {
     return Error{ErrorCode::kBadInput,
                  "--colour-scale log: the errors of --view exact-error have both signs and no "
                  "logarithm; choose diverging, or another view"};
+  }
+  if (settings.line_spacing && !settings.line_values.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--spacing and --values both say where isolines are; leave one of them out"};
   }
   const bool heat = settings.path_kind == PathKind::kHeat;
   if (heat && !arguments.targets.empty() && options.method != MethodKind::kHeat) {
@@ -134,12 +179,32 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
   return {};
 }
 
+Result<void> check_field(const RenderArguments& arguments, View view, bool has_sources) {
+  if (arguments.field.empty()) return {};
+  std::vector<std::string> others;
+  if (has_sources) others.emplace_back("sources");
+  if (!arguments.targets.empty()) others.emplace_back("--path");
+  if (!arguments.more_models.empty()) others.emplace_back("a second model");
+  if (!arguments.sequence.frames.empty()) others.emplace_back("--sequence");
+  if (!others.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--field draws values that are there already, not those of " + joined(others) +
+                     "; leave one of them out"};
+  }
+  if (view == View::kContours) return {};
+  return Error{ErrorCode::kBadInput, "--field: --view " + geotherm::to_text(view) +
+                                         " does not show values of vertices; choose --view "
+                                         "contours"};
+}
+
 Result<PictureData> prepare_picture(const RenderArguments& arguments, const ViewerState& asked,
                                     const RenderPlaces& places, CheckSettings check,
                                     const Progress& progress, PictureFigures& figures,
                                     std::vector<Warning>& warnings) {
   const auto& [sources, targets] = places;
   const MethodOptions& options = asked.options;
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
   auto model = load_model(arguments.model, asked.reading, progress);
   if (!model) return model.error();
   const std::shared_ptr<const TriangleMesh> mesh = model->mesh;
@@ -152,6 +217,10 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
   const std::string unseen = model->space ? model->space->unseen() : "";
   PictureData data = picture_of(*mesh, tets_of(*model));
   data.up = model->up;
+  if (!arguments.field.empty()) {
+    auto drawn = draw_field(arguments.field, *model, figures.settings, data, figures);
+    return drawn ? Result<PictureData>(std::move(data)) : drawn.error();
+  }
   const View view = figures.settings.view;
   if (sources.empty()) {
     set_view_values(data, *model, view, nullptr);
@@ -159,6 +228,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
     return data;
   }
   QueryOptions query;
+  query.reach.max_distance = *most;
   query.fields = needs_fields(view);
   query.nearest = view == View::kRegions;
   if (view == View::kExactError) check.against = Check::kAuto;

@@ -24,6 +24,9 @@ struct RenderPlaces {
 Result<void> check_figure(const PictureSettings& settings, const MethodOptions& options,
                           const RenderArguments& arguments);
 
+/// What --field takes the place of. Errors: kBadInput.
+Result<void> check_field(const RenderArguments& arguments, View view, bool has_sources);
+
 /// --fps, and what films cannot show. Errors: kBadInput, those of find_ffmpeg().
 Result<void> check_film(const RenderArguments& arguments, const PictureSettings& settings);
 

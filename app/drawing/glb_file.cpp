@@ -156,7 +156,7 @@ std::vector<float> distances_of(const SceneMesh& mesh, const PictureData& data) 
     out.push_back(
         known ? static_cast<float>(std::clamp<double>(value, std::numeric_limits<float>::lowest(),
                                                       std::numeric_limits<float>::max()))
-              : (data.is_signed ? 0 : kUnreachedDistance));
+              : (data.is_signed || data.is_field ? 0 : kUnreachedDistance));
   }
   return out;
 }
@@ -248,9 +248,12 @@ Result<std::string> glb_file(const PictureData& shown, const PictureData& whole,
     GlbJson extras;
     if (!shown.values.empty()) {
       const std::vector<float> values = distances_of(mesh, shown);
-      attributes[shown.is_signed ? "_ERROR" : "_DISTANCE"] =
+      const bool distances = !shown.is_signed && !shown.is_field;
+      attributes[distances        ? "_DISTANCE"
+                 : shown.is_field ? "_VALUE"
+                                  : "_ERROR"] =
           buffer.add(std::span(values), 1, kFloat, kVertexData, false, true);
-      if (!shown.is_signed) extras["unreached"] = kUnreachedDistance;
+      if (distances) extras["unreached"] = kUnreachedDistance;
     }
     add_node("surface",
              {{{"attributes", std::move(attributes)},

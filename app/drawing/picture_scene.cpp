@@ -90,7 +90,7 @@ engine::SurfaceStyle surface_of(const PictureData& data, const PictureSettings& 
   style.range_min = value_of(data, scale.min);
   style.range_max = value_of(data, scale.max);
   style.log = scale.kind == ColourScale::kLog;
-  style.line_spacing = value_of(data, scale.spacing);
+  style.line_spacing = scale.levels.empty() ? value_of(data, scale.spacing) : 0;
   for (const double level : scale.levels) style.levels.push_back(value_of(data, level));
   return style;
 }
@@ -132,7 +132,8 @@ std::vector<engine::Key> keys_of(const PictureData& data, const PictureSettings&
     keys.push_back(std::move(key));
   }
   if (maps_values(settings.view) && !data.values.empty() && data.unreached) {
-    keys.push_back({.label = data.is_signed ? "no value" : "not reached", .patches = {kNoValue}});
+    keys.push_back({.label = data.is_signed || data.is_field ? "no value" : "not reached",
+                    .patches = {kNoValue}});
   }
   for (const PictureData::Line& line : data.lines) {
     if (!shows_line(settings, line.name)) continue;
@@ -285,7 +286,7 @@ std::vector<std::array<std::uint32_t, 3>> joining_triangles(const PictureData& d
 std::vector<float> scene_distances(const PictureData& data) {
   std::vector<float> out;
   const auto unit = static_cast<float>(data.value_unit / data.model_per_scene);
-  if (data.is_signed || !std::isfinite(unit)) return out;
+  if (data.is_signed || data.is_field || !std::isfinite(unit)) return out;
   for (const float value : data.values)
     out.push_back(value == kNoPictureValue ? value : value * unit);
   return out;

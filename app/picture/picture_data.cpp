@@ -194,7 +194,7 @@ void add_distances(PictureData& data, std::span<const double> distances, std::op
   }
   data.value_unit = most > 0 ? most : 1;
   data.largest_value = most > 0 ? 1 : 0;
-  data.is_signed = false;
+  data.is_signed = data.is_field = false;
   // The unit stays on one line.
   data.value_title = times ? "travel time (time\u00a0units)" : "distance (model\u00a0units)";
   data.values.clear();
@@ -216,6 +216,12 @@ void add_error(PictureData& data, std::span<const double> signed_error, const st
     if (signed_error[i] < 0 && std::isfinite(signed_error[i])) data.values[i] = -data.values[i];
   }
   note_extent(data);
+}
+
+void add_field(PictureData& data, std::span<const double> values) {
+  add_error(data, values, "value");
+  data.is_signed = data.smallest_value < 0 && data.greatest_value > 0;
+  data.is_field = true;
 }
 
 void add_difference(PictureData& data, std::span<const double> difference, bool times) {

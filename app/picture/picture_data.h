@@ -56,6 +56,7 @@ struct PictureData {
   float smallest_value = 0, greatest_value = 0, smallest_positive = 0;
   bool unreached = false;          ///< some corner of a face has no value
   bool is_signed = false;          ///< `values` run from -1 to 1: a difference
+  bool is_field = false;           ///< `values` are no distances, and 0 is nothing special
   std::vector<float> face_values;  ///< F: of a view with a colour a face (set_face_values())
   float largest_face_value = 0;    ///< where the colours of that view end
   View face_view{};                ///< that view, where there are values of it
@@ -118,6 +119,9 @@ void add_distances(PictureData& data, std::span<const double> distances,
 /// Shows a signed error instead: 0 in the middle of a diverging map, both of its ends equally far.
 /// signed_error: V, model units, not finite where there is none. title: over the colour bar.
 void add_error(PictureData& data, std::span<const double> signed_error, const std::string& title);
+
+/// Shows any numbers instead; those that are not finite are none. values: V.
+void add_field(PictureData& data, std::span<const double> values);
 
 /// Shows a difference of distances instead, in the same way.
 void add_difference(PictureData& data, std::span<const double> difference, bool times = false);

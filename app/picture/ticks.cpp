@@ -157,13 +157,20 @@ double band_width(double range, int bands) {
 }
 
 Ticks make_log_ticks(double min, double max, int most) {
-  const std::vector<double> values = round_numbers_between(min, max);
-  const std::size_t each = (values.size() + static_cast<std::size_t>(most) - 1) /
-                           static_cast<std::size_t>(std::max(most, 1));
+  std::vector<double> values = round_numbers_between(min, max);
+  const auto room = static_cast<std::size_t>(std::max(most, 2));
+  if (values.size() > room) {  // the ends, and powers of ten between them
+    const double first = values.front(), last = values.back();
+    std::erase_if(values, [&](double x) {
+      const bool is_power = std::abs(std::remainder(std::log10(x), 1.0)) < kSlack;
+      return x != first && x != last && !is_power;
+    });
+  }
   Ticks ticks;
-  for (std::size_t i = 0; i < values.size(); i += std::max<std::size_t>(each, 1)) {
-    ticks.values.push_back(values[i]);
-    ticks.labels.push_back(significant(values[i]));
+  const std::size_t each = (values.size() + room - 1) / room;
+  for (std::size_t i = values.size(); i > 0; i -= std::min(i, each)) {  // from the larger end
+    ticks.values.insert(ticks.values.begin(), values[i - 1]);
+    ticks.labels.insert(ticks.labels.begin(), significant(values[i - 1]));
   }
   return ticks;
 }

@@ -5,6 +5,7 @@
 
 #include "app/picture/picture_scale.h"
 #include "app/picture/picture_text.h"
+#include "app/text/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -55,10 +56,23 @@ void set_linear_ends(const PictureData& data, const PictureSettings& settings,
     scale.min = -scale.max;
     return;
   }
-  scale.min = range_min.value_or(data.is_signed ? -usual : 0);
-  scale.max = range_max.value_or(usual);
-  if (settings.bands > 0 && !range_max && !data.is_signed && scale.max > scale.min) {
-    scale.max = scale.min + settings.bands * band_width(scale.max - scale.min, settings.bands);
+  const bool between = data.is_field && !data.is_signed;  // the values' own ends
+  const double least = data.smallest_value * data.value_unit;
+  scale.min = range_min.value_or(data.is_signed ? -usual : between ? least : 0);
+  scale.max = range_max.value_or(between ? data.greatest_value * data.value_unit : usual);
+  if (settings.bands > 0 && !range_max && scale.max > scale.min) {
+    double each = band_width(scale.max - scale.min, settings.bands);
+    if (!range_min && data.is_signed) {
+      scale.min = -settings.bands * each / 2;
+    } else if (!range_min && between) {
+      const double most = scale.max;
+      const auto floor_of = [&] { return each * std::floor(least / each); };
+      while (floor_of() + settings.bands * each < most) {
+        each = band_width(settings.bands * each * (1 + kSlackOfEnds), settings.bands);
+      }
+      scale.min = floor_of();
+    }
+    scale.max = scale.min + settings.bands * each;
   }
   if (!(scale.max > scale.min)) {  // one end was given, and lies beyond all distances
     const double width = std::max({data.value_unit, std::abs(scale.min), std::abs(scale.max)});
@@ -101,16 +115,29 @@ void set_lines(const PictureData& data, const PictureSettings& settings, bool pa
     }
   } else if (scale.kind == ColourScale::kLog) {
     scale.levels = log_levels(scale.min, scale.max, kMaxLineValues);
-  } else if (!data.is_signed) {
+  } else if (!data.is_signed || data.is_field) {
     scale.spacing = round_spacing(painted ? width : kFewer * width);
   }
   // More lines than pixels are no lines.
   const double pixels = std::max(settings.width, settings.height);
   if (width > pixels * scale.spacing) scale.spacing = 0;
+  if (!data.is_field || scale.spacing == 0) return;
+  // Multiples below 0, and 0, are lines like the others: they are named one by one.
+  const double first = std::floor(scale.min / scale.spacing) + 1;
+  if (width > kMaxLineValues * scale.spacing) scale.spacing = 0;
+  for (double i = first; scale.spacing > 0 && i * scale.spacing < scale.max; ++i) {
+    scale.levels.push_back(i * scale.spacing);
+  }
 }
 
 void set_ticks(const PictureSettings& settings, PictureScale& scale) {
-  if (scale.kind == ColourScale::kLog) {
+  if (scale.kind == ColourScale::kLog && settings.bands > 0) {
+    const int each = (settings.bands + kMaxBandTicks - 1) / kMaxBandTicks;
+    for (int i = 0; i <= settings.bands; i += each) {
+      scale.ticks.values.push_back(scale.value_at(static_cast<double>(i) / settings.bands));
+      scale.ticks.labels.push_back(significant(scale.ticks.values.back(), 3));
+    }
+  } else if (scale.kind == ColourScale::kLog) {
     scale.ticks = make_log_ticks(scale.min, scale.max, kMaxTicks);
   } else if (settings.bands > 0) {
     scale.ticks = make_band_ticks(scale.min, scale.max, settings.bands, kMaxBandTicks);

@@ -28,7 +28,8 @@ struct Answer {
   std::shared_ptr<const DistanceMethod> method;
   MethodOptions options;  ///< of `method`
   SourceSet sources;
-  DistanceResult result;
+  Reach reach;            ///< how far it goes
+  DistanceResult result;  ///< of all vertices, beyond the reach infinite; `vertices`: the targets
   DistanceSummary distance;
   SetupTiming setup;       ///< time of the set-up, with the parts reused from an earlier method
   double setup_ms = 0;     ///< from the question to the method being ready

@@ -290,6 +290,19 @@ std::vector<Setting> method_settings() {
              return s.reading.weld ? number_text(*s.reading.weld) : Text("off");
            },
        .set = [](State& s, const Text& t) { return store(parse_weld(t), s.reading.weld); }},
+      {.name = "mask",
+       .group = kModel,
+       .value_name = "FILE",
+       .help = "leaves out of a surface what the file marks: text or .npy of 0 and 1, one for each "
+               "vertex or face, or of numbers of vertices; .label of FreeSurfer; .gii; "
+               "FILE.ply:PROPERTY; keep:FILE marks what stays, faces:FILE has numbers of faces",
+       .detail = "Distances are those on the surface that is left, and all numbers stay.",
+       .get = [](const State& s) { return s.reading.mask.empty() ? Text("off") : s.reading.mask; },
+       .set =
+           [](State& s, const Text& t) {
+             s.reading.mask = t == "off" ? Text() : t;
+             return Result<void>();
+           }},
       {.name = "format",
        .group = kModel,
        .value_name = "NAME",

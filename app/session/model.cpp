@@ -95,6 +95,22 @@ Result<Model> from_standard_input(const ModelReading& reading, const Progress& p
   return model;
 }
 
+/// Applies a mask to a model that was read.
+Result<void> leave_out(const std::string& text, Model& model) {
+  if (auto surface = refuse_space(model, "masks are"); !surface) return surface;
+  const auto mask = read_mask(text, *model.mesh);
+  if (!mask) return mask.error();
+  auto left = masked(*model.mesh, *mask);
+  if (!left) return about(one_line(text), left.error());
+  Index faces = 0;
+  for (const Face& face : left->faces()) faces += face[0] == face[1] && face[1] == face[2] ? 1 : 0;
+  const auto vertices = std::ranges::count_if(mask->vertices, [](char out) { return out != 0; });
+  model.notes.push_back({"the mask leaves out " + counted(vertices, "vertex", "vertices") +
+                         " and " + counted(faces, "face", "faces")});
+  model.mesh = std::make_shared<const TriangleMesh>(*std::move(left));
+  return {};
+}
+
 std::string weld_note(Index merged, double distance) {
   const std::string where = distance > 0 ? "within " + significant(distance) + " of another"
                                          : "exactly where another one is";
@@ -111,6 +127,9 @@ Result<Model> load_model(const std::string& text, const ModelReading& reading,
   auto model = text == kStandardInput ? from_standard_input(reading, progress)
                : is_bundled(text)     ? bundled(text, reading, progress)
                                       : from_file(text, reading, progress);
+  if (model && !reading.mask.empty()) {
+    if (auto done = leave_out(reading.mask, *model); !done) return done.error();
+  }
   if (!model || !reading.weld) return model;
   if (auto surface = refuse_space(*model, "welded vertices are"); !surface) {
     return surface.error();
@@ -211,12 +230,16 @@ std::shared_ptr<const TetMesh> tets_of(const Model& model) {
 Result<void> refuse_space(const Model& model, std::string_view what) {
   if (!model.space) return {};
   const SpaceWords& words = model.space->words();
+  const std::string drawn(words.drawn);
+  Hint hint;
+  if (drawn != "nothing") {
+    hint = {"with ", SettingHint{"domain", {"triangles"}}, " its " + drawn + " is one"};
+  }
   return Error{ErrorCode::kBadInput,
                std::string(what) + " of triangle meshes, and " + one_line(model.name) + " is a " +
                    words.body + " of " +
                    counted(model.space->cell_count(), words.cell, words.cells),
-               {"with ", SettingHint{"domain", {"triangles"}},
-                " its " + std::string(words.drawn) + " is one"}};
+               std::move(hint)};
 }
 
 std::span<const BundledModel> bundled_models() { return kModels; }

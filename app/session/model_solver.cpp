@@ -147,6 +147,32 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
   return std::move(result->nearest_source);
 }
 
+/// Leaves of an answer what is within reach, as distances of all vertices.
+void keep_within(const Reach& reach, Answer& answer) {
+  DistanceResult& result = answer.result;
+  const auto spread = [&](auto& values, auto beyond) {
+    if (values.empty() || reach.targets.empty()) return;
+    std::vector<std::remove_const_t<decltype(beyond)>> all(
+        static_cast<std::size_t>(answer.model.mesh->vertex_count()), beyond);
+    const bool of_targets = !result.vertices.empty();
+    for (std::size_t i = 0; i < reach.targets.size(); ++i) {
+      const auto v = static_cast<std::size_t>(reach.targets[i]);
+      all[v] = values[of_targets ? i : v];
+    }
+    values = std::move(all);
+  };
+  spread(result.distances, kUnreached);
+  spread(result.nearest_source, kNoIndex);
+  for (std::size_t v = 0; v < result.distances.size(); ++v) {
+    if (result.distances[v] <= reach.max_distance) continue;
+    result.distances[v] = kUnreached;
+    if (!result.nearest_source.empty()) result.nearest_source[v] = kNoIndex;
+  }
+  result.vertices = reach.targets;
+  answer.reach = reach;
+  answer.distance = summarize(result.distances);
+}
+
 /// Solves and fills the answer, except for mesh summary and error.
 Result<Answer> ModelSolver::distances(const MethodOptions& options, const ResolvedSources& sources,
                                       const QueryOptions& query, const Progress& progress) {
@@ -164,6 +190,7 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
   answer.setup_ms = ready->setup_ms;
   answer.sources = sources.set;
   answer.result = *std::move(result);
+  if (query.reach.is_bounded()) keep_within(query.reach, answer);
   if (query.nearest && answer.result.nearest_source.empty()) {
     auto nearest = nearest_sources(sources.set, answer.result.distances, options.threads,
                                    with_prefix(progress, "nearest sources: "));
@@ -182,6 +209,7 @@ Result<Answer> ModelSolver::distances(const MethodOptions& options, const Resolv
 
 void ModelSolver::describe_mesh(Answer& answer) const {
   answer.mesh = *summary_;
+  if (answer.reach.is_bounded()) return;
   Index unreached = answer.distance.unreached;
   if (!model_.space) return add(answer.warnings, unreached_notes(*summary_, unreached));
   if (model_.space->has_walls()) unreached -= model_.space->unused_vertices();
@@ -193,6 +221,20 @@ void ModelSolver::describe_mesh(Answer& answer) const {
 
 Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSources& sources,
                                   const Wanted& wanted, const Progress& progress) {
+  const Reach& reach = wanted.query.reach;
+  if (!reach.is_bounded()) return answer_all(options, sources, wanted, progress);
+  Wanted of_all = wanted;
+  if (wanted.check.against != Check::kOff &&
+      is_better(reference_of(options.method, wanted.check), options.method)) {
+    of_all.query.reach = {};
+  }
+  auto answer = answer_all(options, sources, of_all, progress);
+  if (answer && !answer->reach.is_bounded()) keep_within(reach, *answer);
+  return answer;
+}
+
+Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const ResolvedSources& sources,
+                                       const Wanted& wanted, const Progress& progress) {
   const bool checks = wanted.check.against != Check::kOff;
   const double solved = checks ? 0.8 : 1.0;  // share of the whole
   auto answer = distances(options, sources, wanted.query, part_of(progress, 0.0, solved));

@@ -70,7 +70,8 @@ class ModelSolver {
   Result<ReadyMethod> prepare(const MethodOptions& options, const Progress& progress = {});
 
   /// Distances, nearest sources, the check: the answer with its warnings, in a session without
-  /// those of the file. Errors: those of prepare() and of the query, kNumericalFailure
+  /// those of the file. Where a check is to be made, a query that does not go far is answered for
+  /// all of the model first. Errors: those of prepare() and of the query, kNumericalFailure
   /// (OnPoor::kFail), kCancelled.
   Result<Answer> solve(const MethodOptions& options, const ResolvedSources& sources,
                        const Wanted& wanted, const Progress& progress = {});
@@ -103,6 +104,8 @@ class ModelSolver {
   Result<Answer> distances(const MethodOptions& options, const ResolvedSources& sources,
                            const QueryOptions& query, const Progress& progress);
   void describe_mesh(Answer& answer) const;
+  Result<Answer> answer_all(const MethodOptions& options, const ResolvedSources& sources,
+                            const Wanted& wanted, const Progress& progress);
 
   // model_check.cpp
   MethodKind reference_of(MethodKind checked, const CheckSettings& settings) const;

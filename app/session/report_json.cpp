@@ -309,6 +309,22 @@ Json error_json(const SampleCheck& check) {
   return json;
 }
 
+namespace {
+
+Json reach_json(const Answer& answer) {
+  const double most = answer.reach.max_distance;
+  Json json = {{"max_distance", most < kUnreached ? Json(most) : Json(nullptr)},
+               {"targets", Json::array()}};
+  for (const Index v : answer.reach.targets) {
+    const double d = answer.result.distances[static_cast<std::size_t>(v)];
+    json["targets"].push_back(
+        {{"vertex", v}, {"distance", d < kUnreached ? Json(d) : Json(nullptr)}});
+  }
+  return json;
+}
+
+}  // namespace
+
 Json solve_json(const Answer& f) {
   const SetupTiming& setup = f.method->timing();
   const QueryTiming& query = f.result.timing;
@@ -344,6 +360,7 @@ Json solve_json(const Answer& f) {
                  {"peak_rss", f.peak_rss_mb}}},
                {"quality", quality_json(f.result.quality, heat)},
                {"warnings", told(f.warnings)}});
+  if (f.reach.is_bounded()) json["reach"] = reach_json(f);
   if (!f.result.nearest_source.empty()) {
     json["regions"] = regions_json(f.sources, f.result.nearest_source);
   }

@@ -11,6 +11,7 @@
 #include "solver/heat/grid_domain.h"
 #include "solver/heat/heat_state.h"
 #include "solver/heat/surface.h"
+#include "solver/method/reach.h"
 
 namespace geotherm {
 namespace {
@@ -140,6 +141,9 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
                                                            const QueryOptions& query,
                                                            const Progress& progress) const try {
   using Results = std::vector<DistanceResult>;
+  if (auto valid = check_reach(query.reach, state_->domain->input_vertices); !valid) {
+    return valid.error();
+  }
   const std::string& at_work = state_->options.backend;
   std::string backend = at_work;
   SharedProgress shared(progress);
@@ -159,6 +163,7 @@ Result<std::vector<DistanceResult>> HeatMethod::solve_each(std::span<const Sourc
   if (!results) return results;
   failed.erase(failed.begin(), failed.begin() + std::ssize(state_->failed));
   for (DistanceResult& result : *results) {
+    keep_reach(query.reach, result);
     result.backend = backend;
     result.fallbacks = failed;
     if (!failed.empty()) result.warnings.push_back({takeover_text(failed, backend)});

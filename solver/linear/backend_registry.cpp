@@ -7,9 +7,23 @@
 #include "geotherm/backend.h"
 #include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
+#include "solver/linear/mpi_module.h"
 
 namespace geotherm {
 namespace {
+
+std::vector<const Backend*> those_of_the_build() {
+  std::vector<const Backend*> all = {
+      native_backend(),
+#ifdef GEOTHERM_HAS_CHOLMOD
+      cholmod_backend(),
+#endif
+      eigen_ldlt_backend(),
+  };
+  if (has_mpi_module()) all.push_back(petsc_backend());
+  all.push_back(cg_backend());
+  return all;
+}
 
 /// Those of the build, then those that were added.
 class Registry {
@@ -36,14 +50,7 @@ class Registry {
 
  private:
   mutable std::mutex mutex_;
-  std::vector<const Backend*> all_ = {
-      native_backend(),
-#ifdef GEOTHERM_HAS_CHOLMOD
-      cholmod_backend(),
-#endif
-      eigen_ldlt_backend(),
-      cg_backend(),
-  };
+  std::vector<const Backend*> all_ = those_of_the_build();
 };
 
 bool may_follow(const Backend& backend, FallbackPolicy policy) {
@@ -72,6 +79,7 @@ Result<const Backend*> find_backend(std::string_view name) {
   for (const Backend* backend : Registry::instance().all()) {
     if (backend->name() == name) return backend;
   }
+  if (name == "petsc") return mpi_module().error();  // it says what to install
   return Error{ErrorCode::kNotAvailable,
                "there is no backend '" + std::string(name) + "' in this build",
                {known_words(name, backend_names())}};

@@ -23,6 +23,9 @@ const Backend* cholmod_backend();
 /// Simplicial LDL^T of Eigen: no dependency beyond Eigen.
 const Backend* eigen_ldlt_backend();
 
+/// Heat steps by the native factor, Poisson by PETSc. Where has_mpi_module().
+const Backend* petsc_backend();
+
 /// Conjugate gradients with a diagonal preconditioner; never forms a matrix (Hestenes, Stiefel
 /// 1952).
 const Backend* cg_backend();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <string>
 
 #include "solver/core/text.h"
 #include "solver/linear/backend_registry.h"
 #include "solver/linear/multigrid.h"
+#include "solver/linear/window_solver.h"
 
 namespace geotherm {
 namespace {
@@ -19,6 +22,8 @@ constexpr double kCgTolerance = 1e-13;
 /// which for a Laplacian is about the graph's radius; 20 sqrt(n) + 2000 leaves room for bad meshes.
 constexpr double kBudgetPerRoot = 20;
 constexpr int kBudgetAtLeast = 2000;
+/// Below so many rows all of them are as quick as a window; above, entries are too many for int.
+constexpr Index kWorthWindows = 5000, kMaxWindowed = 100'000'000;
 /// Rows worked on between two calls of progress: about 10 ms at 20 ns a row.
 constexpr std::size_t kRowsBetweenCalls = 500'000;
 
@@ -64,6 +69,38 @@ class ConjugateGradient final : public Factorization {
     return report;
   }
 
+  /// What lies far from a few rows, of a heat step that goes on from there: a window around them.
+  Result<SolveReport> solve_where(Block& x, std::span<const Index> support,
+                                  std::span<const char> wanted, const Progress& progress,
+                                  int threads) const override {
+    if (size() < kWorthWindows || size() > kMaxWindowed || support.empty() ||
+        !matrix_->kernel().empty()) {
+      return Factorization::solve_where(x, support, wanted, progress, threads);
+    }
+    std::call_once(window_made_,
+                   [this] { window_ = std::make_unique<WindowSolver>(matrix_->assembled()); });
+    SolveReport out;
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      const auto columns = static_cast<double>(x.cols());
+      const double done = static_cast<double>(c) / columns;
+      if (!geotherm::report(progress, "solve", done)) return cancelled_error();
+      int iterations = window_->solve(x, c, support, kCgTolerance, kBudgetAtLeast);
+      if (iterations == 0) {  // no window that would help
+        Block column = x.col(c);
+        const auto solved =
+            solve(column, support, part_of(progress, done, done + 1 / columns), threads);
+        if (!solved) return solved.error();
+        x.col(c) = column;
+        iterations = solved->iterations;
+        out.residual = std::max(out.residual, solved->residual);
+      }
+      out.iterations = std::max(out.iterations, iterations);
+    }
+    out.residual = std::max(out.residual, kCgTolerance);
+    if (!geotherm::report(progress, "solve", 1.0)) return cancelled_error();
+    return out;
+  }
+
   FactorStats stats() const override { return {}; }
   Index size() const override { return matrix_->size(); }
 
@@ -87,7 +124,9 @@ class ConjugateGradient final : public Factorization {
     const double start = rho;
     const int budget =
         kBudgetAtLeast + static_cast<int>(kBudgetPerRoot * std::sqrt(static_cast<double>(n)));
-    const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / n);
+    constexpr std::size_t kPassesOfMultigrid = 10;
+    const std::size_t rows = multigrid_ ? kPassesOfMultigrid * n : n;
+    const auto between_calls = static_cast<int>(1 + kRowsBetweenCalls / rows);
     SolveReport report;
     while (
         !(rho <= kCgTolerance * kCgTolerance * start)) {  // goes on, to an error, where rho is NaN
@@ -135,6 +174,8 @@ class ConjugateGradient final : public Factorization {
 
   std::shared_ptr<const SymmetricOperator> matrix_;
   std::unique_ptr<const Multigrid> multigrid_;  ///< null: the diagonal
+  mutable std::once_flag window_made_;
+  mutable std::unique_ptr<const WindowSolver> window_;
 };
 
 class CgAnalysis final : public Analysis {

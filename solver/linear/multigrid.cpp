@@ -10,7 +10,7 @@ namespace geotherm {
 namespace {
 
 /// Below so many unknowns the diagonal is as quick.
-constexpr Index kWorthLevels = 20'000;
+constexpr Index kWorthLevels = 2'000;
 /// A level so small is solved directly.
 constexpr Index kDirect = 600;
 /// Jacobi's damping: smooths what varies between neighbours, and converges where eigenvalues of the

@@ -93,6 +93,38 @@ Result<TriangleMesh> TriangleMesh::moved(std::vector<Vec3> positions) const {
   return mesh;
 }
 
+Result<TriangleMesh> masked(const TriangleMesh& mesh, const Mask& mask) {
+  const auto check = [](const std::vector<char>& list, Index count,
+                        const char* what) -> Result<void> {
+    if (list.empty() || std::ssize(list) == count) return {};
+    return Error{ErrorCode::kBadInput, "the mask has " + std::to_string(list.size()) +
+                                           " numbers for " + std::to_string(count) + " " + what};
+  };
+  if (auto fits = check(mask.vertices, mesh.vertex_count(), "vertices"); !fits) return fits.error();
+  if (auto fits = check(mask.faces, mesh.face_count(), "faces"); !fits) return fits.error();
+  std::vector<Face> faces(mesh.faces().begin(), mesh.faces().end());
+  Index left = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto is_out = [&mask](Index v) {
+      return !mask.vertices.empty() && mask.vertices[v] != 0;
+    };
+    if ((mask.faces.empty() || mask.faces[f] == 0) && std::ranges::none_of(faces[f], is_out)) {
+      ++left;
+    } else {
+      faces[f].fill(faces[f].front());
+    }
+  }
+  if (left == 0) {
+    return Error{ErrorCode::kBadInput,
+                 "the mask leaves none of " + std::to_string(mesh.face_count()) + " faces",
+                 {"turn it round, or take another one"}};
+  }
+  const auto positions = mesh.positions();
+  const auto same_as = mesh.same_as();
+  return TriangleMesh::build({positions.begin(), positions.end()}, std::move(faces),
+                             {same_as.begin(), same_as.end()});
+}
+
 Result<void> check_moved(const TriangleMesh& mesh, const TriangleMesh& other) {
   const auto counts = [](const TriangleMesh& m) {
     return std::to_string(m.vertex_count()) + " vertices and " + std::to_string(m.face_count()) +

@@ -16,13 +16,8 @@
 namespace geotherm {
 namespace {
 
-std::size_t size_of(NpyType type) {
+std::size_t bytes_each(NpyType type) {
   return type == NpyType::kFloat64 ? sizeof(double) : sizeof(float);
-}
-
-std::string header_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
-  const std::array<std::uint64_t, 2> shape = {rows, columns};
-  return io::npy_header(type == NpyType::kFloat64 ? "<f8" : "<f4", shape);
 }
 
 /// A distance that became infinite would read as unreached, and a row that became 0 as a point.
@@ -37,8 +32,34 @@ bool fits_float(std::span<const double> row) {
 
 }  // namespace
 
+std::string io::npy_rows_header(std::uint64_t rows, std::uint64_t columns, NpyType type) {
+  const std::array<std::uint64_t, 2> shape = {rows, columns};
+  return io::npy_header(type == NpyType::kFloat64 ? "<f8" : "<f4", shape);
+}
+
+Result<void> io::check_float_range(const std::string& path, std::span<const double> values) {
+  if (fits_float(values)) return {};
+  return Error{
+      ErrorCode::kBadInput,
+      io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
+      {"write float64"}};
+}
+
 std::uint64_t npy_bytes_of(std::uint64_t rows, std::uint64_t columns, NpyType type) {
-  return header_of(rows, columns, type).size() + rows * columns * size_of(type);
+  return io::npy_rows_header(rows, columns, type).size() + rows * columns * bytes_each(type);
+}
+
+Result<void> io::npy_row(const std::string& path, std::span<const double> row, NpyType type,
+                         std::string& bytes) {
+  bytes.clear();
+  bytes.reserve(row.size() * bytes_each(type));
+  if (type == NpyType::kFloat64) {
+    for (const double value : row) io::append_little(bytes, value);
+    return {};
+  }
+  if (auto fits = check_float_range(path, row); !fits) return fits;
+  for (const double value : row) io::append_little(bytes, static_cast<float>(value));
+  return {};
 }
 
 struct NpyRows::State {
@@ -58,7 +79,7 @@ Result<NpyRows> NpyRows::open(const std::string& path, std::uint64_t rows, std::
                               NpyType type) {
   auto file = GrowingFile::open(path);
   if (!file) return file.error();
-  if (auto written = file->append(header_of(rows, columns, type)); !written) {
+  if (auto written = file->append(io::npy_rows_header(rows, columns, type)); !written) {
     return written.error();
   }
   return NpyRows(std::make_unique<State>(State{*std::move(file), path, rows, type}));
@@ -67,19 +88,7 @@ Result<NpyRows> NpyRows::open(const std::string& path, std::uint64_t rows, std::
 Result<void> NpyRows::append(std::span<const double> row) {
   auto& [file, path, missing, type, bytes] = *state_;
   assert(missing > 0);
-  bytes.clear();
-  bytes.reserve(row.size() * size_of(type));
-  if (type == NpyType::kFloat64) {
-    for (const double value : row) io::append_little(bytes, value);
-  } else {
-    if (!fits_float(row)) {
-      return Error{
-          ErrorCode::kBadInput,
-          io::printable(path) + ": the values lie beyond the range of float32 (1.2e-38 to 3.4e38)",
-          {"write float64"}};
-    }
-    for (const double value : row) io::append_little(bytes, static_cast<float>(value));
-  }
+  if (auto made = io::npy_row(path, row, type, bytes); !made) return made;
   --missing;
   return file.append(bytes);
 }

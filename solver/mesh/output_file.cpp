@@ -234,6 +234,10 @@ Result<void> GrowingFile::append(std::string_view bytes) {
   return failure(state_->path, code);
 }
 
+const std::string& GrowingFile::place() const {
+  return state_->temporary.empty() ? state_->path : state_->temporary;
+}
+
 Result<void> GrowingFile::finish() {
   if (state_->path == "-") {
     if (std::fflush(stdout) == 0) return {};

@@ -31,6 +31,9 @@ class GrowingFile {
   /// Cost: one system call; append much at once.
   Result<void> append(std::string_view bytes);
 
+  /// Where the bytes are until then: its own path where nothing is renamed.
+  const std::string& place() const;
+
   /// Makes it the file of its path. Nothing may follow.
   Result<void> finish();
 

@@ -8,6 +8,7 @@
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/formats.h"
+#include "solver/mesh/io/gifti_reader.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_elements.h"
 
@@ -45,6 +46,8 @@ constexpr MeshReader kMeshReaders[] = {
     {".msh", read_faces<io::read_gmsh>},
     {".mesh", read_faces<io::read_medit>},
     {".meshb", read_faces<io::read_meshb>},
+    {".gii", read_whole<io::read_gifti>},
+    {".fsurf", read_whole<io::read_freesurfer>},
 };
 
 /// The triangles of a mesh whose polygons are fans. Errors: kBadInput.

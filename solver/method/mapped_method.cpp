@@ -8,6 +8,7 @@
 #include "solver/core/memory.h"
 #include "solver/core/stopwatch.h"
 #include "solver/geometry/clean_faces.h"
+#include "solver/method/reach.h"
 
 namespace geotherm {
 namespace {
@@ -140,8 +141,10 @@ void MeshMapping::take_back(const SourceSet& sources, DistanceResult& result) co
       if (group != kNoIndex) group = outer[group];
     }
   }
-  keep_own_vertices(*mesh_, result.distances);
-  keep_own_vertices(*mesh_, result.nearest_source);
+  if (result.vertices.empty()) {  // else they are of targets
+    keep_own_vertices(*mesh_, result.distances);
+    keep_own_vertices(*mesh_, result.nearest_source);
+  }
   keep_own_vertices(*mesh_, result.heat);
   keep_own_vertices(*mesh_, result.log_heat);
 }
@@ -169,9 +172,22 @@ Result<std::vector<DistanceResult>> MappedMethod::solve_each(std::span<const Sou
     if (!sources) return sources.error();
     mapped.push_back(*std::move(sources));
   }
-  auto results = inner_->solve_each(mapped, query, progress);
+  const TriangleMesh& mesh = mapping_->mesh();
+  if (auto valid = check_reach(query.reach, mesh.vertex_count()); !valid) return valid.error();
+  QueryOptions of_inner = query;
+  of_inner.reach.sparse = false;
+  for (Index& target : of_inner.reach.targets) target = mesh.standing_for(target);
+  auto results = inner_->solve_each(mapped, of_inner, progress);
   if (!results) return results;
-  for (std::size_t i = 0; i < sets.size(); ++i) mapping_->take_back(sets[i], (*results)[i]);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    DistanceResult& result = (*results)[i];
+    mapping_->take_back(sets[i], result);
+    if (query.reach.targets.empty()) {
+      keep_reach(query.reach, result);
+    } else {
+      result.vertices = query.reach.targets;
+    }
+  }
   return results;
 } catch (const std::bad_alloc&) {
   return Error{

@@ -10,6 +10,7 @@
 #include "geotherm/distance_method.h"
 #include "geotherm/types.h"
 #include "solver/core/stopwatch.h"
+#include "solver/method/reach.h"
 #include "solver/method/solve_sets.h"
 
 // What methods in volumes and on grids have in common: their sources, and fast marching there.
@@ -52,6 +53,9 @@ class MarchingMethod : public DistanceMethod {
       result.quality.reached_vertices = count_reached(result.distances);
       result.timing.query = watch.milliseconds();
       if (query.quality) result.quality.eikonal_error_mean = eikonal_error(result.distances);
+      const auto vertices = static_cast<Index>(result.distances.size());
+      if (auto valid = check_reach(query.reach, vertices); !valid) return valid.error();
+      keep_reach(query.reach, result);
       return result;
     };
     return solve_sets(sets, threads_, progress, one);

@@ -2,6 +2,9 @@
 #include "geotherm/path.h"
 
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -148,9 +151,40 @@ std::string place_text(const Vec3& p) {
 
 }  // namespace
 
+/// The answers for the two points that were asked for last.
+struct PathFinder::Recent {
+  using Answer = std::shared_ptr<const DistanceResult>;
+  struct Entry {
+    SurfacePoint source;
+    bool heat = false;
+    Answer answer;
+  };
+
+  /// Null where it is not there.
+  Answer find(const SurfacePoint& source, bool heat) {
+    const std::lock_guard lock(mutex);
+    for (Entry& entry : entries) {
+      if (!entry.answer || !(entry.source == source) || entry.heat != heat) continue;
+      std::swap(entry, entries.front());
+      return entries.front().answer;
+    }
+    return nullptr;
+  }
+  void keep(const SurfacePoint& source, bool heat, Answer answer) {
+    const std::lock_guard lock(mutex);
+    std::swap(entries.front(), entries.back());
+    entries.front() = {source, heat, std::move(answer)};
+  }
+
+  std::mutex mutex;
+  std::array<Entry, 2> entries;  ///< the last one in front
+};
+
 PathFinder::PathFinder(std::shared_ptr<const TriangleMesh> mesh,
                        std::shared_ptr<const DistanceMethod> method)
-    : surface_(std::make_shared<const PathSurface>(std::move(mesh))), method_(std::move(method)) {}
+    : surface_(std::make_shared<const PathSurface>(std::move(mesh))),
+      method_(std::move(method)),
+      recent_(std::make_shared<Recent>()) {}
 
 Result<FoundPath> PathFinder::find(std::span<const SurfacePoint> points, const PathOptions& options,
                                    const Progress& progress) const {
@@ -206,14 +240,19 @@ Result<FoundPath> PathFinder::piece(const SurfacePoint& from, const SurfacePoint
   return found;
 }
 
-Result<DistanceResult> PathFinder::distances(const SurfacePoint& source, bool heat,
-                                             const Progress& progress) const {
+Result<std::shared_ptr<const DistanceResult>> PathFinder::distances(
+    const SurfacePoint& source, bool heat, const Progress& progress) const {
+  if (auto known = recent_->find(source, heat)) return known;
   SourceSet set;
   set.points = {source};
   QueryOptions query;
   query.quality = false;
   query.fields = heat;
-  return method_->solve(set, query, progress);
+  auto solved = method_->solve(set, query, progress);
+  if (!solved) return solved.error();
+  auto answer = std::make_shared<const DistanceResult>(*std::move(solved));
+  recent_->keep(source, heat, answer);
+  return answer;
 }
 
 Result<FoundPath> PathFinder::streamline(const SurfacePoint& from, const SurfacePoint& to,
@@ -227,7 +266,7 @@ Result<FoundPath> PathFinder::streamline(const SurfacePoint& from, const Surface
   if (auto way = edge_path(*surface_, from, to); !way) return way.error();
   const auto solved = distances(from, heat, progress);
   if (!solved) return solved.error();
-  const DescentField down{heat ? solved->log_heat : solved->distances, heat};
+  const DescentField down{heat ? (*solved)->log_heat : (*solved)->distances, heat};
   auto line = trace_streamline(*surface_, down, to, from);
   if (!line) return line.error();
   FoundPath out{reversed(std::move(line->path)), {}};
@@ -247,7 +286,7 @@ Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePo
   if (!there) return there.error();
   const auto back = distances(to, false, part_of(progress, 0.4, 0.8));
   if (!back) return back.error();
-  auto path = search_geodesic(*surface_, {from, to, there->distances, back->distances},
+  auto path = search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances},
                               part_of(progress, 0.8, 1));
   if (!path) return path.error();
   return FoundPath{*std::move(path), {}};

@@ -8,6 +8,7 @@
 #include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/method/reach.h"
 #include "solver/method/solve_sets.h"
 #include "solver/polyhedral/propagation.h"
 
@@ -52,19 +53,27 @@ Result<DistanceResult> ExactMethod::State::solve(const SourceSet& sources, std::
                                                  const Progress& progress) const try {
   const Stopwatch watch;
   if (!report(progress, "solve", 0.0)) return cancelled_error();
+  const Reach& reach = query.reach;
+  if (auto valid = check_reach(reach, surface->base.mesh->vertex_count()); !valid) {
+    return valid.error();
+  }
   const auto seeds = seed_sources(*surface, sources);
   if (!seeds) return seeds.error();
   Propagation windows(mesh, most_bytes);
-  if (auto done = windows.run(*seeds, progress); !done) return done.error();
+  const double radius = reach.max_distance / surface->base.length_unit();
+  auto done = windows.run(*seeds, progress, radius, reach.targets);
+  if (!done) return done.error();
 
   DistanceResult result;
   result.distances.reserve(windows.vertices().size());
   for (const auto& vertex : windows.vertices()) result.distances.push_back(vertex.distance);
-  if (query.quality) assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
+  if (query.quality && !reach.is_bounded())
+    assess_waves(MethodKind::kExact, *surface, sources, *seeds, result);
   for (double& distance : result.distances) distance *= surface->base.length_unit();
   if (query.nearest) {
     for (const auto& vertex : windows.vertices()) result.nearest_source.push_back(vertex.group);
   }
+  keep_reach(reach, result);
   result.timing.query = watch.milliseconds();
   return result;
 } catch (const std::bad_alloc&) {

@@ -3,153 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <new>
-#include <optional>
 #include <queue>
 #include <span>
 #include <vector>
 
 #include "solver/accuracy/check_waves.h"
 #include "solver/core/stopwatch.h"
+#include "solver/method/reach.h"
 #include "solver/method/solve_sets.h"
+#include "solver/polyhedral/march_supports.h"
 #include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {
-
-/// A triangle through which a plane wave may reach `target`: `left` at the origin, `right` at
-/// (base, 0), the target at (x, y), y > 0.
-struct MarchSupport {
-  Index target, left, right;
-  double base, x, y;
-};
-
-/// What fast marching updates from. A corner has one support, its face; an obtuse one, which a wave
-/// may reach before both other corners, has two that are acute: the faces beyond the opposite side
-/// are unfolded until a vertex splits the angle (Kimmel, Sethian 1998, section 4). Where a boundary
-/// or an edge with three faces and more is in the way, the face stays its support.
-struct MarchSupports {
-  std::vector<MarchSupport> all;
-  std::vector<std::size_t> start;  ///< V + 1
-  std::vector<Index> at;           ///< supports whose left or right is the vertex
-
-  std::span<const Index> of(Index vertex) const {
-    return {at.data() + start[vertex], at.data() + start[vertex + 1]};
-  }
-  std::size_t bytes() const;
-};
-
-using Point2 = Eigen::Vector2d;
-
-/// Cosines this near to 0 are right angles, which rounding must not make obtuse in one place and
-/// acute in another: grids are full of them.
-constexpr double kRightAngle = 1e-6;
-/// The maximum number of faces that are unfolded at one corner; on a Delaunay triangulation a few
-/// suffice.
-constexpr int kMaxUnfolded = 50;
-
-/// The corner beyond side `k` of a face, on the left of the way from `start` to `end`, where the
-/// side lies.
-Point2 beyond(const Point2& start, const Point2& end, const std::array<double, 3>& lengths, int k) {
-  const FaceLayout layout =
-      lay_out({lengths[k], lengths[next_corner(k)], lengths[previous_corner(k)]});
-  const Point2 along = (end - start) / layout.base;
-  return start + layout.x * along + layout.height * Point2(-along.y(), along.x());
-}
-
-/// A vertex that splits the angle at a corner, and where it is when the corner is the origin and
-/// the next one (first, 0).
-struct Splitter {
-  Index vertex;
-  Point2 at;
-};
-
-bool is_acute(const Point2& a, const Point2& b) {
-  return a.dot(b) > -kRightAngle * a.norm() * b.norm();
-}
-
-std::optional<Splitter> find_splitter(const IntrinsicMesh& mesh, Side opposite, const Point2& first,
-                                      const Point2& second) {
-  Point2 p = first, q = second;
-  Side side = opposite;
-  for (int i = 0; i < kMaxUnfolded; ++i) {
-    const Side twin = mesh.twin[side];
-    if (twin == kNoSide) return std::nullopt;
-    const Index f = face_of(twin);
-    const int k = corner_of(twin);
-    const Point2 apex = beyond(q, p, mesh.lengths[f], k);
-    const bool near_first = is_acute(apex, first), near_second = is_acute(apex, second);
-    if (near_first && near_second) return Splitter{mesh.faces[f][previous_corner(k)], apex};
-    if (near_second) {
-      side = 3 * f + next_corner(k);
-      q = apex;
-    } else {
-      side = 3 * f + previous_corner(k);
-      p = apex;
-    }
-  }
-  return std::nullopt;
-}
-
-MarchSupport support(Index target, Index left, const Point2& at_left, Index right,
-                     const Point2& at_right) {
-  const Point2 side = at_right - at_left;
-  const double base = side.norm();
-  const Point2 along = side / base;
-  return {target,
-          left,
-          right,
-          base,
-          -at_left.dot(along),
-          at_left.x() * along.y() - at_left.y() * along.x()};
-}
-
-/// The supports of corner k of a face, whose plane has the corner as its origin.
-void add_corner(const IntrinsicMesh& mesh, Index f, int k, std::vector<MarchSupport>& out) {
-  const auto& lengths = mesh.lengths[f];
-  const int next = next_corner(k), previous = previous_corner(k);
-  const FaceLayout layout = lay_out({lengths[k], lengths[next], lengths[previous]});
-  const Point2 first(layout.base, 0), second(layout.x, layout.height);
-  const Index target = mesh.faces[f][k];
-  const Index left = mesh.faces[f][next], right = mesh.faces[f][previous];
-  if (!is_acute(first, second)) {
-    if (const auto splitter = find_splitter(mesh, 3 * f + next, first, second)) {
-      out.push_back(support(target, left, first, splitter->vertex, splitter->at));
-      out.push_back(support(target, splitter->vertex, splitter->at, right, second));
-      return;
-    }
-  }
-  out.push_back(support(target, left, first, right, second));
-}
-
-std::size_t MarchSupports::bytes() const {
-  return all.capacity() * sizeof(MarchSupport) + start.capacity() * sizeof(std::size_t) +
-         at.capacity() * sizeof(Index);
-}
-
-/// Vertices are those of the mesh. Cost: O(F).
-MarchSupports build_march_supports(const WaveSurface& surface) {
-  const IntrinsicMesh& mesh = surface.base.intrinsic;
-  MarchSupports out;
-  out.all.reserve(3 * mesh.faces.size());
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    for (int k = 0; k < 3; ++k) add_corner(mesh, f, k, out.all);
-  }
-  out.start.assign(surface.base.kept->on_surface.size() + 1, 0);
-  for (const MarchSupport& s : out.all) {
-    ++out.start[s.left + 1];
-    ++out.start[s.right + 1];
-  }
-  for (std::size_t v = 1; v < out.start.size(); ++v) out.start[v] += out.start[v - 1];
-  out.at.resize(2 * out.all.size());
-  std::vector<std::size_t> next(out.start.begin(), out.start.end() - 1);
-  for (std::size_t i = 0; i < out.all.size(); ++i) {
-    for (const Index end : {out.all[i].left, out.all[i].right}) {
-      out.at[next[end]++] = static_cast<Index>(i);
-    }
-  }
-  return out;
-}
 
 /// What a query takes at least for each face.
 constexpr double kMarchNanosecondsPerFace = 100;
@@ -159,7 +28,13 @@ constexpr double kRayTolerance = 1e-12;
 /// Accepted vertices between two calls of progress: a few milliseconds.
 constexpr Index kVerticesBetweenCalls = 1 << 13;
 
-/// One march from sources to everywhere; values in units of the intrinsic mesh, above `base`.
+/// How far a march goes.
+struct MarchReach {
+  double radius = kUnreached;        ///< in units of the intrinsic mesh
+  std::span<const Index> targets{};  ///< ends when these have their distance; empty: never
+};
+
+/// Marches from sources, one after another; values in units of the intrinsic mesh, above `base`.
 class March {
  public:
   March(const WaveSurface& surface, const MarchSupports& supports)
@@ -170,11 +45,16 @@ class March {
         accepted_(distance.size(), 0) {}
 
   /// False when `progress` returned false.
-  bool run(const SourceSeeds& seeds, const Progress& progress) {
+  bool run(const SourceSeeds& seeds, const MarchReach& reach, const Progress& progress) {
+    clear();
     seed(seeds);
     Index count = 0;
+    std::size_t has = 0;
     while (!heap_.empty()) {
       const auto [key, vertex] = heap_.top();
+      if (base + key > reach.radius) break;
+      while (has < reach.targets.size() && accepted_[reach.targets[has]]) ++has;
+      if (has == reach.targets.size() && has > 0) break;
       heap_.pop();
       if (accepted_[vertex]) continue;  // accepted before, with a smaller value
       accepted_[vertex] = 1;
@@ -186,7 +66,22 @@ class March {
     return true;
   }
 
+  /// The vertices that have a value; those that are not accepted may have a smaller one.
+  std::span<const Index> touched() const { return touched_; }
+  bool is_accepted(Index vertex) const { return accepted_[vertex] != 0; }
+
  private:
+  /// Forgets the march before. Cost: that of what it touched.
+  void clear() {
+    for (const Index v : touched_) {
+      distance[v] = kUnreached;
+      label[v] = kNoIndex;
+      accepted_[v] = 0;
+    }
+    touched_.clear();
+    heap_ = {};
+  }
+
   void seed(const SourceSeeds& seeds) {
     base = least_offset(seeds);
     for (const auto& vertex : seeds.vertices) {
@@ -220,6 +115,7 @@ class March {
 
   void lower(Index vertex, double candidate, Index group) {
     if (!(candidate < distance[vertex])) return;
+    if (distance[vertex] == kUnreached) touched_.push_back(vertex);
     distance[vertex] = candidate;
     label[vertex] = group;
     heap_.emplace(candidate, vertex);
@@ -237,17 +133,89 @@ class March {
   using Entry = std::pair<double, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap_;
   std::vector<char> accepted_;
+  std::vector<Index> touched_;
 };
 
+/// Marches that are kept between queries that do not go far: a new one clears all of its memory.
+class MarchPool {
+ public:
+  std::unique_ptr<March> take(const WaveSurface& surface, const MarchSupports& supports) {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<March>(surface, supports);
+    auto march = std::move(free_.back());
+    free_.pop_back();
+    return march;
+  }
+  void give(std::unique_ptr<March> march) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(march));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<March>> free_;
+};
+
+/// What is within reach, in model units.
+DistanceResult reached_by(const March& march, const WaveSurface& surface,
+                          const QueryOptions& query) {
+  const Reach& reach = query.reach;
+  DistanceResult result;
+  std::vector<Index> from;
+  if (!reach.targets.empty()) {
+    result.vertices = from = reach.targets;
+  } else {
+    from.assign(march.touched().begin(), march.touched().end());
+    if (reach.sparse) std::ranges::sort(from);
+  }
+  const bool dense = reach.targets.empty() && !reach.sparse;
+  if (dense) result.distances.assign(march.distance.size(), kUnreached);
+  if (dense && query.nearest) result.nearest_source.assign(march.distance.size(), kNoIndex);
+  for (const Index v : from) {
+    const double d = (march.distance[v] + march.base) * surface.base.length_unit();
+    const bool within = march.is_accepted(v) && d <= reach.max_distance;
+    if (dense) {
+      if (!within) continue;
+      result.distances[v] = d;
+      if (query.nearest) result.nearest_source[v] = march.label[v];
+    } else if (within || !reach.targets.empty()) {
+      if (reach.targets.empty()) result.vertices.push_back(v);
+      result.distances.push_back(within ? d : kUnreached);
+      if (query.nearest) result.nearest_source.push_back(within ? march.label[v] : kNoIndex);
+    }
+  }
+  return result;
+}
+
+Result<DistanceResult> solve_near(const WaveSurface& surface, const MarchSupports& supports,
+                                  MarchPool& pool, const SourceSeeds& seeds,
+                                  const QueryOptions& query, const Progress& progress) {
+  constexpr double kMore = 1 + 1e-12;  // rounding must not leave out what is at just this distance
+  const Stopwatch watch;
+  const double radius = query.reach.max_distance * kMore / surface.base.length_unit();
+  auto march = pool.take(surface, supports);
+  const bool done = march->run(seeds, {radius, query.reach.targets}, progress);
+  DistanceResult result;
+  if (done) result = reached_by(*march, surface, query);
+  pool.give(std::move(march));
+  if (!done) return cancelled_error();
+  result.timing.query = watch.milliseconds();
+  return result;
+}
+
 Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports& supports,
-                                 const SourceSet& sources, const QueryOptions& query,
-                                 const Progress& progress) {
+                                 MarchPool& pool, const SourceSet& sources,
+                                 const QueryOptions& query, const Progress& progress) {
   Stopwatch watch;
   if (!report(progress, "solve", 0.0)) return cancelled_error();
+  if (auto valid = check_reach(query.reach, surface.base.mesh->vertex_count()); !valid) {
+    return valid.error();
+  }
   const auto seeds = seed_sources(surface, sources);
   if (!seeds) return seeds.error();
+  if (query.reach.is_bounded()) return solve_near(surface, supports, pool, *seeds, query, progress);
   March march(surface, supports);
-  if (!march.run(*seeds, progress)) return cancelled_error();
+  if (!march.run(*seeds, {}, progress)) return cancelled_error();
   DistanceResult result;
   result.distances = std::move(march.distance);
   for (double& distance : result.distances) distance += march.base;
@@ -256,6 +224,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
   if (query.quality) assess_waves(MethodKind::kFastMarching, surface, sources, *seeds, result);
   watch.lap();
   for (double& distance : result.distances) distance *= surface.base.length_unit();
+  if (query.reach.sparse) keep_reach(query.reach, result);
   result.timing.query += watch.lap();
   return result;
 }
@@ -265,6 +234,7 @@ Result<DistanceResult> solve_one(const WaveSurface& surface, const MarchSupports
 struct FastMarchingMethod::State {
   std::shared_ptr<const WaveSurface> surface;
   MarchSupports supports;
+  mutable MarchPool pool;
   SetThreads threads;
   SetupTiming timing;
 };
@@ -295,10 +265,10 @@ Result<std::shared_ptr<const FastMarchingMethod>> FastMarchingMethod::build(
 Result<std::vector<DistanceResult>> FastMarchingMethod::solve_each(std::span<const SourceSet> sets,
                                                                    const QueryOptions& query,
                                                                    const Progress& progress) const {
-  return solve_sets(sets, state_->threads, progress,
-                    [&](const SourceSet& sources, const Progress& part) {
-                      return solve_one(*state_->surface, state_->supports, sources, query, part);
-                    });
+  return solve_sets(
+      sets, state_->threads, progress, [&](const SourceSet& sources, const Progress& part) {
+        return solve_one(*state_->surface, state_->supports, state_->pool, sources, query, part);
+      });
 }
 
 const SetupTiming& FastMarchingMethod::timing() const { return state_->timing; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "solver/core/text.h"
@@ -50,8 +51,16 @@ Propagation::Propagation(const WindowMesh& mesh, std::size_t most_bytes)
       waiting_(leaders_.size(), nullptr),
       at_branches_(static_cast<std::size_t>(mesh.branch_count())) {}
 
-Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress) {
+void Propagation::follow_directions(const StartDirections& starts) {
+  starts_ = &starts;
+  directions_.assign(vertices_.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress, double radius,
+                              std::span<const Index> targets) {
   const double base = least_offset(seeds);
+  radius_ = radius - base;
+  targets_ = targets;
   seed(seeds, base);
   if (auto fine = spread(progress); !fine) return fine;
   for (VertexState& state : vertices_) state.distance += base;
@@ -61,19 +70,32 @@ Result<void> Propagation::run(const SourceSeeds& seeds, const Progress& progress
 void Propagation::seed(const SourceSeeds& seeds, double base) {
   for (const auto& seed : seeds.vertices) {
     reach(seed.vertex, seed.offset - base, seed.group, true);
+    if (starts_) directions_[static_cast<std::size_t>(seed.vertex)] = 0;
   }
-  for (SourceSeeds::Piece piece : seeds.pieces) {
+  for (std::size_t i = 0; i < seeds.pieces.size(); ++i) {
+    SourceSeeds::Piece piece = seeds.pieces[i];
     piece.offset -= base;
     if (piece.from == piece.to) {
-      seed_point(piece);
+      seed_point(piece, starts_ ? &starts_->of_piece[i] : nullptr);
     } else {
       seed_segment(piece);
     }
   }
 }
 
+/// Whether no window that is left can be the nearest to what is asked for. A window finds nothing
+/// below its key, and hands on nothing with a smaller one, but for rounding.
+bool Propagation::has_all() {
+  constexpr double kLess = 1 - 1e-9;
+  const double least = queue_.least_key() * kLess;
+  if (least > radius_) return true;
+  while (has_ < targets_.size() && distance_at(targets_[has_]) < least) ++has_;
+  return has_ == targets_.size() && has_ > 0;
+}
+
 Result<void> Propagation::spread(const Progress& progress) {
   while (const Window* next = queue_.pop()) {
+    if (has_all()) return {};
     const Window window = *next;
     if (window.side < 0) {
       send_from(~window.side, window.sigma, window.group());
@@ -117,28 +139,46 @@ Result<void> Propagation::check(const Progress& progress) {
   return {};
 }
 
-void Propagation::reach(Index vertex, double distance, Index group, bool send_anyway) {
+/// Whether the vertex had no distance as small before.
+bool Propagation::reach(Index vertex, double distance, Index group, bool send_anyway) {
   VertexState& state = vertices_[static_cast<std::size_t>(vertex)];
-  if (distance >= state.distance) return;
+  if (distance >= state.distance) return false;
   if (state.distance == kUnreached) ++reached_;
   state.distance = distance;
   state.group = group;
-  if (!send_anyway && !mesh_.sends(vertex)) return;
-  if (distance >= state.sent * (1 - kTie)) return;
+  if (!send_anyway && !mesh_.sends(vertex)) return true;
+  if (distance >= state.sent * (1 - kTie)) return true;
   state.sent = distance;
   queue_.push({0, 0, 0, 0, distance, ~vertex, Window::label_of(group)}, distance, true);
+  return true;
+}
+
+/// The same by a path whose first piece is the window's line through (x, y).
+void Propagation::reach_by(const Window& window, Index vertex, double x, double y,
+                           double distance) {
+  if (!reach(vertex, distance, window.group()) || !starts_) return;
+  directions_[static_cast<std::size_t>(vertex)] = window.start_direction_to(x, y);
 }
 
 void Propagation::send_from(Index vertex, double distance, Index group) {
   if (vertices_[static_cast<std::size_t>(vertex)].sent != distance)
     return;  // a later one is queued
-  for (const Side side : mesh_.opposite_sides(vertex)) {
+  const auto sides = mesh_.opposite_sides(vertex);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side side = sides[i];
     const auto& frame = mesh_.side(side);
     const auto& next = mesh_.side(next_side(side));
-    reach(frame.origin, distance + mesh_.side(previous_side(side)).length, group);
-    reach(next.origin, distance + next.length, group);
-    const Window window{0,        frame.length, frame.apex_x,           -frame.apex_y,
-                        distance, side,         Window::label_of(group)};
+    Window window{0,        frame.length, frame.apex_x,           -frame.apex_y,
+                  distance, side,         Window::label_of(group)};
+    if (starts_ && starts_->vertex == vertex) {
+      window.turn = starts_->of_opposite[i].turn;
+      if (starts_->of_opposite[i].mirrored) window.mirror_start();
+    } else if (starts_) {
+      window.turn = directions_[static_cast<std::size_t>(vertex)];
+      window.label |= Window::kBent;
+    }
+    reach_by(window, frame.origin, 0, 0, distance + mesh_.side(previous_side(side)).length);
+    reach_by(window, next.origin, frame.length, 0, distance + next.length);
     cross(side, window, false);
   }
 }
@@ -157,7 +197,10 @@ void Propagation::cross(Side side, Window window, bool against) {
   mesh_.for_each_across(side, [&](Side other, bool opposite) {
     Window child = window;
     child.side = other;
-    if (opposite != against) child.reverse(frame.length);
+    if (opposite != against) {
+      child.reverse(frame.length);
+      if (starts_) child.reverse_start();
+    }
     if (!merges_with_waiting(child, frame.length)) {
       const bool fine = std::min(frame.length, mesh_.side(other).apex_y) < kFine;
       waiting_[static_cast<std::size_t>(other)] = queue_.push(child, key, fine);
@@ -214,13 +257,14 @@ void Propagation::follow(Window window) {
   Passage passage{!(left_of_begin > 0), !(left_of_end < 0)};
   const bool meets_apex = passage.left && passage.right;
   if (meets_apex) {
-    reach(apex, window.distance_to(frame.apex_x, frame.apex_y), window.group());
+    reach_by(window, apex, frame.apex_x, frame.apex_y,
+             window.distance_to(frame.apex_x, frame.apex_y));
   } else {
     // The way along the outermost line, and then straight on from the side, exists as well. It is
     // what finds corners that stand in the gap of rounding between two windows.
     const double at = passage.left ? window.end : window.begin;
     const double rest = std::hypot(frame.apex_x - at, frame.apex_y);
-    reach(apex, window.distance_at(at) + rest, window.group());
+    reach_by(window, apex, at, 0, window.distance_at(at) + rest);
   }
   if (!yield_to_leader(window, frame.length, frame.apex_x, frame.apex_y,
                        leaders_[static_cast<std::size_t>(window.side)], passage)) {
@@ -250,6 +294,7 @@ void Propagation::send_left(const Window& w, bool from_apex) {
   child.x = w.x * ex + w.y * ey;
   child.y = w.y * ex - w.x * ey;
   child.y = w.is_plane() ? std::max(child.y, 0.0) : std::min(child.y, 0.0);
+  if (starts_) child.rotate_start(std::atan2(ey, ex));
   cross(side, child, true);
 }
 
@@ -275,6 +320,10 @@ void Propagation::send_right(const Window& w, bool from_apex) {
   child.y = dx * ey - w.y * ex;
   child.y = w.is_plane() ? std::max(child.y, 0.0) : std::min(child.y, 0.0);
   if (w.is_plane()) child.sigma += w.x * frame.length;
+  if (starts_) {
+    child.rotate_start(std::atan2(ey, ex));
+    child.mirror_start();
+  }
   cross(side, child, false);
 }
 

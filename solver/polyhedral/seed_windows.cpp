@@ -36,18 +36,28 @@ void keep_above_zero(double lower, double slope, double& begin, double& end) {
 
 }  // namespace
 
-void Propagation::seed_point(const SourceSeeds::Piece& piece) {
+void Propagation::seed_point(const SourceSeeds::Piece& piece, const StartDirections::Turn* turn) {
   const auto corners = corners_of(mesh_, piece.face);
   for (int k = 0; k < 3; ++k) {
     const Side side = 3 * piece.face + k;
     const auto& frame = mesh_.side(side);
-    reach(frame.origin, piece.offset + (piece.from - corners[k]).norm(), piece.group);
     const SideAxes axes(corners, k, frame.length);
     const Point2 to = piece.from - axes.origin;
-    cross(side,
-          {0, frame.length, to.dot(axes.along), std::min(-to.dot(axes.inward), 0.0), piece.offset,
-           side, Window::label_of(piece.group, Window::kFromFace)},
-          false);
+    Window window{0,
+                  frame.length,
+                  to.dot(axes.along),
+                  std::min(-to.dot(axes.inward), 0.0),
+                  piece.offset,
+                  side,
+                  Window::label_of(piece.group, Window::kFromFace)};
+    if (turn) {
+      window.turn = turn->turn;
+      if (turn->mirrored) window.mirror_start();
+      window.rotate_start(std::atan2(axes.along.y(), axes.along.x()));
+      window.mirror_start();
+    }
+    reach_by(window, frame.origin, 0, 0, piece.offset + (piece.from - corners[k]).norm());
+    cross(side, window, false);
   }
 }
 

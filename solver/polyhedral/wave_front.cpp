@@ -16,6 +16,10 @@ constexpr std::int64_t kMinBuckets = 64;
 /// edge further ahead.
 constexpr double kBucketWidth = 0.5;
 constexpr double kRingSpan = 4;
+/// What lies this far behind the front, in longest sides of the faces that were crossed, has its
+/// final distance. Values lag behind the front by up to a side where a wave has to wait for the far
+/// end of an edge, and by as much again where that was known too large at first.
+constexpr double kSettled = 4;
 /// Visits between two calls of progress: a few milliseconds.
 constexpr std::size_t kVisitsBetweenCalls = 1 << 14;
 /// A wave ends as kEndless after so many visits for each edge, and at least so many in all. Broken
@@ -44,6 +48,8 @@ void BucketRing::begin(WavePass& pass) {
   pass.current = -1;
   pass.waiting = 0;
   pass.per_length = per_length_;
+  pass.floor = -kUnreached;
+  pass.longest = 0;
   pass.place = 0;
   pass.context = this;
   pass.grow = [](void* ring, WaveBucket& bucket) { static_cast<BucketRing*>(ring)->grow(bucket); };
@@ -57,6 +63,8 @@ void BucketRing::add_seeds(const std::vector<std::pair<double, Index>>& seeds) {
 }
 
 bool BucketRing::advance(WavePass& pass) {
+  const double front = static_cast<double>(pass.current) / per_length_;
+  pass.floor = std::max(pass.floor, front - kSettled * pass.longest);
   ++pass.current;
   if (pass.waiting == 0) {
     if (let_in_ == outside_.size()) return false;
@@ -105,14 +113,15 @@ WaveFront::WaveFront(const WaveTables& tables, WaveFront&& spare)
 }
 
 WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-                                  const Progress& progress) {
+                                  const Progress& progress, const WaveReach& reach) {
   reset(labels);
   WavePass pass = this->pass();
   ring_.begin(pass);
   seed(surface, seeds);
+  has_ = 0;
   const auto edges = static_cast<std::size_t>(tables_.edge_count());
   std::size_t next_call = kVisitsBetweenCalls;
-  while (ring_.advance(pass)) {
+  while (ring_.advance(pass) && !has_all(pass, reach)) {
     do {
       visits_ += visit_current_bucket(pass, samples_, kVisitsBetweenCalls, set_);
       if (visits_ < next_call) continue;
@@ -125,7 +134,77 @@ WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds&
   return Outcome::kDone;
 }
 
+/// Whether no later visit can change what is within reach.
+bool WaveFront::has_all(const WavePass& pass, const WaveReach& reach) {
+  if (!reach.is_bounded()) return false;
+  if (base_ + pass.floor > reach.radius) return true;
+  if (reach.ranks.empty()) return false;
+  while (has_ < reach.ranks.size() && distance_[reach.ranks[has_]] <= pass.floor) ++has_;
+  return has_ == reach.ranks.size();
+}
+
+/// False where it has no value.
+bool WaveFront::take_corner(Index rank, std::vector<Reached>& out) {
+  if (distance_[rank] == kUnreached) return false;
+  out.push_back({rank, distance_[rank], label_.empty() ? kNoIndex : label_[rank]});
+  distance_[rank] = spread_below_[rank] = kUnreached;
+  if (!label_.empty()) label_[rank] = kNoIndex;
+  return true;
+}
+
+/// False where it has no value.
+bool WaveFront::clear_edge(Index edge) {
+  const auto first = static_cast<std::size_t>(samples_) * static_cast<std::size_t>(edge);
+  if (sample_[first] == kUnreached) return false;
+  for (std::size_t i = first; i < first + static_cast<std::size_t>(samples_); ++i) {
+    sample_[i] = kUnreached;
+    if (!sample_label_.empty()) sample_label_[i] = kNoIndex;
+  }
+  queued_[edge] = 0;
+  return true;
+}
+
+/// Walks from the seeds over the edges that have values: all those of a face that was crossed, and
+/// from fan to fan where a vertex has handed its distance on by itself.
+std::vector<WaveFront::Reached> WaveFront::take_reached() {
+  std::vector<Reached> out;
+  std::vector<Index> edges;
+  const auto add = [&](Index edge) {
+    if (clear_edge(edge)) edges.push_back(edge);
+  };
+  const auto add_face = [&](SideCode code) {
+    const WaveFace& face = tables_.faces[face_of_code(code)];
+    for (int k = 0; k < 3; ++k) {
+      add(face.edge[k]);
+      if (!take_corner(face.vertex[k], out) || (face.touching >> k & 1U) == 0) continue;
+      for (const SideCode corner : tables_.corners_at(face.vertex[k])) {
+        for (const Index edge : tables_.faces[face_of_code(corner)].edge) add(edge);
+      }
+    }
+  };
+  for (const auto& [key, edge] : keys_) add(edge);
+  while (!edges.empty()) {
+    const auto& sides = tables_.sides[edges.back()];
+    edges.pop_back();
+    add_face(sides[0]);
+    if (sides[1] >= 0) {
+      add_face(sides[1]);
+    } else if (sides[1] != kNoSideCode) {
+      const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
+      for (SideCode i = 1; i <= list[0]; ++i) add_face(list[i]);
+    }
+  }
+  clean_ = true;
+  return out;
+}
+
 void WaveFront::reset(bool labels) {
+  visits_ = 0;
+  if (clean_ && labels != label_.empty()) {
+    clean_ = false;
+    return;
+  }
+  clean_ = false;
   const auto vertices = static_cast<std::size_t>(tables_.vertex_count());
   const auto edges = static_cast<std::size_t>(tables_.edge_count());
   const std::size_t samples = edges * static_cast<std::size_t>(samples_);
@@ -133,7 +212,6 @@ void WaveFront::reset(bool labels) {
   sample_.assign(samples, kUnreached);
   queued_.assign(edges, 0);
   spread_below_.assign(vertices, kUnreached);
-  visits_ = 0;
   label_.assign(labels ? vertices : 0, kNoIndex);
   sample_label_.assign(labels ? samples : 0, kNoIndex);
 }

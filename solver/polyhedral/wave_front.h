@@ -43,8 +43,14 @@ class BucketRing {
   std::size_t let_in_ = 0;                               ///< of `outside_`, so many are in
 };
 
-/// Runs one wave at a time from sources over the whole surface, and keeps its memory for the next
-/// one.
+/// How far a wave runs. Lengths in units of the intrinsic mesh.
+struct WaveReach {
+  double radius = kUnreached;      ///< what is farther need not have its distance
+  std::span<const Index> ranks{};  ///< ends when these have theirs; empty: all within the radius
+  bool is_bounded() const { return radius < kUnreached || !ranks.empty(); }
+};
+
+/// Runs one wave at a time from sources over the surface, and keeps its memory for the next one.
 class WaveFront {
  public:
   /// Keeps a reference. `samples`: 1 or 3 on each edge.
@@ -59,12 +65,24 @@ class WaveFront {
     kEndless,    ///< distances still fell after hundreds of visits of each edge
   };
 
-  /// Runs the wave.
+  /// Runs the wave. Where the reach is bounded, what lies within has the bits of a wave that is
+  /// not; cost: O(n) once, and after that O(what was reached), if take_reached() follows.
   Outcome run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
-              const Progress& progress);
+              const Progress& progress, const WaveReach& reach = {});
+
+  /// A vertex that a wave has reached, with what distances() and labels() say.
+  struct Reached {
+    Index rank;
+    double distance;
+    Index label;  ///< kNoIndex where nobody asked
+  };
+  /// After run(): all of them, in no order. The front is as if it had never run.
+  std::vector<Reached> take_reached();
 
   /// After run(), by rank, in units of the intrinsic mesh; kUnreached where no source can be.
   std::span<const double> distances() const { return distance_; }
+  /// Whether the next run need not clear the values first.
+  bool is_clean() const { return clean_; }
   /// Groups of the nearest sources, when labels were asked for.
   std::span<const Index> labels() const { return label_; }
   /// The least of the distances at an edge's ends and samples, in the same units.
@@ -78,6 +96,9 @@ class WaveFront {
   using Keys = std::vector<std::pair<double, Index>>;
 
   void reset(bool labels);
+  bool has_all(const WavePass& pass, const WaveReach& reach);
+  bool take_corner(Index rank, std::vector<Reached>& out);
+  bool clear_edge(Index edge);
   void seed(const WaveSurface& surface, const SourceSeeds& seeds);
   void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
   void lower(double& value, Index* label, double candidate, Index group);
@@ -93,6 +114,8 @@ class WaveFront {
   std::vector<double> spread_below_;
   Keys keys_;
   double base_ = 0;
+  std::size_t has_ = 0;  ///< so many of WaveReach::ranks have their final distance
+  bool clean_ = false;   ///< all values are as reset() leaves them
   std::size_t visits_ = 0;
 };
 

@@ -31,6 +31,8 @@ struct WavePass {
   Index* sample_label;   ///< E x samples
   std::uint8_t* queued;  ///< E
   double* spread_below;  ///< n: a touching vertex spreads again when it falls below this
+  double floor;          ///< no value is set below this: what lies there has its final value
+  double longest;        ///< side of the faces that were crossed so far
 
   WaveBucket* buckets;  ///< a ring of bucket_mask + 1
   std::int64_t bucket_mask;

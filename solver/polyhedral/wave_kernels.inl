@@ -94,12 +94,12 @@ class Wave {
   Front<Samples> front_of(Index edge, Index va, Index vb, double length) {
     double& a = p_.distance[va];
     double& b = p_.distance[vb];
-    if (b > a + length) {
-      b = a + length;
+    if (const double from_a = most(a + length, p_.floor); b > from_a) {
+      b = from_a;
       if constexpr (Labels) p_.label[vb] = p_.label[va];
     }
-    if (a > b + length) {
-      a = b + length;
+    if (const double from_b = most(b + length, p_.floor); a > from_b) {
+      a = from_b;
       if constexpr (Labels) p_.label[va] = p_.label[vb];
     }
     Front<Samples> front;
@@ -147,9 +147,8 @@ class Wave {
       const Values x = opposite * cx + load<Values>(Goals::kEdge + i) * half, y = opposite * cy;
       store(arrival<kWidth>(front, half, x, y, nearer), values + i);
     }
-    if (cy < kThin * length) {
-      for (double& value : values) value = most(value, nearer);
-    }
+    const double least_value = cy < kThin * length ? most(nearer, p_.floor) : p_.floor;
+    for (double& value : values) value = most(value, least_value);
     Index labels[Goals::kLanes] = {};
     if constexpr (Labels) {
       for (int i = 0; i < 1 + 2 * Samples; ++i) {
@@ -158,7 +157,8 @@ class Wave {
       }
     }
 
-    const double notice = kNotice * most(length, most(to_a, to_b));
+    const double longest = most(length, most(to_a, to_b)), notice = kNotice * longest;
+    p_.longest = most(p_.longest, longest);
     const bool vertex_fell = lower_vertex(vc, values[0], labels[0], notice);
     const double dc = p_.distance[vc];
     lower_samples(face, previous, values + 1, labels + 1, notice, vertex_fell, most(dc, front.a));
@@ -179,11 +179,11 @@ class Wave {
       const Index label = Labels ? p_.label[vertex] : kNoIndex;
       Front<Samples> front{};
       front.a = p_.distance[vertex];
-      front.b = front.a + face.length[k];
+      front.b = most(front.a + face.length[k], p_.floor);
       front.label_a = front.label_b = label;
       double values[Samples];
       for (int j = 0; j < Samples; ++j) {
-        values[j] = front.a + face.length[k] * (j + 1) / (Samples + 1);
+        values[j] = most(front.a + face.length[k] * (j + 1) / (Samples + 1), p_.floor);
         front.labels[j] = label;
       }
       for (Fit& fit : front.fits) fit.middle = fit.right = kFar;

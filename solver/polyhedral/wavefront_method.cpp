@@ -9,6 +9,7 @@
 #include "solver/accuracy/check_waves.h"
 #include "solver/core/parallel.h"
 #include "solver/core/stopwatch.h"
+#include "solver/method/reach.h"
 #include "solver/method/solve_sets.h"
 #include "solver/polyhedral/wave_front.h"
 
@@ -26,14 +27,17 @@ class FrontPool {
  public:
   FrontPool(const WaveTables& tables, int samples) : tables_(tables), samples_(samples) {}
 
-  std::unique_ptr<WaveFront> take() {
-    if (auto front = take_spare()) return front;
+  /// `clean`: rather one that needs no clearing than one that does, or the other way round.
+  std::unique_ptr<WaveFront> take(bool clean) {
+    if (auto front = take_spare(clean)) return front;
     return std::make_unique<WaveFront>(tables_, samples_);
   }
   /// Null where none is free.
-  std::unique_ptr<WaveFront> take_spare() {
+  std::unique_ptr<WaveFront> take_spare(bool clean) {
     const std::lock_guard lock(mutex_);
     if (free_.empty()) return nullptr;
+    const auto fits = std::ranges::find(free_, clean, [](const auto& f) { return f->is_clean(); });
+    std::swap(fits == free_.end() ? free_.back() : *fits, free_.back());
     auto front = std::move(free_.back());
     free_.pop_back();
     return front;
@@ -65,7 +69,9 @@ struct WavefrontMethod::State {
   }
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query,
                                const Progress& progress) const;
+  WaveReach wave_reach(const Reach& reach, std::vector<Index>& ranks) const;
   void copy_out(const WaveFront& front, bool labels, DistanceResult& result) const;
+  void copy_reached(WaveFront& front, const QueryOptions& query, DistanceResult& result) const;
 };
 
 Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
@@ -73,13 +79,25 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                                                      const Progress& progress) const {
   Stopwatch watch;
   if (!report(progress, "solve", 0.0)) return cancelled_error();
+  if (auto valid = check_reach(query.reach, surface->base.mesh->vertex_count()); !valid) {
+    return valid.error();
+  }
   const auto seeds = seed_sources(*surface, sources);
   if (!seeds) return seeds.error();
   DistanceResult result;
-  auto front = pool->take();
-  const WaveFront::Outcome outcome = front->run(*surface, *seeds, query.nearest, progress);
+  std::vector<Index> ranks;
+  const WaveReach reach = wave_reach(query.reach, ranks);
+  const bool bounded = query.reach.is_bounded();
+  auto front = pool->take(bounded);
+  const WaveFront::Outcome outcome = front->run(*surface, *seeds, query.nearest, progress, reach);
   const std::size_t visits = front->visits();
-  if (outcome == WaveFront::Outcome::kDone) copy_out(*front, query.nearest, result);
+  if (outcome == WaveFront::Outcome::kDone) {
+    if (bounded) {
+      copy_reached(*front, query, result);
+    } else {
+      copy_out(*front, query.nearest, result);
+    }
+  }
   pool->give(std::move(front));
   if (outcome == WaveFront::Outcome::kCancelled) return cancelled_error();
   if (outcome == WaveFront::Outcome::kEndless) {
@@ -89,14 +107,71 @@ Result<DistanceResult> WavefrontMethod::State::solve(const SourceSet& sources,
                  {"use ", SettingHint{"method", {"exact", "heat"}}}};
   }
   result.timing.query = watch.lap();
+  if (bounded) return result;
   if (query.quality) assess_waves(kind(), *surface, sources, *seeds, result);
   watch.lap();
   const auto own = static_cast<std::size_t>(surface->base.mesh->vertex_count());
   result.distances.resize(own);
   if (query.nearest) result.nearest_source.resize(own);
   for (double& distance : result.distances) distance *= surface->base.length_unit();
+  if (query.reach.sparse) keep_reach(query.reach, result);
   result.timing.query += watch.lap();
   return result;
+}
+
+/// `ranks`: the memory of the targets' ones.
+WaveReach WavefrontMethod::State::wave_reach(const Reach& reach, std::vector<Index>& ranks) const {
+  // Rounding must not end a wave before a vertex at just this distance.
+  constexpr double kMore = 1 + 1e-12;
+  for (const Index v : reach.targets) {
+    if (const Index rank = tables.rank_of_vertex[v]; rank != kNoIndex) ranks.push_back(rank);
+  }
+  return {reach.max_distance * kMore / surface->base.length_unit(), ranks};
+}
+
+/// What is within reach, in model units. Cost: that of what was reached, and where the answer is
+/// neither sparse nor of targets one pass over the vertices.
+void WavefrontMethod::State::copy_reached(WaveFront& front, const QueryOptions& query,
+                                          DistanceResult& result) const {
+  const Reach& reach = query.reach;
+  const double unit = surface->base.length_unit();
+  const auto own = surface->base.mesh->vertex_count();
+  const std::vector<Index>& targets = reach.targets;
+  if (!targets.empty()) {  // before the front lets go of them
+    result.vertices = targets;
+    for (const Index v : targets) {
+      const Index rank = tables.rank_of_vertex[v];
+      const double d = rank == kNoIndex ? kUnreached : front.distances()[rank];
+      const double there = (std::max(d, 0.0) + front.base()) * unit;
+      const bool within = there <= reach.max_distance && there < kUnreached;
+      result.distances.push_back(within ? there : kUnreached);
+      if (query.nearest) {
+        result.nearest_source.push_back(within ? front.labels()[rank] : kNoIndex);
+      }
+    }
+  }
+  std::vector<WaveFront::Reached> reached = front.take_reached();
+  if (!targets.empty()) return;
+  std::erase_if(reached, [&](WaveFront::Reached& each) {
+    each.rank = tables.vertex_of_rank[each.rank];
+    each.distance = (std::max(each.distance, 0.0) + front.base()) * unit;
+    return each.rank >= own || !(each.distance <= reach.max_distance);
+  });
+  if (reach.sparse) {
+    std::ranges::sort(reached, {}, &WaveFront::Reached::rank);
+    for (const auto& each : reached) {
+      result.vertices.push_back(each.rank);
+      result.distances.push_back(each.distance);
+      if (query.nearest) result.nearest_source.push_back(each.label);
+    }
+    return;
+  }
+  result.distances.assign(static_cast<std::size_t>(own), kUnreached);
+  if (query.nearest) result.nearest_source.assign(static_cast<std::size_t>(own), kNoIndex);
+  for (const auto& each : reached) {
+    result.distances[each.rank] = each.distance;
+    if (query.nearest) result.nearest_source[each.rank] = each.label;
+  }
 }
 
 /// In the order of the file, inserted vertices last, still in units of the intrinsic mesh.
@@ -137,7 +212,7 @@ Result<std::shared_ptr<const WavefrontMethod>> WavefrontMethod::build(
                                 : build_wave_tables(*state->surface, worth);
     state->pool = std::make_unique<FrontPool>(state->tables, samples == Samples::kMidpoint ? 1 : 3);
     if (same_tables && before->samples == samples) {
-      if (auto spare = before->pool->take_spare()) {
+      if (auto spare = before->pool->take_spare(false)) {
         state->pool->give(std::make_unique<WaveFront>(state->tables, std::move(*spare)));
       }
     }

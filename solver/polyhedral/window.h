@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "geotherm/types.h"
 #include "solver/mesh/connectivity.h"
@@ -19,18 +20,21 @@ struct Window {
   double x, y;
   double sigma;
   Side side;           ///< or ~vertex: an event, the vertex sends windows of its own from sigma
-  std::int32_t label;  ///< 16 group + flags
+  std::int32_t label;  ///< 64 group + flags
+  double turn = 0;     ///< start_direction_to(), where start directions are followed
 
   static constexpr std::int32_t kPlane = 1;
   static constexpr std::int32_t kFromFace = 2;  ///< from a point that is no vertex
   static constexpr std::int32_t kBranched = 4;  ///< over an edge with three faces or more
 
-  static constexpr std::int32_t kMerged = 8;  ///< over flat vertices
+  static constexpr std::int32_t kMerged = 8;     ///< over flat vertices
+  static constexpr std::int32_t kMirrored = 16;  ///< start directions fall as those of lines rise
+  static constexpr std::int32_t kBent = 32;      ///< round a vertex: all start as `turn` says
 
   bool is(std::int32_t flag) const { return (label & flag) != 0; }
   bool is_plane() const { return is(kPlane); }
-  Index group() const { return label >> 4; }
-  static std::int32_t label_of(Index group, std::int32_t flags = 0) { return 16 * group + flags; }
+  Index group() const { return label >> 6; }
+  static std::int32_t label_of(Index group, std::int32_t flags = 0) { return 64 * group + flags; }
 
   double distance_to(double px, double py) const {
     if (is_plane()) return sigma + x * px + y * py;
@@ -42,6 +46,24 @@ struct Window {
   /// A multiple of the direction in which the line through (px, 0) enters the face.
   double ray_x(double px) const { return is_plane() ? x : px - x; }
   double ray_y() const { return is_plane() ? y : -y; }
+
+  /// The direction at the source in which the line to a point ahead leaves it, radians: `turn` plus
+  /// or minus the angle of the line in this frame. Not of plane waves.
+  double start_direction_to(double px, double py) const {
+    if (is(kBent)) return turn;
+    const double angle = std::atan2(py - y, px - x);
+    return is(kMirrored) ? turn - angle : turn + angle;
+  }
+  /// What is to be done beside a rotation of the frame by `angle`, a reflection of its second axis,
+  /// and reverse(), so that start directions stay what they are.
+  void rotate_start(double angle) {
+    if (!is(kBent)) turn += is(kMirrored) ? -angle : angle;
+  }
+  void mirror_start() { label ^= kMirrored; }
+  void reverse_start() {
+    rotate_start(std::numbers::pi);
+    mirror_start();
+  }
 
   /// The smallest distance in the window, and where along the side.
   double nearest_place() const {

@@ -30,6 +30,10 @@ class WindowQueue {
   /// The next window, valid until something is pushed; nullptr when none is left.
   const Window* pop();
 
+  /// No window that is left, and none that is pushed with a key of its own or more than that, has a
+  /// key below this, but for rounding.
+  double least_key() const { return base_ + static_cast<double>(present_) / inverse_width_; }
+
   std::size_t size() const { return size_; }
   std::size_t bytes() const;
 

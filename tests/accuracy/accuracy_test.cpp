@@ -41,7 +41,7 @@ Distances straight_lines(const TriangleMesh& mesh, Index from) {
   return out;
 }
 
-TEST(AccuracyTest, MeasuresWhatIsKnownOnThePlane) {
+TEST(AccuracyTest, MeasuresWhatIsKnownOnThePlaneSlow) {
   constexpr Index kCells = 40;
   const MeshPtr mesh = finish(plane_grid(kCells, kCells, 1, 1));
   const Index middle = grid_vertex(kCells, kCells / 2, kCells / 2);
@@ -58,7 +58,7 @@ TEST(AccuracyTest, MeasuresWhatIsKnownOnThePlane) {
   EXPECT_EQ(report->grade, grade_of(known));
 }
 
-TEST(AccuracyTest, AFewGrosslyWrongVerticesArePoorWhateverTheMean) {
+TEST(AccuracyTest, AFewGrosslyWrongVerticesArePoorWhateverTheMeanSlow) {
   const MeshPtr mesh = finish(sphere(4));
   Asked asked = ask(mesh, {}, {0});
   auto before = check_accuracy(mesh, asked.answers());
@@ -97,7 +97,7 @@ TEST(AccuracyTest, SeveralSetsHaveTheMeanOfTheMeansAndTheLargestOfAny) {
   EXPECT_EQ(joint->sets, 2U);
 }
 
-TEST(AccuracyTest, APoorAnswerNamesACureThatGivesWhatItSays) {
+TEST(AccuracyTest, APoorAnswerNamesACureThatGivesWhatItSaysSlow) {
   constexpr Index kFaces = 4000;
   const auto mesh = std::make_shared<const TriangleMesh>(*generate_model("bunny", kFaces));
   MethodOptions options;

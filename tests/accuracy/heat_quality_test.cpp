@@ -44,7 +44,7 @@ TEST_P(QualityFigures, AreGoodOnGoodMeshes) {
   EXPECT_GT(q.eikonal_error_mean, 0);
   EXPECT_LE(q.eikonal_error_mean, kSlopeError);
   EXPECT_EQ(q.iterations_heat > 0, iterative);
-  EXPECT_EQ(q.iterations_poisson > 0, iterative);
+  EXPECT_EQ(q.iterations_poisson > 0, iterative || backend == "petsc");  // that of Poisson alone
   EXPECT_TRUE(result.warnings.empty()) << sentence(result.warnings.front());
 }
 
@@ -115,7 +115,7 @@ TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
   }
 }
 
-TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLine) {
+TEST_F(QualityResponds, DistancesWithoutHeatAreBelowTheStraightLineSlow) {
   const AddedBackend noisy(faulty_backend(Fault::kNoise, {}));
   const MeshPtr plane = finish(plane_grid(60, 60, 60, 60));
   for (const bool noise : {false, true}) {

@@ -26,6 +26,8 @@ report curve solve bunny -s curve:0,9 -s 5
 report tets solve ball.mesh -s xyz:0:0:0
 report poor solve poor.ply -s 0
 report each solve bunny -s random:5 --each -o rows.npy
+report near solve bunny -s 17 --method wavefront --max-distance 0.3 --target 5,900
+report sparse solve bunny -s random:5 --each --method wavefront --max-distance 0.3 -o rows.npz
 report pairs solve bunny -s 3,9,40 --pairs -o pairs.csv
 report sequence solve bunny -s 0 --sequence waving.npy -o frames.npy
 report info info bunny
@@ -37,9 +39,16 @@ report path path bunny --from 0 --to 99
 report tree path bunny --from face:3:0.2:0.3:0.5 --to 99 --to 300
 report streamline path bunny --from 0 --to 99 --field distance
 report isolines isolines bunny -s 0 --count 5 -o lines.csv
+report log_map logmap bunny -s 17
+report trace trace bunny --from 17 --fan 3 --length 1
+report transport transport bunny --vector 17:1:0
+report extend extend bunny --value 17:1 --value 99:2
+report signed signed bunny --through 17 --through 900 --through 1500 --closed
 report sample sample bunny -n 5 -o samples.ply
 report backends backends
 report models models
+report batch batch bunny -s 0,3 --each --out-dir batch
+report plan plan --vertices 1e6 --sources 100 --ranks 8
 if "$program" devices >/dev/null 2>&1; then
   report devices devices
   report render render bunny -s 0 --path 99 --size 160x120 -o a.png

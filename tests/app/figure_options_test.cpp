@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "app/drawing/picture_scene.h"
@@ -41,6 +42,59 @@ std::string setting_after(PictureSettings& picture, const char* name, const std:
   if (!set) return set.error().message;
   picture = state.picture;
   return app::find_setting(name)->get(state);
+}
+
+PictureData field_on_a_face(const std::vector<double>& values) {
+  PictureData data;
+  data.faces = {{0, 1, 2}};
+  app::add_field(data, values);
+  return data;
+}
+
+TEST(FieldScale, OfOneSignRunsBetweenItsOwnEnds) {
+  const PictureScale scale = app::picture_scale(field_on_a_face({100, 102, 101}), {});
+  EXPECT_NEAR(scale.min, 100, 1e-4);  // values are kept as floats
+  EXPECT_NEAR(scale.max, 102, 1e-4);
+  ASSERT_GT(scale.levels.size(), 5U);
+  EXPECT_GT(scale.levels.front(), 100);
+  EXPECT_LT(scale.levels.back(), 102);
+}
+
+TEST(FieldScale, OfBothSignsHasZeroInTheMiddleAndLinesBelowIt) {
+  const PictureScale scale = app::picture_scale(field_on_a_face({-1, 2, 0.5}), {});
+  EXPECT_EQ(scale.min, -2);
+  EXPECT_EQ(scale.max, 2);
+  EXPECT_TRUE(std::ranges::count(scale.levels, 0) == 1);
+  EXPECT_LT(scale.levels.front(), -1);
+}
+
+TEST(FieldScale, HasRoundBordersOfItsBands) {
+  PictureSettings settings;
+  settings.bands = 5;
+  for (const auto& values :
+       {std::vector<double>{-0.81, 1.43, 0}, {37.2, 38.9, 38}, {-9, -7.1, -8}}) {
+    const PictureScale scale = app::picture_scale(field_on_a_face(values), settings);
+    EXPECT_LE(scale.min, *std::ranges::min_element(values) + 1e-5);
+    EXPECT_GE(scale.max, *std::ranges::max_element(values) - 1e-5);
+    ASSERT_EQ(scale.levels.size(), 4U);
+    for (const double level : scale.levels) {
+      EXPECT_NEAR(std::remainder(level, 0.05), 0, 1e-9) << "of " << values[0];
+    }
+  }
+}
+
+TEST(LogScale, HasItsEndsAndTheBordersOfBandsAtTheBar) {
+  const PictureData data = face_with({0, 0.011, 1.9});
+  PictureSettings settings;
+  settings.colour_scale = ColourScale::kLog;
+  EXPECT_EQ(app::picture_scale(data, settings).ticks.values,
+            (std::vector<double>{0.01, 0.1, 1, 2}));
+  settings.bands = 4;
+  const PictureScale scale = app::picture_scale(data, settings);
+  ASSERT_EQ(scale.ticks.values.size(), 5U);
+  for (std::size_t i = 0; i < scale.levels.size(); ++i) {
+    EXPECT_EQ(scale.ticks.values[i + 1], scale.levels[i]);
+  }
 }
 
 TEST(LogScale, EndsAtNumbersThatBeginWithOneTwoOrFiveAndLeavesZeroOut) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Figures, several models in one picture, and films, from the built program.
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "tests/app/png_reader.h"
 #include "tests/app/program_fixture.h"
@@ -183,6 +185,37 @@ TEST_F(ProgramFigure, IsolinesLieAtTheValuesThatAreAskedFor) {
   for (const Json& line : lines["lines"]) EXPECT_TRUE(line["value"] == 0.5 || line["value"] == 1);
   expect_refused({"isolines", "bunny", "-s", "17", "--values", "1", "--count", "3"}, "two of them");
   expect_refused({"isolines", "bunny", "-s", "17", "--values", "0,1"}, "above 0");
+}
+
+TEST_F(ProgramFigure, OfValuesInAFileIsThatOfTheSameDistances) {
+  run({"solve", "bunny", "-s", "17", "--no-check", "-o", "d.npy"});
+  const std::vector<std::string> same = {"--no-caption", "--no-markers", "--bar-label", "d",
+                                         "--size",       "500x400"};
+  std::vector<std::string> solved = {"bunny", "-s", "17"}, given = {"bunny", "--field", "d.npy"};
+  solved.insert(solved.end(), same.begin(), same.end());
+  given.insert(given.end(), same.begin(), same.end());
+  const std::vector<std::uint8_t> a = picture(solved).pixels, b = picture(given).pixels;
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t others = 0;  // where isolines, which are computed in two ways, fade
+  for (std::size_t i = 0; i < a.size(); ++i) others += std::abs(a[i] - b[i]) > 16 ? 1 : 0;
+  EXPECT_LT(others, a.size() / 100);
+}
+
+TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {
+  const std::string header =
+      "{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }" + std::string(60, ' ');
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += {static_cast<char>(header.size()), 0};
+  bytes += header;
+  for (const float value : {-1.0F, 2.0F, 0.5F, std::numeric_limits<float>::quiet_NaN()}) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  std::ofstream(folder.path("v.npy"), std::ios::binary) << bytes;
+  std::ofstream(folder.path("t.obj"))
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const Json made = json({"render", "t.obj", "--field", "v.npy", "-o", "a.png", "--json", "-"});
+  EXPECT_EQ(made["picture"]["range"], Json({-2, 2}));
+  EXPECT_EQ(made["picture"]["field"], "v.npy");
 }
 
 }  // namespace

@@ -21,11 +21,12 @@ foreach(file ${files})
   endforeach()
 endforeach()
 
-# The front door is narrow: what is in it is promised to users.
+# The front door is narrow: what is in it is promised to users. Twenty headers are about distances and
+# lines; directions.h is about tangent planes, a notion of its own.
 file(GLOB_RECURSE headers "${prefix}/include/geotherm/*")
 list(LENGTH headers count)
-if(count EQUAL 0 OR count GREATER 20)
-  message(FATAL_ERROR "${count} headers are installed; 1 to 20 are meant to be")
+if(count EQUAL 0 OR count GREATER 21)
+  message(FATAL_ERROR "${count} headers are installed; 1 to 21 are meant to be")
 endif()
 
 run("${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${WORK_DIR}/build"

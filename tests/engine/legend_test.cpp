@@ -254,8 +254,8 @@ TEST(Legend, TakesTheOtherShapeWhereItsOwnHasNoRoom) {
   Legend legend = sample();
   for (Tick& tick : legend.ticks) tick.label = "a label that is long";
   EXPECT_GT(lay_out(legend, {420, 400}).insets.right, 0);
-  EXPECT_EQ(lay_out(legend, {280, 275}).insets.right, 0);
-  EXPECT_GT(lay_out(legend, {280, 275}).insets.bottom, 60);
+  EXPECT_EQ(lay_out(legend, {270, 300}).insets.right, 0);
+  EXPECT_GT(lay_out(legend, {270, 300}).insets.bottom, 60);
 }
 
 TEST(Legend, HasArrowsWhereValuesLieBeyondItsEnds) {

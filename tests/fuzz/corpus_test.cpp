@@ -24,12 +24,13 @@ struct Target {
 void PrintTo(const Target& target, std::ostream* out) { *out << target.name; }
 
 const Target kTargets[] = {
-    {"obj", fuzz_obj, 5000},         {"ply", fuzz_ply, 5000},    {"off", fuzz_off, 5000},
-    {"stl", fuzz_stl, 5000},         {"vtk", fuzz_vtk, 4000},    {"vtu", fuzz_vtu, 4000},
-    {"vtp", fuzz_vtp, 4000},         {"msh", fuzz_msh, 4000},    {"mesh", fuzz_mesh, 4000},
-    {"meshb", fuzz_meshb, 4000},     {"node", fuzz_node, 4000},  {"npy", fuzz_npy, 4000},
-    {"png", fuzz_png, 4000},         {"nrrd", fuzz_nrrd, 4000},  {"vti", fuzz_vti, 4000},
-    {"gz", fuzz_gz, 4000},           {"glb", fuzz_glb, 40},      {"dae", fuzz_dae, 40},
+    {"obj", fuzz_obj, 5000},         {"ply", fuzz_ply, 5000},     {"off", fuzz_off, 5000},
+    {"stl", fuzz_stl, 5000},         {"vtk", fuzz_vtk, 4000},     {"vtu", fuzz_vtu, 4000},
+    {"vtp", fuzz_vtp, 4000},         {"msh", fuzz_msh, 4000},     {"mesh", fuzz_mesh, 4000},
+    {"meshb", fuzz_meshb, 4000},     {"node", fuzz_node, 4000},   {"npy", fuzz_npy, 4000},
+    {"png", fuzz_png, 4000},         {"nrrd", fuzz_nrrd, 4000},   {"vti", fuzz_vti, 4000},
+    {"gii", fuzz_gii, 4000},         {"fsurf", fuzz_fsurf, 4000}, {"mask", fuzz_mask, 2000},
+    {"gz", fuzz_gz, 4000},           {"glb", fuzz_glb, 40},       {"dae", fuzz_dae, 40},
     {"threemf", fuzz_threemf, 40},   {"solve", fuzz_solve, 300},
 #ifdef GEOTHERM_FUZZ_COMMANDS
     {"command", fuzz_command, 1000},

@@ -8,8 +8,10 @@
 
 #include "geotherm/mesh.h"
 #include "solver/grid/io/raw_grid.h"
+#include "solver/mesh/io/gifti_reader.h"
 #include "solver/mesh/io/gzip.h"
 #include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/mask_numbers.h"
 #include "solver/mesh/io/raw_elements.h"
 #include "solver/volume/io/tetgen_reader.h"
 #include "tests/fuzz/fuzz_targets.h"
@@ -123,6 +125,20 @@ std::string fuzz_node(Bytes bytes) {
       return elements_fault(io::read_ele(text, io::read_node(node_text)));
     });
   });
+}
+
+std::string fuzz_gii(Bytes bytes) { return read_fault(io::read_gifti, bytes); }
+std::string fuzz_fsurf(Bytes bytes) { return read_fault(io::read_freesurfer, bytes); }
+
+std::string fuzz_mask(Bytes bytes) {
+  for (const char* const extension : {".txt", ".npy", ".label", ".ply", ".gii"}) {
+    const std::string fault = reading_fault(bytes, [extension](std::string_view text) {
+      const auto numbers = io::read_mask_numbers(text, extension, "wall");
+      return numbers.values.size() > 1100 * text.size() ? "more than the file can hold" : "";
+    });
+    if (!fault.empty()) return extension + (": " + fault);
+  }
+  return {};
 }
 
 std::string fuzz_npy(Bytes bytes) { return grid_read_fault<io::read_npy>(bytes); }

@@ -25,6 +25,10 @@ std::string fuzz_mesh(Bytes bytes);
 std::string fuzz_meshb(Bytes bytes);
 /// Of TetGen's pair: a .node file, a zero byte, an .ele file.
 std::string fuzz_node(Bytes bytes);
+std::string fuzz_gii(Bytes bytes);
+std::string fuzz_fsurf(Bytes bytes);
+/// As a mask of every format.
+std::string fuzz_mask(Bytes bytes);
 std::string fuzz_npy(Bytes bytes);
 std::string fuzz_png(Bytes bytes);
 std::string fuzz_nrrd(Bytes bytes);

@@ -127,8 +127,8 @@ std::vector<GridCase> grid_cases() {
       // marching is exact in convex grids of one speed.
       {"SquareFromItsMiddle", square(129), middle, line_from(middle), 0.01, 1e-12},
       {"SquareFromItsCorner", square(129), corner, line_from(corner), 0.01, 1e-12},
-      {"CubeFromItsCentre", cube(33), centre, line_from(centre), 0.03, 1e-12},
-      {"CubeFromItsCorner", cube(33), corner, line_from(corner), 0.015, 1e-12},
+      {"CubeFromItsCentreSlow", cube(33), centre, line_from(centre), 0.03, 1e-12},
+      {"CubeFromItsCornerSlow", cube(33), corner, line_from(corner), 0.015, 1e-12},
       {"RoundACorner", l_shape(129), arm,
        [arm](const Vec3& at) { return round_the_corner(arm, at); }, 0.015, 0.004},
       {"TwoSpeeds", two_speeds(129), slow,
@@ -160,7 +160,7 @@ TEST_P(GridDistances, AreThoseOfTheClosedForm) {
 INSTANTIATE_TEST_SUITE_P(Of, GridDistances, testing::ValuesIn(grid_cases()),
                          [](const auto& test) { return test.param.name; });
 
-TEST(GridHeat, ErrorsFallWithTheSpacing) {
+TEST(GridHeat, ErrorsFallWithTheSpacingSlow) {
   double before = 1;
   for (const Index n : {33, 65, 129}) {
     const Grid grid = square(n);
@@ -261,7 +261,7 @@ TEST(GridMethods, WhatTheyCannotDoIsSaid) {
   EXPECT_EQ(refused.error().message, "no two neighbouring samples of the grid pass");
 }
 
-TEST(GridHeat, ConjugateGradientsTakeNoMoreStepsOnFinerGrids) {
+TEST(GridHeat, ConjugateGradientsTakeNoMoreStepsOnFinerGridsSlow) {
   // By multigrid; with the diagonal alone their number grows with the side.
   constexpr double kMostSteps = 80;
   for (const Index n : {200, 450}) {

@@ -249,7 +249,7 @@ std::vector<GridDamage> grid_damages() {
       {"npy_other", "a.npy", "hello, world",
        "byte 0: an array of NumPy starts with the word NUMPY"},
       {"npy_type", "a.npy", npy("<c8", "(2, 2)", ""),
-       "byte 20: the type of numbers \"'<c8',\" is none of a grid; save booleans, whole numbers, "
+       "byte 20: the type of numbers \"'<c8',\" cannot be read; save booleans, whole numbers, "
        "float32 or float64"},
       {"npy_line", "a.npy", npy("|u1", "(4,)", "abcd"),
        "byte 60: the array has 1 dimension; a grid has 2 or 3"},

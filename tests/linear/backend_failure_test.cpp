@@ -77,7 +77,7 @@ TEST_P(BackendFailures, MatrixFreeBackendsNeverAssemble) {
   const auto counted =
       std::make_shared<CountingOperator>(std::make_shared<FemOperator>(surface.operators, 1, 1));
   ASSERT_TRUE(attempt(*surface.analysis, counted, b));
-  EXPECT_EQ(counted->assemblies, backend.iterative() ? 0 : 1);
+  EXPECT_EQ(counted->assemblies > 0, !backend.iterative());
   EXPECT_EQ(counted->applied > 0, backend.iterative());
 }
 

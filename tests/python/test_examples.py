@@ -14,12 +14,12 @@ import geotherm
 ROOT = Path(__file__).resolve().parents[2]
 
 
-MODULES = ["", "._answers", "._domains", "._models", "._options", "._solver"]
+MODULES = ["", "._answers", "._directions", "._domains", "._models", "._options", "._solver"]
 
 
 @pytest.mark.parametrize("module", MODULES)
 def test_docstrings(module, solver):
-    known = {"geotherm": geotherm, "numpy": numpy, "solver": solver}
+    known = {"geotherm": geotherm, "numpy": numpy, "solver": solver, "mesh": solver.model}
     tested = importlib.import_module("geotherm" + module)
     failed, tried = doctest.testmod(tested, extraglobs=known)
     assert tried > 0 and failed == 0

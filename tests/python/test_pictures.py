@@ -4,6 +4,7 @@
 import os
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 import geotherm
@@ -30,6 +31,33 @@ def test_a_picture_is_a_png(answer, tmp_path):
     assert (tmp_path / "a.png").read_bytes() == picture
     with pytest.raises(geotherm.Error, match="no_such|no-such|view"):
         answer.plot(view="no_such")
+
+
+def test_numbers_of_vertices_are_drawn(bunny, tmp_path):
+    if not os.path.exists(os.environ["GEOTHERM_PROGRAM"]):
+        pytest.skip("this build has no command line")
+    waves = np.sin(bunny.vertices[:, 0])
+    try:
+        picture = bunny.plot(waves, tmp_path / "a.png", size=(120, 90), bar=False)
+        plain = bunny.plot(size=(120, 90))
+        upside = bunny.plot(-waves, size=(120, 90), bar=False)
+    except geotherm.Error as why:
+        if os.environ.get("GEOTHERM_REQUIRE_VULKAN"):
+            raise
+        pytest.skip(str(why))
+    assert (tmp_path / "a.png").read_bytes() == picture
+    bunny.plot(waves, tmp_path / "a.html")
+    assert b"<html" in (tmp_path / "a.html").read_bytes()[:200]
+    assert len({bytes(picture), bytes(plain), bytes(upside)}) == 3
+    with pytest.raises(geotherm.InputError, match="values has 3 numbers for"):
+        bunny.plot([1, 2, 3])
+
+
+def test_what_cannot_be_written_is_said(bunny, tmp_path):
+    with pytest.raises(geotherm.InputError, match="path ends in '.jpg'"):
+        bunny.plot(path=tmp_path / "a.jpg")
+    with pytest.raises(geotherm.InputError, match="size is 'a'"):
+        bunny.plot(size="a")
 
 
 def test_without_the_program_the_report_is_shown(answer, monkeypatch):

@@ -129,6 +129,28 @@ def test_an_update_is_a_new_solver_on_the_moved_mesh(bunny, solver):
     assert np.array_equal(pickle.loads(pickle.dumps(later)).model.vertices, moved)
 
 
+def test_isolines_of_both_signs(bunny):
+    height = bunny.vertices[:, 1] - bunny.vertices[:, 1].mean()
+    values = {round(line.value, 6) for line in geotherm.isolines(bunny, height, spacing=0.25)}
+    assert values == {0.25 * i for i in range(-40, 40) if height.min() < 0.25 * i < height.max()}
+    assert min(values) < 0 < max(values) and 0 in values
+    below = {line.value for line in geotherm.isolines(bunny, height - 100, count=3)}
+    assert len(below) == 3 and max(below) < 0
+
+
+def test_answers_and_lines_can_be_pickled(solver, tmp_path):
+    answer = solver.solve(17, labels=True)
+    again = pickle.loads(pickle.dumps(answer))
+    assert np.array_equal(again.distances, answer.distances)
+    assert np.array_equal(again.nearest, answer.nearest)
+    assert str(again) == str(answer) and again.report == answer.report
+    with pytest.raises(geotherm.Error, match="pickled"):
+        again.write(tmp_path / "a.ply")
+    path = solver.path(17, 20)
+    other = pickle.loads(pickle.dumps(path))
+    assert np.array_equal(other.points, path.points) and other.length == path.length
+
+
 def test_a_pickled_solver_gives_the_same_bits(bunny):
     solver = geotherm.Solver(bunny, time_factor=2.0, threads=1)
     again = pickle.loads(pickle.dumps(solver))

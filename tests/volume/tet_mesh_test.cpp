@@ -142,7 +142,7 @@ TEST(TetBoundaries, OfABallAreClosed) {
   for (const Index v : border.vertices) EXPECT_NEAR(ball.positions()[v].norm(), 1, 1e-14);
 }
 
-TEST(TetClosestPoint, IsThePointItselfInsideAndOnTheBorderOutside) {
+TEST(TetClosestPoint, IsThePointItselfInsideAndOnTheBorderOutsideSlow) {
   const TetMesh box = make_box_tets(3, 3, 3, Vec3(1, 1, 1));
   Dice dice(3);
   for (int i = 0; i < 300; ++i) {
@@ -171,7 +171,7 @@ TEST(TetClosestPoint, IsThePointItselfInsideAndOnTheBorderOutside) {
   EXPECT_FALSE(closest_point(*TetMesh::build(kCorners, {{0, 0, 1, 2}}), {0, 0, 0}));
 }
 
-TEST(TetModels, HaveTheSizeAskedForAndNoBadTet) {
+TEST(TetModels, HaveTheSizeAskedForAndNoBadTetSlow) {
   for (const std::string& name : volume_names()) {
     for (const Index tets : {5000, 40000}) {
       const Result<TetMesh> mesh = generate_volume(name, tets);

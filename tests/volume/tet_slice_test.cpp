@@ -92,7 +92,7 @@ TEST(TetSlices, OfACubeAcrossItsDiagonalAreARegularHexagon) {
   EXPECT_NEAR(sliced.volume(), 0.5, kRounding);
 }
 
-TEST(TetSlices, OfABallTendToTheDiscWithTheSquareOfTheEdges) {
+TEST(TetSlices, OfABallTendToTheDiscWithTheSquareOfTheEdgesSlow) {
   for (const double height : {0.0, 0.35, -0.6}) {
     const Vec3 normal = Vec3(1, 2, -0.5).normalized();
     const double disc = std::numbers::pi * (1 - height * height);
@@ -106,7 +106,7 @@ TEST(TetSlices, OfABallTendToTheDiscWithTheSquareOfTheEdges) {
   }
 }
 
-TEST(TetSlices, HaveEveryPointOnThePlaneAndNoneOfTheirFacesSharesACornerWithTheBorder) {
+TEST(TetSlices, HaveEveryPointOnThePlaneAndNoneOfTheirFacesSharesACornerWithTheBorderSlow) {
   const TetMesh ball = make_ball_tets(8);
   Dice dice(3);
   for (int i = 0; i < 20; ++i) {

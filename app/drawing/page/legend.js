@@ -24,8 +24,15 @@ function layOutLegend(scene, view, ink) {
     row.append(key.label);
     return row;
   }));
-  element('heading').textContent = legend.heading;
+  const heading = element('heading');
+  heading.textContent = legend.heading;
   keys.style.marginTop = legend.heading ? '1.6em' : 0;
+  // Words that would reach the buttons stand below them.
+  const words = document.createRange();
+  words.selectNodeContents(heading);
+  const tools = element('tools').getBoundingClientRect();
+  const meet = tools.width > 0 && words.getBoundingClientRect().right > tools.left;
+  heading.style.top = meet ? tools.bottom + 'px' : '';
   const [left, top, right, bottom] = legend.bar?.box ?? [0, 0, 0, 0];
   element('bar').hidden = right <= left;
   if (right <= left) return;

@@ -12,6 +12,15 @@ infinite where no source can be reached. What cannot be done is an Error.
 """
 
 from geotherm._answers import Line, Lines, Result, Samples, isolines
+from geotherm._directions import (
+    LogMap,
+    Vectors,
+    extend,
+    log_map,
+    signed_distance,
+    trace,
+    transport,
+)
 from geotherm._domains import Grid, PointCloud, Polygons, TetMesh, read
 from geotherm._library import Error, InputError
 from geotherm._models import Mesh, Model
@@ -31,6 +40,7 @@ __all__ = [
     "InputError",
     "Line",
     "Lines",
+    "LogMap",
     "Mesh",
     "Model",
     "PointCloud",
@@ -39,8 +49,14 @@ __all__ = [
     "Samples",
     "Solver",
     "TetMesh",
+    "Vectors",
+    "extend",
     "farthest_points",
     "features",
     "isolines",
+    "log_map",
     "read",
+    "signed_distance",
+    "trace",
+    "transport",
 ]

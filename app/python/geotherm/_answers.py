@@ -8,13 +8,12 @@ import functools
 import json
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from geotherm._arrays import AnyArray, given, view
-from geotherm._library import Handle, InputError, call, create, path_bytes
+from geotherm._arrays import AnyArray, given, number_in, view
+from geotherm._library import Error, Handle, InputError, call, create, path_bytes
 from geotherm._models import Model
 
 if TYPE_CHECKING:
@@ -23,38 +22,58 @@ if TYPE_CHECKING:
 
 class Result:
     """Distances from one source set and all that there is to say about them. Prints like the
-    report of `geotherm solve`."""
+    report of `geotherm solve`. Pickled it keeps distances, labels, heat and report, and cannot be
+    written."""
 
     def __init__(
         self, handle: Handle, model: Model, sources: list[str], settings: dict[str, Any]
     ) -> None:
-        self._handle = handle
+        self._handle: Handle | None = handle
         self._drawn_from = (model, sources, settings)
+        self._kept: dict[str, AnyArray] = {}
+        self._table = ""
+
+    def _array(self, name: str) -> AnyArray:
+        if self._handle is not None:
+            return view(self._handle, name)
+        if name not in self._kept:
+            raise Error(f"an answer that was pickled has no {name}", "not-available")
+        return self._kept[name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        kept = {}
+        for name in ("distances", "nearest_source", "heat"):
+            try:
+                kept[name] = np.array(self._array(name))
+            except Error:  # it was not asked for
+                continue
+        state = {"_handle": None, "_drawn_from": self._drawn_from, "_kept": kept}
+        return {**state, "_table": str(self), "report": self.report}
 
     @property
     def distances(self) -> AnyArray:
         """(V,) float64, model units; infinite where no source can be reached; read-only."""
-        return view(self._handle, "distances")
+        return self._array("distances")
 
     @property
     def nearest(self) -> AnyArray:
         """(V,) int32: the number of the nearest source, -1 where there is none; with labels."""
-        return view(self._handle, "nearest_source")
+        return self._array("nearest_source")
 
     @property
     def heat(self) -> AnyArray:
         """(V,): u of the heat method, its largest value 1; with fields."""
-        return view(self._handle, "heat")
+        return self._array("heat")
 
     def field(self, name: str) -> AnyArray:
         """(V,) or (F,) numbers that say where distances are right, by the name on the command line:
         "error", "eikonal-error", "gradient-angle", "lost-gradients", ..."""
-        return view(self._handle, name)
+        return self._array(name)
 
     @functools.cached_property
     def report(self) -> dict[str, Any]:
         """All figures, as `geotherm solve --json` tells them."""
-        found: dict[str, Any] = json.loads(self._handle.text("json"))
+        found: dict[str, Any] = json.loads(_there(self._handle).text("json"))
         return found
 
     @property
@@ -71,7 +90,7 @@ class Result:
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes .csv, .npy, .ply or .vtp, of tets .vtu, of grids .vti: whole or not at all."""
-        call("write", self._handle.value, path_bytes(path, "path"))
+        call("write", _there(self._handle).value, path_bytes(path, "path"))
 
     def plot(
         self,
@@ -83,20 +102,16 @@ class Result:
         """A picture by the program geotherm, which must be installed; notebooks show it.
 
         Args:
-            path: of a .png file that is written, too.
+            path: of a file that is written, too: .png, .pdf, .svg, .html or .glb.
             size: pixels.
             options: those of `geotherm render`, with _ in place of -: view="smooth", bar=False.
 
         Raises: Error ("not-available", "no-device").
         """
-        from geotherm._pictures import Picture, drawn  # it imports much
+        from geotherm._pictures import plotted  # it imports much
 
         model, sources, settings = self._drawn_from
-        settings = {**settings, "size": f"{size[0]}x{size[1]}", **options}
-        picture = Picture(drawn(model, sources, settings, ".png"))
-        if path is not None:
-            Path(path).write_bytes(picture)
-        return picture
+        return plotted(model, sources, {**settings, **options}, size, path)
 
     def _repr_html_(self) -> str:
         from geotherm._pictures import as_html
@@ -104,9 +119,16 @@ class Result:
         return as_html(*self._drawn_from, str(self))
 
     def __str__(self) -> str:
-        return self._handle.text("table")
+        return self._table if self._handle is None else self._handle.text("table")
 
     __repr__ = __str__
+
+
+def _there(handle: Handle | None) -> Handle:
+    """What is not there in another process."""
+    if handle is None:
+        raise Error("what was pickled is written by the process that computed it", "not-available")
+    return handle
 
 
 class Line:
@@ -144,7 +166,7 @@ class Lines(Sequence[Line]):
     """Polylines, one after the other."""
 
     def __init__(self, handle: Handle, values: bool) -> None:
-        self._handle = handle
+        self._handle: Handle | None = handle
         self._points = view(handle, "points")
         self._faces = view(handle, "faces")
         self._weights = view(handle, "weights")
@@ -152,6 +174,10 @@ class Lines(Sequence[Line]):
         self._lengths = view(handle, "lengths")
         self._closed = view(handle, "closed")
         self._values = view(handle, "values") if values else None
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {name: np.array(array) for name, array in vars(self).items() if array is not None}
+        return {**state, "_handle": None, "_values": state.get("_values")}
 
     @overload
     def __getitem__(self, number: int) -> Line: ...
@@ -176,7 +202,7 @@ class Lines(Sequence[Line]):
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes .obj, .csv or .vtp: whole or not at all."""
-        call("write", self._handle.value, path_bytes(path, "path"))
+        call("write", _there(self._handle).value, path_bytes(path, "path"))
 
 
 class Samples:
@@ -216,7 +242,8 @@ def isolines(
     Args:
         model: where they are.
         values: (V,) numbers at its vertices; faces with one that is not finite have no lines.
-        spacing: levels at its multiples; or `count` levels up to the largest value; or `levels`.
+        spacing: levels at its multiples; or `count` levels between 0, or the least value where that
+            is below, and the largest one; or `levels`.
 
     >>> mesh = geotherm.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
     >>> geotherm.isolines(mesh, [0, 1, 1], levels=[0.5])
@@ -227,15 +254,22 @@ def isolines(
     array, kept = given(values, "values", 1)
     finite = kept[np.isfinite(kept)]
     largest = float(finite.max()) if finite.size else 0.0
+    least = min(float(finite.min()), 0.0) if finite.size else 0.0
     if spacing is not None:
-        if not spacing > 0 or not largest / spacing < 1e5:
-            raise InputError(f"spacing is {spacing}, and the largest value {largest:g}")
-        levels = np.arange(1, int(np.ceil(largest / spacing)) + 1) * spacing
-        levels = levels[levels < largest]
+        apart = number_in(spacing, "spacing")
+        if not apart > 0 or not (largest - least) / apart < 1e5:
+            raise InputError(
+                f"spacing is {apart:g}, and values run from {least:g} to {largest:g}",
+                hint="give one above 0 that is at least a hundred-thousandth of that",
+            )
+        numbers = np.arange(np.floor(least / apart), np.ceil(largest / apart) + 1)
+        # 0 is where distances begin, and a level where values have both signs.
+        levels = numbers[(numbers != 0) | (least < 0)] * apart
+        levels = levels[(levels > least) & (levels < largest)]
     elif count is not None:
-        if not 1 <= count <= 1e5:
+        if not 1 <= number_in(count, "count") <= 1e5:
             raise InputError(f"count is {count}", hint="give 1 to 100,000")
-        levels = largest * (np.arange(1, count + 1) / (count + 1))
+        levels = least + (largest - least) * (np.arange(1, count + 1) / (count + 1))
     asked, kept_levels = given(levels, "levels", 1)
     handle = create("isolines", model._handle.value, ctypes.byref(array), ctypes.byref(asked))
     del kept_levels

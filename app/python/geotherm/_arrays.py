@@ -62,6 +62,14 @@ def given(values: Any, name: str, columns: int) -> tuple[Array, AnyArray]:
     return described(array), array
 
 
+def number_in(value: Any, name: str) -> float:
+    """One number. Errors: InputError."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {value!r}, and one number is expected") from None
+
+
 def no_array() -> Array:
     """In place of an array that is not given."""
     return _NO_ARRAY

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from geotherm._arrays import AnyArray
+from geotherm._arrays import AnyArray, number_in
 from geotherm._library import InputError, Progress, Watch, create, path_bytes
 from geotherm._models import (
     GRID,
@@ -99,7 +99,7 @@ class Grid(Model):
         speeds: (ny, nx) or (nz, ny, nx): the speed at each sample, 0 where nothing passes; booleans
             are a mask. Distances are travel times. Vertices are numbered with x fastest, so that
             distances.reshape(speeds.shape) is the answer as an image.
-        spacing, origin: along x, y, z; model units.
+        spacing, origin: along x, y, z, or one number for all; model units.
 
     >>> maze = numpy.ones((20, 30)); maze[10, 5:] = 0
     >>> d = geotherm.Solver(geotherm.Grid(maze)).distance(0).reshape(maze.shape)
@@ -111,23 +111,29 @@ class Grid(Model):
         self,
         speeds: Any,
         *,
-        spacing: Sequence[float] = (1.0, 1.0, 1.0),
+        spacing: float | Sequence[float] = (1.0, 1.0, 1.0),
         origin: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> None:
         samples = np.asarray(speeds)
         if samples.ndim not in (2, 3):
             raise InputError(f"speeds has the shape {samples.shape}", hint="give 2 or 3 axes")
-        steps, begin = [*map(float, spacing)], [*map(float, origin)]
-        steps += [1.0] * (3 - len(steps))
-        begin += [0.0] * (3 - len(begin))
-        if len(steps) != 3 or len(begin) != 3:
-            raise InputError("spacing and origin are along x, y and z")
+        steps, begin = _along(spacing, "spacing", 1.0), _along(origin, "origin", 0.0)
         size = [*samples.shape[::-1], 1][:3]
         if samples.dtype == object:
             raise InputError("speeds is an array of object", hint="give numbers")
         flat = samples.astype(np.float64).reshape(-1)
         self._build(GRID, values=(flat, "speeds", 1), grid=(size, steps, begin))
         self._recipe = (_grid_again, np.array(samples), tuple(steps), tuple(begin))
+
+
+def _along(given: Any, name: str, other: float) -> list[float]:
+    """Along x, y and z; `other` along those that are not given. One number stands for all three."""
+    if np.ndim(given) == 0:
+        return [number_in(given, name)] * 3
+    numbers = [number_in(each, name) for each in given]
+    if len(numbers) > 3:
+        raise InputError(f"{name} has {len(numbers)} numbers", hint="give them along x, y and z")
+    return numbers + [other] * (3 - len(numbers))
 
 
 def _grid_again(speeds: AnyArray, spacing: tuple[float, ...], origin: tuple[float, ...]) -> Grid:
@@ -144,6 +150,7 @@ def read(
     path: str | os.PathLike[str],
     *,
     domain: str | None = None,
+    mask: str | None = None,
     weld: float | None = None,
     format: str | None = None,
     grid: str | None = None,
@@ -153,7 +160,7 @@ def read(
 
     Args:
         path: .obj .ply .off .stl and what else features() lists under formats.
-        domain, weld, format, grid: as on the command line.
+        domain, mask, weld, format, grid: as on the command line.
 
     Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
     Raises: Error, with the path, the line and the cause.
@@ -161,7 +168,13 @@ def read(
     >>> geotherm.read("bunny").n_faces
     3996
     """
-    settings = {"domain": domain, "weld": weld, "format": format, "grid": grid}
+    settings = {
+        "domain": domain,
+        "mask": mask,
+        "weld": weld,
+        "format": format,
+        "grid": grid,
+    }
     name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
     with Watch(progress) as watch:
         options = options_of(settings)

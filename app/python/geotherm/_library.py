@@ -133,6 +133,13 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "path": (c_void_p, POINTER(Sources), c_char_p, c_int, c_void_p, _Handles),
     "isolines": (c_void_p, POINTER(Array), POINTER(Array), _Handles),
     "samples": (c_void_p, c_int64, c_int64, c_void_p, _Handles),
+    "log_map": (c_void_p, POINTER(Sources), c_void_p, _Handles),
+    "trace": (c_void_p, POINTER(Sources), c_double, c_double, c_void_p, _Handles),
+    "transport": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
+    "extend": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
+    "signed_distance": (
+        c_void_p, c_void_p, POINTER(Sources), c_int, c_char_p, c_void_p, _Handles
+    ),
     "array_of": (c_void_p, c_char_p, POINTER(Array)),
     "text_of": (c_void_p, c_char_p, _Text),
     "write": (c_void_p, c_char_p),

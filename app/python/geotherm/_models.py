@@ -8,7 +8,7 @@ import functools
 import json
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from geotherm._library import (
     path_bytes,
 )
 from geotherm._options import options_of
+
+if TYPE_CHECKING:
+    from geotherm._pictures import Picture
 
 TRIANGLES, POLYGONS, TETS, POINTS, GRID, LENGTHS = range(6)
 
@@ -190,6 +193,8 @@ class Mesh(Model):
         faces: (F, 3) vertex numbers from 0. Nothing is asked of them: they may be of no area,
             disagree in orientation, share an edge three times.
         weld: vertices at most this far apart are one; 0: equal ones. All keep their numbers.
+        mask: (V,) or (F,) numbers; vertices, or faces, of other than 0 are left out. Distances are
+            those on the mesh that is left, infinite at what is not; all keep their numbers.
 
     Raises: InputError, with the number of what is out of range or not finite.
 
@@ -198,7 +203,13 @@ class Mesh(Model):
     4
     """
 
-    def __init__(self, vertices: Any, faces: Any = None, *, weld: float | None = None) -> None:
+    def __init__(
+        self, vertices: Any, faces: Any = None, *, weld: float | None = None, mask: Any = None
+    ) -> None:
+        if isinstance(vertices, (str, os.PathLike)):
+            raise InputError(
+                f"vertices is the name {os.fspath(vertices)!r}", hint="geotherm.read() reads files"
+            )
         if faces is None:
             faces = _faces_of(vertices)
             vertices = attributes(vertices, "vertices", "points")
@@ -211,10 +222,12 @@ class Mesh(Model):
             TRIANGLES,
             positions=(vertices, "vertices", 3),
             cells=(faces, "faces", 3),
+            values=None if mask is None else (mask, "mask", 1),
             options=options,
         )
         # Faces of a welded mesh are others, by which it cannot be welded again.
-        welded = (_mesh_again, np.array(vertices), np.array(faces), weld)
+        marks = None if mask is None else np.array(mask)
+        welded = (_mesh_again, np.array(vertices), np.array(faces), weld, marks)
         self._recipe = () if weld is None else welded
 
     @classmethod
@@ -235,6 +248,29 @@ class Mesh(Model):
         model._build(LENGTHS, cells=(faces, "faces", 3), values=(lengths, "lengths", 3))
         model._recipe = (_lengths_again, np.array(faces), np.array(lengths))
         return model
+
+    def plot(
+        self,
+        values: Any = None,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (900, 700),
+        **options: Any,
+    ) -> Picture:
+        """A picture by the program geotherm, which must be installed; notebooks show it.
+
+        Args:
+            values: (V,) numbers that its colours show; not finite: none. None: the mesh alone.
+            path: of a file that is written, too: .png, .pdf, .svg, .html or .glb.
+            size: pixels.
+            options: those of `geotherm render`, with _ in place of -: bar_label="curvature".
+
+        Raises: InputError, Error ("not-available", "no-device").
+        """
+        from geotherm._pictures import plotted  # it imports much
+
+        settings = {"view": "smooth", **options} if values is None else options
+        return plotted(self, [], settings, size, path, values)
 
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
@@ -257,5 +293,7 @@ def _lengths_again(faces: AnyArray, lengths: AnyArray) -> Model:
     return Mesh.from_edge_lengths(faces, lengths)
 
 
-def _mesh_again(vertices: AnyArray, faces: AnyArray, weld: float | None) -> Mesh:
-    return Mesh(vertices, faces, weld=weld)
+def _mesh_again(
+    vertices: AnyArray, faces: AnyArray, weld: float | None, mask: AnyArray | None = None
+) -> Mesh:
+    return Mesh(vertices, faces, weld=weld, mask=mask)

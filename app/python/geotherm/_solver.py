@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import importlib
 import json
 import os
 from typing import Any
@@ -150,21 +151,25 @@ class Solver:
         out: AnyArray | str | os.PathLike[str] | None = None,
         dtype: npt.DTypeLike | None = None,
         progress: Progress = None,
-    ) -> AnyArray:
+    ) -> Any:
         """Distances from each source by itself: (K, V), or (K, targets).
 
         Args:
             sources: a list, an item a row; an item that is a list is one set. Of text each point is
                 a row: "random:500".
             targets: vertex numbers whose distances are kept; all.
-            max_distance: farther is infinite. It saves no time.
+            max_distance: farther is infinite. The methods but heat spend no time there; nor do
+                they beyond the last of the targets. What is nearer has the same bits.
             out: an array (a memory map, too), or the path of a .npy file, which is there whole or
                 not at all and returned as a memory map. Memory stays flat however many rows there
-                are.
+                are. A path that ends in .npz gets what is within max_distance alone, as sparse
+                rows, and is returned as scipy.sparse.load_npz() reads it.
             dtype: float64, or float32 for half the size.
 
         >>> solver.distances([3, 99, 512], targets=[7, 8], dtype="f4").shape
         (3, 2)
+        >>> bool(np.isinf(solver.distances([17], max_distance=0.1)).any())
+        True
         """
         taken = Taken(sources, sets=True)
         kept = None if targets is None else _vertices(targets, "targets")
@@ -194,6 +199,8 @@ class Solver:
         if array is not None:
             return array
         assert path is not None
+        if os.fspath(path).endswith(".npz"):
+            return importlib.import_module("scipy.sparse").load_npz(path)
         mapped: AnyArray = np.load(path, mmap_mode="r")
         return mapped
 
@@ -205,7 +212,7 @@ class Solver:
         By the heat method the two directions differ by its error; symmetric: both are their mean.
         """
         ids = _vertices(vertices, "vertices")
-        matrix = self.distances(ids, targets=ids, progress=progress)
+        matrix: AnyArray = self.distances(ids, targets=ids, progress=progress)
         return (matrix + matrix.T) / 2 if symmetric else matrix
 
     def solve(
@@ -214,6 +221,7 @@ class Solver:
         *,
         labels: bool = False,
         fields: bool = False,
+        max_distance: float = float("inf"),
         check: str | None = None,
         progress: Progress = None,
     ) -> Result:
@@ -223,11 +231,14 @@ class Solver:
             sources: as in distance().
             labels: which source is the nearest (Result.nearest).
             fields: the heat and what is made of it (Result.heat, Result.field()).
+            max_distance: as in distances(); a check needs all of them first.
             check: in place of the solver's own: "on", "off", "auto", "wavefront-fine", "exact".
         """
         wanted = ["labels"] * labels + ["fields"] * fields
         if check is not None:
             wanted.append(f"check={check}")
+        if max_distance != float("inf"):
+            wanted.append(f"max-distance={float(max_distance)!r}")
         taken = Taken(sources)
         with Watch(progress) as watch:
             words = text_bytes(" ".join(wanted), "check")

@@ -20,13 +20,27 @@ constexpr struct {
                  {"f4", VtkType::kFloat32}, {"f8", VtkType::kFloat64}};
 
 /// The entry of kNpyTypes.
-const auto& grid_type(std::string_view bytes, const NpyHeader& header) {
+const auto& type_of(std::string_view bytes, const NpyHeader& header) {
   const auto* const known =
       std::ranges::find_if(kNpyTypes, [&](const auto& each) { return each.name == header.type; });
   if (known != std::end(kNpyTypes)) return *known;
   const char* const at = bytes.data() + header.type_place;
-  fail_at_byte(bytes, at, "the type of numbers " + quoted(bytes, at) + " is none of a grid",
+  fail_at_byte(bytes, at, "the type of numbers " + quoted(bytes, at) + " cannot be read",
                {"save booleans, whole numbers, float32 or float64"});
+}
+
+/// What stands behind the header. Throws where it is more, or less.
+std::vector<double> numbers_behind(std::string_view bytes, const NpyHeader& header,
+                                   std::size_t count) {
+  const VtkType type = type_of(bytes, header).type;
+  const std::size_t each = size_of(type), wanted = count * each;
+  const std::size_t there = bytes.size() - header.begins;
+  if (there > wanted) {
+    throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
+                      counted_text(each, "byte", "bytes") + ", but " + std::to_string(there) +
+                      " bytes follow, " + std::to_string(there - wanted) + " too many"};
+  }
+  return decode_samples(bytes.substr(header.begins), count, type, header.order);
 }
 
 /// From the first axis fastest to the last axis fastest, which is x.
@@ -48,7 +62,7 @@ std::vector<double> in_c_order(const std::vector<double>& values,
 
 RawGrid read_npy(std::string_view bytes) {
   const NpyHeader header = read_npy_header(bytes);
-  const auto& type = grid_type(bytes, header);
+  const auto& type = type_of(bytes, header);
   const std::size_t axes = header.shape.size();
   if (axes != 2 && axes != 3) {
     fail_at_byte(bytes, bytes.data() + header.shape_place,
@@ -58,18 +72,20 @@ RawGrid read_npy(std::string_view bytes) {
   RawGrid grid;
   std::copy(header.shape.rbegin(), header.shape.rend(), grid.size.begin());
   grid.three_axes = header.shape.size() == 3;
-  const std::size_t count = count_samples(grid.size);
-  const std::size_t each = size_of(type.type), wanted = count * each;
-  const std::size_t there = bytes.size() - header.begins;
-  if (there > wanted) {
-    throw ReadFailure{"there are to be " + std::to_string(count) + " samples of " +
-                      counted_text(each, "byte", "bytes") + ", but " + std::to_string(there) +
-                      " bytes follow, " + std::to_string(there - wanted) + " too many"};
-  }
-  grid.values = decode_samples(bytes.substr(header.begins), count, type.type, header.order);
+  grid.values = numbers_behind(bytes, header, count_samples(grid.size));
   if (header.fortran) grid.values = in_c_order(grid.values, grid.size);
   grid.type = type.name == "b1" ? RawGrid::Values::kBooleans : values_of(type.type);
   return grid;
+}
+
+std::vector<double> read_npy_values(std::string_view bytes) {
+  const NpyHeader header = read_npy_header(bytes);
+  if (header.shape.size() != 1) {
+    fail_at_byte(bytes, bytes.data() + header.shape_place,
+                 "the array has " + counted_text(header.shape.size(), "dimension", "dimensions") +
+                     "; values of vertices have 1");
+  }
+  return numbers_behind(bytes, header, count_samples({header.shape.front(), 1, 1}));
 }
 
 }  // namespace geotherm::io

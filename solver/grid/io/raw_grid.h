@@ -42,6 +42,8 @@ std::vector<double> decode_samples(std::string_view bytes, std::size_t count, Vt
 RawGrid::Values values_of(VtkType type);
 
 RawGrid read_npy(std::string_view bytes);
+/// The numbers of an array with one axis.
+std::vector<double> read_npy_values(std::string_view bytes);
 RawGrid read_png(std::string_view bytes);
 RawGrid read_vti(std::string_view bytes);
 

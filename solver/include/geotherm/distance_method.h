@@ -101,6 +101,10 @@ struct DistanceResult {
   /// asked for (QueryOptions::nearest) and from methods that carry it along: all but heat.
   std::vector<Index> nearest_source;
 
+  /// The vertices that distances and nearest sources are of, where that is not all of them: the
+  /// targets of Reach as they were given, or with Reach::sparse those within reach, ascending.
+  std::vector<Index> vertices;
+
   /// Only when asked for (QueryOptions::fields), and only by the heat method.
   std::vector<double> heat;      ///< V: u, scaled so that its largest value is 1
   std::vector<double> log_heat;  ///< V: ln of that, right where `heat` underflows; -inf: u <= 0
@@ -108,11 +112,26 @@ struct DistanceResult {
 
 class HeatMethod;
 
+/// How far a query goes. What lies within has the bits of the answer to all of the mesh. Waves,
+/// fast marching and windows on triangle meshes end where nothing nearer is left to find, and spend
+/// time on what lies within alone; the other methods solve for all and cut. Without the quality
+/// figures that are of the whole surface.
+struct Reach {
+  double max_distance = kUnreached;  ///< > 0, model units; what is farther is kUnreached
+  /// In [0, V): the query ends when all of them have their distance, and the answer is theirs alone
+  /// (DistanceResult::vertices); empty: all vertices.
+  std::vector<Index> targets = {};
+  bool sparse = false;  ///< without targets: the answer holds those within reach alone
+
+  bool is_bounded() const { return max_distance < kUnreached || !targets.empty(); }
+};
+
 /// What a query computes beside the distances.
 struct QueryOptions {
   bool quality = true;   ///< the quality figures; what they cost stands at each method
   bool fields = false;   ///< u of the heat method (DistanceResult::heat and log_heat)
   bool nearest = false;  ///< DistanceResult::nearest_source, by methods that know it
+  Reach reach = {};      ///< all of the mesh
 };
 
 /// Geodesic distance on one mesh, ready for sources: what every method has in common. Immutable;
@@ -126,7 +145,7 @@ class DistanceMethod {
 
   /// Distance to the nearest source. Errors: kBadInput (no source, a vertex or face out of range,
   /// weights that are negative or do not sum to 1, offsets that are negative or that the method
-  /// does not know), kBudgetEnded, kNumericalFailure, kOutOfMemory, kCancelled.
+  /// does not know, an empty reach), kBudgetEnded, kNumericalFailure, kOutOfMemory, kCancelled.
   Result<DistanceResult> solve(const SourceSet& sources, const QueryOptions& query = {},
                                const Progress& progress = {}) const;
 

@@ -9,6 +9,7 @@
 #include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
 #include "geotherm/build_method.h"
+#include "geotherm/directions.h"
 #include "geotherm/distance_method.h"
 #include "geotherm/domains.h"
 #include "geotherm/error.h"

@@ -192,4 +192,38 @@ class NpyRows {
   std::unique_ptr<State> state_;
 };
 
+/// Rows of which few entries are there, written row by row as a .npz that scipy.sparse.load_npz()
+/// reads: compressed sparse rows (data, indices, indptr, shape). Whole or not at all; memory: 8
+/// bytes a row. What was appended waits beside the file until the end, in as much room again.
+class SparseRows {
+ public:
+  /// `path` "-" is standard output. Errors (kBadFile) carry the path and the system's reason.
+  static Result<SparseRows> open(const std::string& path, std::uint64_t columns, NpyType type);
+  SparseRows(SparseRows&&) noexcept;
+  SparseRows& operator=(SparseRows&&) noexcept;
+  ~SparseRows();
+
+  /// A row's entries. Preconditions: as many values as columns, which are ascending. Errors: those
+  /// of NpyRows::append().
+  Result<void> append(std::span<const Index> columns, std::span<const double> values);
+
+  std::uint64_t rows() const;     ///< that were appended
+  std::uint64_t entries() const;  ///< of all of them; those that are 0 count
+
+  /// Makes it the file of its path.
+  Result<void> finish();
+
+ private:
+  struct State;
+  explicit SparseRows(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// What a file says of a mesh with these faces to be left out. `text`: FILE; keep:FILE marks what
+/// stays instead; faces:FILE holds numbers of faces, not of vertices; FILE.ply:NAME is a property
+/// of its vertices. Files: text or .npy of V or F numbers, 0 or 1, or of other numbers, which are
+/// those of the vertices; .label of FreeSurfer; .ply; .gii, one number for each vertex, of which
+/// other than 0 counts. Errors: kBadFile, with what is wrong and where.
+Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh);
+
 }  // namespace geotherm

@@ -63,6 +63,17 @@ class TriangleMesh {
   std::vector<Index> same_as_;
 };
 
+/// What is left out of a mesh; either list may be empty.
+struct Mask {
+  std::vector<char> vertices;  ///< V: other than 0 is left out, with all its faces
+  std::vector<char> faces;     ///< F: the same
+};
+
+/// The mesh without what the mask leaves out: distances are those on a mesh from which it was cut.
+/// All numbers stay; faces that are left out repeat a corner from here on, and vertices of no other
+/// face have no distance. Errors: kBadInput (lists of other lengths; nothing is left). Cost: O(F).
+Result<TriangleMesh> masked(const TriangleMesh& mesh, const Mask& mask);
+
 /// Whether `other` is `mesh` with its vertices elsewhere: the same faces, and the same vertices
 /// that are one. Errors: kBadInput, with the numbers. Cost: one pass over the faces, none where
 /// moved() made one of the other.

@@ -87,7 +87,8 @@ class PathFinder {
   /// Errors: kBadInput (fewer points, one that is not on the mesh, no way from one to the next, a
   /// heat field without the heat method), kOutOfMemory, those of DistanceMethod::solve() and
   /// shorten(). Shares of the progress do not fall.
-  /// Cost: a query of the method for each piece, or two for a geodesic, and milliseconds.
+  /// Cost: a query of the method for each piece, or two for a geodesic, and milliseconds; the
+  /// answers for the last two points are kept, so that paths from one point to many take one each.
   Result<FoundPath> find(std::span<const SurfacePoint> points, const PathOptions& options = {},
                          const Progress& progress = {}) const;
 
@@ -101,13 +102,16 @@ class PathFinder {
                           const Progress& progress) const;
   Result<FoundPath> streamline(const SurfacePoint& from, const SurfacePoint& to, PathField field,
                                const Progress& progress) const;
-  Result<DistanceResult> distances(const SurfacePoint& source, bool heat,
-                                   const Progress& progress) const;
+  Result<std::shared_ptr<const DistanceResult>> distances(const SurfacePoint& source, bool heat,
+                                                          const Progress& progress) const;
   Result<FoundPath> geodesic(const SurfacePoint& from, const SurfacePoint& to,
                              const Progress& progress) const;
 
+  struct Recent;
+
   std::shared_ptr<const PathSurface> surface_;
   std::shared_ptr<const DistanceMethod> method_;
+  std::shared_ptr<Recent> recent_;  ///< answers
 };
 
 /// A line for a file, with its number there in the order given.

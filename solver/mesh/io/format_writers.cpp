@@ -150,7 +150,7 @@ std::string npy_header(const std::string& type, std::span<const std::uint64_t> s
   for (std::size_t i = 0; i < shape.size(); ++i) {
     header += (i > 0 ? ", " : "") + std::to_string(shape[i]);
   }
-  header += shape.size() == 1 ? ",), }" : "), }";
+  header += shape.size() == 1 ? ",), }" : "), }";  // () is a single number
   while ((kPreamble + header.size() + 1) % kAlignment != 0) header += ' ';
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);

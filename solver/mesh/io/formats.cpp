@@ -20,6 +20,7 @@ constexpr ModelFormat kModelFormats[] = {
     {"vtp", kFaces},          {"vtk", kFaces | kTets},
     {"vtu", kFaces | kTets},  {"msh", kFaces | kTets},
     {"mesh", kFaces | kTets}, {"meshb", kFaces | kTets},
+    {"gii", kFaces},          {"fsurf", kFaces},
     {"node", kTets},          {"ele", kTets},
     {"xyz", kPoints},         {"pts", kPoints},
     {"pcd", kPoints},         {"png", kGrid},
@@ -51,6 +52,7 @@ constexpr FileBeginning kBeginnings[] = {
     {"CNOFF", "off"},
     {"STOFF", "off"},
     {"solid", "stl"},
+    {"\xff\xff\xfe", "fsurf"},
 };
 
 bool is_binary_stl(std::string_view start, std::size_t size) {
@@ -71,6 +73,7 @@ bool is_meshb(std::string_view start) {
 
 std::string_view format_of_xml(std::string_view start) {
   if (start.find("<COLLADA") != start.npos) return "dae";
+  if (start.find("<GIFTI") != start.npos) return "gii";
   if (start.find("<VTKFile") == start.npos) return {};
   if (start.find("PolyData") != start.npos) return "vtp";
   return start.find("ImageData") != start.npos ? "vti" : "vtu";

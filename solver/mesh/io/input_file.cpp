@@ -158,10 +158,10 @@ Result<void> InputFile::prepare(std::string_view format) {
     }
     constexpr std::size_t kLooked = 4096;
     extension_ = format.empty() ? model_extension(path_) : "." + std::string(format);
-    if (extension_.empty()) {
-      const std::string_view found = format_by_content(start(kLooked), size());
-      if (!found.empty()) extension_ = "." + std::string(found);
-    }
+    // FreeSurfer names its surfaces lh.white, rh.pial and the like.
+    const std::string_view found = format_by_content(start(kLooked), size());
+    const bool by_content = extension_.empty() || (format.empty() && found == "fsurf");
+    if (by_content && !found.empty()) extension_ = "." + std::string(found);
     return {};
   });
 }

@@ -56,6 +56,19 @@ class ArrayBytes {
     return base64_ ? characters / 4 * 3 + 3 : characters;
   }
 
+  /// All that is still to come, where it is base64.
+  std::vector<char> rest() {
+    std::vector<char> out;
+    const char* const end = bytes_.data() + bytes_.size();
+    for (;;) {
+      while (p_ != end && (*p_ == ' ' || *p_ == '\n' || *p_ == '\r' || *p_ == '\t')) ++p_;
+      if (p_ == end) return out;
+      next_group();
+      out.insert(out.end(), group_.begin(), group_.begin() + static_cast<std::ptrdiff_t>(filled_));
+      used_ = filled_;
+    }
+  }
+
   [[noreturn]] void fail(const std::string& cause) const { fail_at_byte(bytes_, p_, cause); }
 
  private:
@@ -97,7 +110,8 @@ class VtuDecoder {
 
   /// So many bytes, as the file has to have announced them.
   std::vector<char> decode(std::uint64_t expected) {
-    return encoding_.compressed ? inflated(expected) : plain(expected);
+    if (!encoding_.compressed) return plain(expected);
+    return encoding_.size_of_length == 0 ? unpacked_stream(expected) : inflated(expected);
   }
 
   [[noreturn]] void fail(const std::string& cause) const {
@@ -117,7 +131,7 @@ class VtuDecoder {
   }
 
   std::vector<char> plain(std::uint64_t expected) {
-    const std::uint64_t announced = length();
+    const std::uint64_t announced = encoding_.size_of_length == 0 ? expected : length();
     if (announced != expected) fail_by_size(announced, expected);
     if (expected > source_.left()) fail("the file ends");
     std::vector<char> out(static_cast<std::size_t>(expected));
@@ -125,10 +139,21 @@ class VtuDecoder {
     return out;
   }
 
+  std::vector<char> unpacked_stream(std::uint64_t expected) {
+    const std::vector<char> packed = source_.rest();
+    if (expected / kMostTimes > packed.size()) fail("the file ends");
+    std::vector<char> out(static_cast<std::size_t>(expected));
+    auto unpacked = static_cast<uLongf>(out.size());
+    const int code = ::uncompress(reinterpret_cast<Bytef*>(out.data()), &unpacked,
+                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+    if (code == Z_MEM_ERROR) throw std::bad_alloc();
+    if (code != Z_OK || unpacked != expected) fail("what is compressed is damaged");
+    return out;
+  }
+
   /// In front stand the number of blocks, the size of each, that of the last one (0: as the
   /// others), all uncompressed, and the sizes of the compressed blocks.
   std::vector<char> inflated(std::uint64_t expected) {
-    constexpr std::uint64_t kMostTimes = 1100;  // no block of deflate unpacks to more
     const std::uint64_t blocks = length(), size = length(), last = length();
     const std::uint64_t most = source_.left();
     if (blocks == 0 || size == 0 || last > size || blocks > most / encoding_.size_of_length ||
@@ -156,6 +181,8 @@ class VtuDecoder {
     }
     return out;
   }
+
+  static constexpr std::uint64_t kMostTimes = 1100;  ///< no block of deflate unpacks to more
 
   ArrayBytes source_;
   const VtuEncoding& encoding_;

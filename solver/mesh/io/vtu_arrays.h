@@ -25,8 +25,8 @@ struct VtuArray {
 /// How a .vtu file stores all of its arrays.
 struct VtuEncoding {
   std::endian order = std::endian::little;
-  std::size_t size_of_length = 4;  ///< bytes of the numbers in front of an array: 4 or 8
-  bool compressed = false;         ///< by zlib, in blocks
+  std::size_t size_of_length = 4;  ///< bytes of the numbers in front of an array: 4, 8, or 0: none
+  bool compressed = false;         ///< by zlib, in blocks; without lengths in one stream
   std::size_t appended = 0;        ///< the byte behind the mark _; 0: no array is appended
   bool appended_base64 = false;
 };

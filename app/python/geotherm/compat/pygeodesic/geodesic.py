@@ -38,7 +38,8 @@ class PyGeodesicAlgorithmExact:
         sources = np.array([0]) if source_indices is None else np.asarray(source_indices)
         if sources.ndim != 1 or sources.dtype.kind not in "iu":
             raise InputError("source_indices is no list of vertex numbers")
-        answer = self._solver.solve(sources, labels=True, check="off")
+        reach = max_distance if max_distance > 0 else float("inf")
+        answer = self._solver.solve(sources, labels=True, check="off", max_distance=reach)
         # Sources that are named twice are one there, numbered where they first stand.
         first = np.sort(np.unique(sources, return_index=True)[1])
         distances, nearest = answer.distances, np.append(first, -1)[answer.nearest]

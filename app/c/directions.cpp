@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+// Log maps, straightest lines, vectors and values carried over a surface.
+#include "geotherm/directions.h"
+
+#include <memory>
+#include <utility>
+
+#include "app/c/handles.h"
+
+namespace geotherm::c {
+namespace {
+
+using app::Model;
+
+/// One point of a triangle mesh with what directions there need.
+struct DirectedPoint {
+  std::shared_ptr<const Model> model;
+  SurfacePoint point;
+  std::shared_ptr<const Directions> directions;
+};
+
+Result<DirectedPoint> directed_point(const geotherm_model* model, const geotherm_sources* point,
+                                     const void* out, const char* what, const Progress& progress) {
+  const auto object = object_of<const Model>(model, "model");
+  if (!object) return object.error();
+  if (auto there = require(out, "the answer"); !there) return there.error();
+  if (auto surface = app::refuse_space(**object, what); !surface) return surface.error();
+  const auto points = points_in_order(point, **object);
+  if (!points) return points.error();
+  if (points->size() != 1) {
+    return bad_argument("point has " + std::to_string(points->size()) + " points", {"give one"});
+  }
+  auto directions = Directions::build((*object)->mesh, progress);
+  if (!directions) return directions.error();
+  return DirectedPoint{*object, points->front(), *std::move(directions)};
+}
+
+void add_frame(const TangentFrame& frame, std::vector<double>& out) {
+  for (const Vec3& axis : {frame.e1, frame.e2, frame.normal}) {
+    out.insert(out.end(), axis.begin(), axis.end());
+  }
+}
+
+Result<SpreadOptions> spread_options(const geotherm_options* options) {
+  if (options == nullptr) return SpreadOptions{};
+  const auto given = object_of<Options>(options, "options");
+  if (!given) return given.error();
+  const std::lock_guard lock((*given)->lock);
+  const MethodOptions& asked = (*given)->state.options;
+  return SpreadOptions{asked.backend, asked.time_step.factor, asked.threads};
+}
+
+/// Each set of points as one curve.
+Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
+                                           const Model& model, const Progress& progress) {
+  const auto sets = many_sets(sources, model);
+  if (!sets) return sets.error();
+  MethodOptions options;
+  options.method = MethodKind::kWavefront;
+  app::ModelSolver solver(model);
+  const auto ready = solver.prepare(options, part_of(progress, 0.0, 0.3));
+  if (!ready) return ready.error();
+  const PathFinder finder(model.mesh, ready->method);
+  std::vector<SurfacePath> curves;
+  for (const SourceSet& set : sets->sets) {
+    auto found = finder.find(set.points, {PathField::kGeodesic, closed, closed}, progress);
+    if (!found) return found.error();
+    curves.push_back(std::move(found->path));
+  }
+  return curves;
+}
+
+/// What transport and extend have in common.
+struct SpreadCall {
+  std::shared_ptr<const Model> model;
+  std::vector<Index> vertices;
+  std::vector<double> numbers;
+  std::shared_ptr<const VectorHeat> heat;
+};
+
+Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_options* options,
+                               const geotherm_array* vertices, const geotherm_array* numbers,
+                               std::int64_t columns, const char* name, const void* out,
+                               const Progress& progress) {
+  const auto object = object_of<const Model>(model, "model");
+  if (!object) return object.error();
+  for (const auto& [pointer, called] : {std::pair<const void*, const char*>{vertices, "vertices"},
+                                        {numbers, name},
+                                        {out, "answer"}}) {
+    if (auto there = require(pointer, called); !there) return there.error();
+  }
+  if (auto surface = app::refuse_space(**object, "vectors and values are carried"); !surface) {
+    return surface.error();
+  }
+  const auto spread = spread_options(options);
+  if (!spread) return spread.error();
+  auto at = indices_in(*vertices, 1, "vertices");
+  if (!at) return at.error();
+  auto values = numbers_in(*numbers, columns, name);
+  if (!values) return values.error();
+  if (std::ssize(*values) != columns * std::ssize(*at)) {
+    return bad_argument(std::string(name) + " has " +
+                        std::to_string(std::ssize(*values) / columns) + " rows for " +
+                        std::to_string(at->size()) + " vertices");
+  }
+  auto heat = VectorHeat::build((*object)->mesh, *spread, part_of(progress, 0, 0.7));
+  if (!heat) return heat.error();
+  return SpreadCall{*object, *std::move(at), *std::move(values), *std::move(heat)};
+}
+
+}  // namespace
+}  // namespace geotherm::c
+
+using namespace geotherm;     // NOLINT: the functions below are C
+using namespace geotherm::c;  // NOLINT
+
+geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sources* point,
+                                 const geotherm_watch* watch, geotherm_answer** map) {
+  return guarded([&]() -> Result<void> {
+    const Watched watched(watch);
+    const auto from =
+        directed_point(model, point, map, "log maps are", part_of(watched.progress(), 0.0, 0.2));
+    if (!from) return from.error();
+    auto found = from->directions->log_map(from->point, part_of(watched.progress(), 0.2, 1.0));
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    std::vector<double> frame;
+    add_frame(found->frame, frame);
+    keep(*made, "frame", std::move(frame), 9);
+    keep(*made, "distances", std::move(found->distances));
+    keep(*made, "directions", std::move(found->directions));
+    hand_out_answer(std::move(made), map);
+    return {};
+  });
+}
+
+geotherm_status geotherm_trace(const geotherm_model* model, const geotherm_sources* point,
+                               double direction, double length, const geotherm_watch* watch,
+                               geotherm_answer** line) {
+  return guarded([&]() -> Result<void> {
+    const Watched watched(watch);
+    const auto from =
+        directed_point(model, point, line, "straightest lines are", watched.progress());
+    if (!from) return from.error();
+    auto found = from->directions->trace(from->point, direction, length);
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    made->texts = {{"end", to_text(found->end)}};
+    made->lines = Lines{from->model->mesh, {{0, std::move(found->path)}}, false};
+    keep_lines(*made);
+    hand_out_answer(std::move(made), line);
+    return {};
+  });
+}
+
+geotherm_status geotherm_transport(const geotherm_model* model, const geotherm_options* options,
+                                   const geotherm_array* vertices, const geotherm_array* vectors,
+                                   const geotherm_watch* watch, geotherm_answer** answer) {
+  return guarded([&]() -> Result<void> {
+    const Watched watched(watch);
+    const auto asked =
+        spread_call(model, options, vertices, vectors, 2, "vectors", answer, watched.progress());
+    if (!asked) return asked.error();
+    std::vector<TangentVector> given;
+    for (std::size_t i = 0; i < asked->vertices.size(); ++i) {
+      given.push_back({asked->vertices[i], asked->numbers[2 * i], asked->numbers[2 * i + 1]});
+    }
+    auto found = asked->heat->transport(given, part_of(watched.progress(), 0.7, 1.0));
+    if (!found) return found.error();
+    std::vector<double> space, components, frames;
+    for (const Vec3& v : found->vectors) space.insert(space.end(), v.begin(), v.end());
+    for (const auto& v : found->components) components.insert(components.end(), v.begin(), v.end());
+    for (const TangentFrame& frame : asked->heat->frames()) add_frame(frame, frames);
+    auto made = std::make_shared<Answer>();
+    keep(*made, "vectors", std::move(space), 3);
+    keep(*made, "components", std::move(components), 2);
+    keep(*made, "frames", std::move(frames), 9);
+    made->warnings = std::move(found->warnings);
+    hand_out_answer(std::move(made), answer);
+    return {};
+  });
+}
+
+geotherm_status geotherm_extend(const geotherm_model* model, const geotherm_options* options,
+                                const geotherm_array* vertices, const geotherm_array* values,
+                                const geotherm_watch* watch, geotherm_answer** answer) {
+  return guarded([&]() -> Result<void> {
+    const Watched watched(watch);
+    const auto asked =
+        spread_call(model, options, vertices, values, 1, "values", answer, watched.progress());
+    if (!asked) return asked.error();
+    auto found =
+        asked->heat->extend(asked->vertices, asked->numbers, part_of(watched.progress(), 0.7, 1.0));
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    keep(*made, "values", std::move(found->values));
+    made->warnings = std::move(found->warnings);
+    hand_out_answer(std::move(made), answer);
+    return {};
+  });
+}
+
+geotherm_status geotherm_signed_distance(const geotherm_model* model,
+                                         const geotherm_options* options,
+                                         const geotherm_sources* curves, int closed,
+                                         const char* rule, const geotherm_watch* watch,
+                                         geotherm_answer** answer) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Model>(model, "model");
+    if (!object) return object.error();
+    if (auto there = require(answer, "answer"); !there) return there;
+    if (auto surface = app::refuse_space(**object, "signed distances are"); !surface)
+      return surface;
+    const auto side = rule == nullptr ? Result<SideRule>(SideRule::kAuto) : parse<SideRule>(rule);
+    if (!side) return side.error();
+    const auto spread = spread_options(options);
+    if (!spread) return spread.error();
+    const Watched watched(watch);
+    const auto lines =
+        curves_of(curves, closed != 0, **object, part_of(watched.progress(), 0.0, 0.3));
+    if (!lines) return lines.error();
+    auto found = signed_distance((*object)->mesh, *lines, *side, *spread,
+                                 part_of(watched.progress(), 0.3, 1.0));
+    if (!found) return found.error();
+    auto made = std::make_shared<Answer>();
+    keep(*made, "distances", std::move(found->distances));
+    made->texts = {{"rule", to_text(found->rule)}};
+    made->warnings = std::move(found->warnings);
+    hand_out_answer(std::move(made), answer);
+    return {};
+  });
+}

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+// `logmap` and `trace`.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "app/cli/commands.h"
+#include "app/cli/vertex_columns.h"
+#include "app/session/model.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
+#include "app/session/sources.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "geotherm/directions.h"
+#include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+#include "solver/mesh/connectivity.h"
+
+namespace geotherm::app {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Result<Source> single_point(const std::string& text, const std::string& option) {
+  auto spec = parse_source(text);
+  if (!spec) return about(option, spec.error());
+  if (is_single_point(*spec)) return Source{*std::move(spec), option + " " + one_line(text)};
+  return Error{ErrorCode::kBadInput, option + ": '" + one_line(text) +
+                                         "' is not one point; write a vertex id, face:ID:b0:b1:b2 "
+                                         "or xyz:x:y:z"};
+}
+
+/// What both commands begin with.
+struct DirectionWork {
+  Model model;
+  SurfacePoint point;
+  std::shared_ptr<const Directions> directions;
+  TangentFrame frame;
+  double setup_ms = 0;
+  std::vector<Warning> warnings;
+};
+
+Result<DirectionWork> begin(const std::string& name, const ModelReading& reading,
+                            const Source& source, const char* what, const Progress& progress) {
+  auto model = load_model(name, reading, progress);
+  if (!model) return model.error();
+  if (auto surface = refuse_space(*model, what); !surface) return surface.error();
+  DirectionWork work{*std::move(model), {}, {}, {}, 0, {}};
+  work.warnings = work.model.notes;
+  const auto placed = resolve_sources({&source, 1}, *work.model.mesh);
+  if (!placed) return placed.error();
+  work.warnings.insert(work.warnings.end(), placed->warnings.begin(), placed->warnings.end());
+  work.point = placed->set.points.front();
+  const Stopwatch watch;
+  auto directions = Directions::build(work.model.mesh, part_of(progress, 0, 0.2));
+  if (!directions) return about_model(work.model.name, directions.error());
+  work.directions = *std::move(directions);
+  auto frame = work.directions->frame_at(work.point);
+  if (!frame) return about(source.where, frame.error());
+  work.frame = *frame;
+  work.setup_ms = watch.milliseconds();
+  return work;
+}
+
+Json axis_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json work_json(const DirectionWork& work, const char* stage, double ms) {
+  const TangentFrame& f = work.frame;
+  Json frame = {{"e1", axis_json(f.e1)},
+                {"e2", axis_json(f.e2)},
+                {"normal", axis_json(f.normal)},
+                {"angle", f.angle},
+                {"border", f.border}};
+  if (f.first != kNoIndex) frame["first"] = f.first;
+  return {{"model",
+           {{"name", work.model.name},
+            {"vertices", work.model.mesh->vertex_count()},
+            {"faces", work.model.mesh->face_count()}}},
+          {"from", point_json(work.point)},
+          {"frame", std::move(frame)},
+          {"timing_ms", {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {stage, ms}}},
+          {"warnings", told(work.warnings)}};
+}
+
+std::string vector_text(const Vec3& v) {
+  return significant(v.x()) + ", " + significant(v.y()) + ", " + significant(v.z());
+}
+
+TextTable work_table(const DirectionWork& work) {
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  table.add_row({"model", one_line(work.model.name) + ": " +
+                              counted(work.model.mesh->vertex_count(), "vertex", "vertices") +
+                              ", " + counted(work.model.mesh->face_count(), "face", "faces")});
+  table.add_row({"frame", "e1 " + vector_text(work.frame.e1) + "; e2 " +
+                              vector_text(work.frame.e2) + "; normal " +
+                              vector_text(work.frame.normal)});
+  table.add_row({"angle", significant(work.frame.angle, 7) + " round the point" +
+                              (work.frame.border ? ", on the border" : "")});
+  return table;
+}
+
+/// Columns distance, direction, map_x, map_y.
+std::vector<VertexColumn> map_columns(const LogMap& map) {
+  std::vector<VertexColumn> columns = {
+      {"distance", map.distances}, {"direction", map.directions}, {"map_x", {}}, {"map_y", {}}};
+  for (std::size_t v = 0; v < map.distances.size(); ++v) {
+    const bool has = std::isfinite(map.distances[v]);
+    columns[2].values.push_back(has ? map.distances[v] * std::cos(map.directions[v]) : kNone);
+    columns[3].values.push_back(has ? map.distances[v] * std::sin(map.directions[v]) : kNone);
+  }
+  return columns;
+}
+
+/// Where the map is torn, its coordinates jump by far more than an edge is long: lines drawn across
+/// would show nothing.
+void leave_out_tears(const TriangleMesh& mesh, std::vector<double>& x, std::vector<double>& y) {
+  constexpr double kTorn = 3;
+  std::vector<char> torn(x.size(), 0);
+  for (const Face& face : mesh.faces()) {
+    for (int k = 0; k < 3; ++k) {
+      const Index i = face[k], j = face[next_corner(k)];
+      const double edge = (mesh.positions()[i] - mesh.positions()[j]).norm();
+      if (std::hypot(x[i] - x[j], y[i] - y[j]) > kTorn * edge) torn[i] = torn[j] = 1;
+    }
+  }
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (torn[v] != 0) x[v] = y[v] = kNone;
+  }
+}
+
+/// The squares of the map: lines of its two coordinates.
+Result<std::vector<Isoline>> map_grid(const TriangleMesh& mesh, const LogMap& map) {
+  constexpr double kSquares = 12;  // from the point to the farthest vertex
+  auto columns = map_columns(map);
+  std::vector<double>&x = columns[2].values, &y = columns[3].values;
+  double most = 0;
+  for (const double d : map.distances) most = std::isfinite(d) ? std::max(most, d) : most;
+  leave_out_tears(mesh, x, y);
+  std::vector<double> levels;
+  for (double k = -kSquares; k <= kSquares; ++k) levels.push_back(k * most / kSquares);
+  auto lines = find_isolines(mesh, x, levels);
+  auto more = find_isolines(mesh, y, levels);
+  if (!lines) return lines;
+  if (!more) return more;
+  lines->insert(lines->end(), more->begin(), more->end());
+  return lines;
+}
+
+Result<double> number_of(const std::string& text, const char* option, const char* what) {
+  const auto number = number_in<double>(text);
+  if (number && std::isfinite(*number)) return *number;
+  return Error{ErrorCode::kBadInput,
+               std::string(option) + ": '" + one_line(text) + "' is no " + what};
+}
+
+}  // namespace
+
+void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  command
+      .add_option("-s,--source", arguments.source,
+                  "the point: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z (the closest point of the "
+                  "surface)")
+      ->required()
+      ->type_name("POINT");
+  add_column_options(command, arguments.outputs, arguments.json,
+                     "distance, direction (radians from e1 towards e2) and both as map_x and map_y "
+                     "of every vertex",
+                     true);
+  add_line_picture_options(command, arguments.settings);
+  add_quiet_option(command, arguments.quiet);
+  command.footer(
+      "Paths are exact on the faces, and so are directions; behind a vertex that bends a path they "
+      "are those of its first piece. A picture shows squares of the map.\n"
+      "Examples:\n"
+      "  geotherm logmap bunny -s 17 -o map.npy --json -\n"
+      "  geotherm logmap bunny -s 17 -o map.svg");
+}
+
+Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto source = single_point(arguments.source, "--source");
+  if (!source) return source.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, {}, outputs);
+  const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
+  if (!expected) return expected.error();
+  const auto work = begin(arguments.model, asked->reading, *source, "log maps are", progress);
+  if (!work) return work.error();
+  const TriangleMesh& mesh = *work->model.mesh;
+  const Stopwatch watch;
+  const auto map = work->directions->log_map(work->point, part_of(progress, 0.2, 1));
+  if (!map) return about_model(work->model.name, map.error());
+  const double map_ms = watch.milliseconds();
+  const auto reached =
+      std::ranges::count_if(map->distances, [](double d) { return std::isfinite(d); });
+
+  CommandOutput out{"", work->warnings, {}};
+  for (const std::string& path : arguments.outputs) {
+    if (io::file_extension(path) != ".svg") {
+      const auto written = write_columns(path, mesh, map_columns(*map), outputs, out.text);
+      if (!written) return written.error();
+      continue;
+    }
+    const auto grid = map_grid(mesh, *map);
+    if (!grid) return grid.error();
+    LinePicture picture{work->model.mesh,
+                        {},
+                        {position_at(mesh, work->point)},
+                        0,
+                        work->model.name + ", squares of the log map"};
+    for (const Isoline& line : *grid) picture.lines.push_back({&line.path, line.value});
+    const LineFileArguments file{{path}, ""};
+    const auto written = write_line_files(file, picture, asked->picture, progress, outputs, out);
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    Json json = work_json(*work, "log_map", map_ms);
+    json["reached"] = reached;
+    json["log_map"] = {{"distances", map->distances}, {"directions", map->directions}};
+    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) {
+    TextTable table = work_table(*work);
+    table.add_row({"log map",
+                   counted(reached, "vertex", "vertices") + " in " + milliseconds(map_ms) + " ms"});
+    out.text = table.text();
+  }
+  out.made = outputs.made();
+  return out;
+}
+
+void add_trace_options(CLI::App& command, TraceArguments& arguments) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  command
+      .add_option("--from", arguments.from,
+                  "where lines begin: a vertex id, face:ID:b0:b1:b2 or xyz:x:y:z (the closest "
+                  "point of the surface)")
+      ->required()
+      ->type_name("POINT")
+      ->group("Lines");
+  command
+      .add_option("--direction", arguments.directions,
+                  "radians from e1 towards e2 of the frame that the report says; may be repeated; "
+                  "default: 0")
+      ->type_name("A")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Lines");
+  command
+      .add_option("--fan", arguments.fan, "so many lines, in directions spread evenly all round")
+      ->type_name("N")
+      ->group("Lines");
+  command.add_option("--length", arguments.length, "of each line, in the model's units")
+      ->required()
+      ->type_name("L")
+      ->group("Lines");
+  add_line_file_options(command, arguments.files, arguments.settings, "the lines");
+  add_quiet_option(command, arguments.quiet);
+  command.footer(
+      "A line runs straight across edges and leaves the same angle on both sides of a vertex. It "
+      "ends at the border, and where three faces meet.\n"
+      "Examples:\n"
+      "  geotherm trace bunny --from 17 --direction 0.5 --length 0.8 -o line.obj --json -\n"
+      "  geotherm trace sleeve --from 0 --fan 24 --length 1 -o fan.svg");
+}
+
+namespace {
+
+Result<std::vector<double>> directions_of(const TraceArguments& arguments,
+                                          const TangentFrame& frame) {
+  std::vector<double> out;
+  for (const std::string& text : arguments.directions) {
+    const auto angle = number_of(text, "--direction", "angle in radians");
+    if (!angle) return angle.error();
+    out.push_back(*angle);
+  }
+  if (!arguments.fan.empty()) {
+    const auto count = number_in<Index>(arguments.fan);
+    if (!count || *count < 1) {
+      return Error{ErrorCode::kBadInput, "--fan: '" + one_line(arguments.fan) +
+                                             "' is no number of lines; give 1 or more"};
+    }
+    for (Index i = 0; i < *count; ++i) {
+      out.push_back(frame.border ? frame.angle * (i + 0.5) / *count
+                                 : 2 * std::numbers::pi * i / *count);
+    }
+  }
+  if (out.empty()) out.push_back(0);
+  return out;
+}
+
+Json lines_json(const TriangleMesh& mesh, const std::vector<double>& directions,
+                const std::vector<TracedLine>& lines) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const SurfacePath& path = lines[i].path;
+    Json points = Json::array(), faces = Json::array(), weights = Json::array();
+    for (const Vec3& p : positions_of(mesh, path)) points.push_back({p.x(), p.y(), p.z()});
+    for (const SurfacePoint& point : points_in_faces(mesh, path)) {
+      faces.push_back(point.face);
+      weights.push_back(point.weights);
+    }
+    json.push_back({{"direction", directions[i]},
+                    {"length", path.length},
+                    {"end", to_text(lines[i].end)},
+                    {"to", point_json(path.points.back())},
+                    {"points", std::move(points)},
+                    {"faces", std::move(faces)},
+                    {"barycentric", std::move(weights)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto source = single_point(arguments.from, "--from");
+  if (!source) return source.error();
+  const auto length = number_of(arguments.length, "--length", "length");
+  if (!length) return length.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, {}, outputs);
+  const auto expected = expect_line_files(arguments.files, outputs);
+  if (!expected) return expected.error();
+  const auto work =
+      begin(arguments.model, asked->reading, *source, "straightest lines are", progress);
+  if (!work) return work.error();
+  const TriangleMesh& mesh = *work->model.mesh;
+  const auto directions = directions_of(arguments, work->frame);
+  if (!directions) return directions.error();
+  const Stopwatch watch;
+  std::vector<TracedLine> lines;
+  for (const double direction : *directions) {
+    auto line = work->directions->trace(work->point, direction, *length);
+    if (!line) return about("--direction " + number_text(direction), line.error());
+    lines.push_back(*std::move(line));
+  }
+  const double trace_ms = watch.milliseconds();
+
+  CommandOutput out{"", work->warnings, {}};
+  LinePicture picture{work->model.mesh,
+                      {},
+                      {position_at(mesh, work->point)},
+                      0,
+                      work->model.name + ", " +
+                          counted(static_cast<std::int64_t>(lines.size()), "straightest line",
+                                  "straightest lines")};
+  for (const TracedLine& line : lines) picture.lines.push_back({&line.path, {}});
+  const auto written =
+      write_line_files(arguments.files, picture, asked->picture, progress, outputs, out);
+  if (!written) return written.error();
+  if (!arguments.files.json.empty()) {
+    Json json = work_json(*work, "trace", trace_ms);
+    json["traced"] = lines_json(mesh, *directions, lines);
+    const auto done =
+        outputs.write_text(arguments.files.json, report_text(std::move(json)), out.text);
+    if (!done) return done.error();
+  }
+  if (!outputs.uses_stdout()) {
+    TextTable table = work_table(*work);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const TracedLine& line = lines[i];
+      const bool whole = line.end == TraceEnd::kLength;
+      table.add_row(
+          {"line",
+           "direction " + significant((*directions)[i]) + ": " + significant(line.path.length, 7) +
+               (whole                           ? ""
+                : line.end == TraceEnd::kBorder ? ", where the border is"
+                                                : ", where three faces or several fans meet")});
+    }
+    out.text = table.text();
+  }
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// `geotherm plan`: memory and time of work that is too long to try.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "app/cli/commands.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
+#include "app/text/text.h"
+#include "geotherm/io.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A figure at two sizes, and between and beyond them the power law through both.
+struct Law {
+  double small, large;
+
+  double at(double vertices) const {
+    const double power = std::log(large / small) / std::log(kLarge / kSmall);
+    return small * std::pow(vertices / kSmall, power);
+  }
+  static constexpr double kSmall = 140e3, kLarge = 2.2e6;  ///< vertices
+};
+
+/// docs/performance.md, torus of 280k and 4.4M faces, backend native, two threads of a Xeon.
+constexpr Law kSetupSeconds = {0.359, 8.44};
+constexpr Law kQuerySeconds = {0.00658, 0.160};
+constexpr Law kRowSeconds = {0.00272, 0.0616};  ///< of a source in a block of sixteen
+constexpr Law kPeakBytes = {143 * kMegabyte, 2.62 * 1024 * kMegabyte};
+/// Two chunks of sixteen answers, of a thread each.
+constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
+
+/// Distances are computed on rows numbered by 32 bits; a closed surface has twice as many faces.
+constexpr double kMaxVertices = std::numeric_limits<Index>::max() / 3.0;
+
+Result<double> whole_number(const std::string& text, const char* option) {
+  const auto number = number_in<double>(text);
+  if (number && *number >= 1 && *number <= 1e15 && *number == std::floor(*number)) return *number;
+  return Error{ErrorCode::kBadInput, std::string(option) + ": '" + one_line(text) +
+                                         "' is no count; give a whole number from 1, such as 2e6"};
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& command, PlanArguments& arguments) {
+  command.add_option("--vertices", arguments.vertices, "of the mesh, such as 2e6")
+      ->type_name("N")
+      ->required();
+  command.add_option("--sources", arguments.sources, "rows of distances wanted; default 1")
+      ->type_name("K");
+  command.add_option("--ranks", arguments.ranks, "processes that share them; default 1")
+      ->type_name("N");
+  command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
+      ->type_name("FILE");
+  command.footer(
+      "Power laws through figures that were measured on two threads (docs/performance.md); "
+      "every rank holds the whole mesh.\n"
+      "Examples:\n"
+      "  geotherm plan --vertices 2e6 --sources 10000 --ranks 64");
+}
+
+Result<CommandOutput> run_plan(const PlanArguments& arguments) {
+  const auto or_one = [](const std::string& text) { return text.empty() ? "1" : text; };
+  const auto vertices = whole_number(arguments.vertices, "--vertices");
+  if (!vertices) return vertices.error();
+  const auto sources = whole_number(or_one(arguments.sources), "--sources");
+  if (!sources) return sources.error();
+  const auto ranks = whole_number(or_one(arguments.ranks), "--ranks");
+  if (!ranks) return ranks.error();
+  if (*vertices > kMaxVertices) {
+    return Error{ErrorCode::kBadInput,
+                 "--vertices: a process holds meshes of up to " +
+                     grouped(static_cast<std::int64_t>(kMaxVertices)) + " vertices, not " +
+                     grouped(static_cast<std::int64_t>(*vertices)) + "; simplify the mesh first"};
+  }
+  Outputs outputs;
+  if (!arguments.json.empty()) {
+    if (auto expected = outputs.expect(arguments.json, "--json"); !expected) {
+      return expected.error();
+    }
+  }
+  // Blocks of sixteen are dealt out whole.
+  const double blocks = std::ceil(*sources / 16), most = std::ceil(blocks / *ranks);
+  const double rows = std::min(16 * most, *sources);
+  const double idle = std::max(0.0, *ranks - blocks);
+  const double setup = kSetupSeconds.at(*vertices);
+  const double queries =
+      *sources == 1 ? kQuerySeconds.at(*vertices) : rows * kRowSeconds.at(*vertices);
+  const double bytes = kPeakBytes.at(*vertices) + (*sources > 1 ? kAnswersOfVertex * *vertices : 0);
+  const auto file =
+      static_cast<double>(npy_bytes_of(static_cast<std::uint64_t>(*sources),
+                                       static_cast<std::uint64_t>(*vertices), NpyType::kFloat64));
+  CommandOutput out;
+  if (!arguments.json.empty()) {
+    const Json json = {{"plan",
+                        {{"vertices", *vertices},
+                         {"sources", *sources},
+                         {"ranks", *ranks},
+                         {"rows_of_rank", rows},
+                         {"idle_ranks", idle},
+                         {"memory_mb_of_rank", bytes / kMegabyte},
+                         {"setup_seconds", setup},
+                         {"queries_seconds", queries},
+                         {"file_bytes", file}}}};
+    const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
+    if (!written) return written.error();
+  }
+  if (outputs.uses_stdout()) return out;
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  const auto count = [](double number) { return grouped(static_cast<std::int64_t>(number)); };
+  table.add_row({"memory a rank", bytes_in_words(bytes) + ", whole mesh and factors in each"});
+  table.add_row({"memory of all", bytes_in_words(bytes * *ranks)});
+  table.add_row({"rows a rank", count(rows) + " at most" +
+                                    (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
+  table.add_row({"set-up", seconds_in_words(setup) + ", two threads a rank"});
+  table.add_row({"queries", seconds_in_words(queries)});
+  table.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
+  out.text = table.text();
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

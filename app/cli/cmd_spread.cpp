@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+// `transport` and `extend`.
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "app/cli/commands.h"
+#include "app/cli/vertex_columns.h"
+#include "app/session/model.h"
+#include "app/session/progress.h"
+#include "app/session/report.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "geotherm/directions.h"
+#include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// A vertex and the numbers behind it.
+struct AtVertex {
+  Index vertex = kNoIndex;
+  std::vector<double> numbers;
+};
+
+/// V:X or V:X:Y.
+Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const char* option,
+                                       std::size_t numbers) {
+  std::vector<AtVertex> out;
+  for (const std::string& text : arguments.given) {
+    AtVertex& given = out.emplace_back();
+    std::size_t from = 0, parts = 0;
+    bool fine = true;
+    for (; from <= text.size(); ++parts) {
+      const std::size_t colon = std::min(text.find(':', from), text.size());
+      const std::string word = text.substr(from, colon - from);
+      from = colon + 1;
+      if (parts == 0) {
+        const auto vertex = number_in<Index>(word);
+        fine = fine && vertex;
+        given.vertex = vertex.value_or(kNoIndex);
+      } else {
+        const auto number = number_in<double>(word);
+        fine = fine && number && std::isfinite(*number);
+        given.numbers.push_back(number.value_or(0));
+      }
+    }
+    if (fine && parts == numbers + 1) continue;
+    return Error{ErrorCode::kBadInput,
+                 std::string(option) + ": '" + one_line(text) + "' is none; write " +
+                     (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE")};
+  }
+  return out;
+}
+
+struct SpreadWork {
+  Model model;
+  std::shared_ptr<const VectorHeat> heat;
+  Spread spread;
+  double setup_ms = 0, solve_ms = 0;
+};
+
+using Ask = std::function<Result<Spread>(const VectorHeat& heat, const Progress& progress)>;
+
+Result<SpreadWork> spread_over(const SpreadArguments& arguments, const ViewerState& asked,
+                               const char* what, const Ask& ask, const Progress& progress) {
+  auto model = load_model(arguments.model, asked.reading, progress);
+  if (!model) return model.error();
+  if (auto surface = refuse_space(*model, what); !surface) return surface.error();
+  SpreadWork work{*std::move(model), {}, {}, 0, 0};
+  const Stopwatch setup;
+  const SpreadOptions options{asked.options.backend, asked.options.time_step.factor,
+                              asked.options.threads};
+  auto heat = VectorHeat::build(work.model.mesh, options, part_of(progress, 0, 0.7));
+  if (!heat) return about_model(work.model.name, heat.error());
+  work.heat = *std::move(heat);
+  work.setup_ms = setup.milliseconds();
+  const Stopwatch solving;
+  auto spread = ask(*work.heat, part_of(progress, 0.7, 1));
+  if (!spread) return about_model(work.model.name, spread.error());
+  work.spread = *std::move(spread);
+  work.solve_ms = solving.milliseconds();
+  work.spread.warnings.insert(work.spread.warnings.begin(), work.model.notes.begin(),
+                              work.model.notes.end());
+  return work;
+}
+
+Json spread_json(const SpreadWork& work, const std::vector<AtVertex>& given, Index reached) {
+  Json from = Json::array();
+  for (const AtVertex& each : given) {
+    from.push_back({{"vertex", each.vertex}, {"numbers", each.numbers}});
+  }
+  return {{"model",
+           {{"name", work.model.name},
+            {"vertices", work.model.mesh->vertex_count()},
+            {"faces", work.model.mesh->face_count()}}},
+          {"given", std::move(from)},
+          {"reached", reached},
+          {"t", work.spread.t},
+          {"timing_ms",
+           {{"load", work.model.load_ms}, {"setup", work.setup_ms}, {"solve", work.solve_ms}}},
+          {"warnings", told(work.spread.warnings)}};
+}
+
+/// Arrows along the vectors of vertices that lie evenly, the longest as long as their spacing.
+Result<std::vector<SurfacePath>> arrows(const SpreadWork& work) {
+  constexpr double kCells = 18, kBarb = 0.3, kBarbAngle = 0.5;
+  const TriangleMesh& mesh = *work.model.mesh;
+  const auto directions = Directions::build(work.model.mesh);
+  if (!directions) return directions.error();
+  Vec3 low = Vec3::Constant(kUnreached), high = -low;
+  double longest = 0;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const double norm = work.spread.vectors[v].norm();
+    if (!std::isfinite(norm)) continue;
+    longest = std::max(longest, norm);
+    low = low.cwiseMin(mesh.positions()[v]);
+    high = high.cwiseMax(mesh.positions()[v]);
+  }
+  const double cell = (high - low).maxCoeff() / kCells;
+  std::set<std::array<int, 3>> taken;
+  std::vector<SurfacePath> lines;
+  const auto draw = [&](const SurfacePoint& from, double direction, double length) {
+    auto line = (*directions)->trace(from, direction, length);
+    const bool drawn = line && line->path.length > 0;  // else it leaves the surface
+    if (drawn) lines.push_back(line->path);
+    return drawn ? *line : TracedLine{};
+  };
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const auto [x, y] = work.spread.components[v];
+    const double length = 0.8 * cell * std::hypot(x, y) / longest;
+    if (!std::isfinite(x) || !(length > 0)) continue;
+    const Vec3 place = (mesh.positions()[v] - low) / cell;
+    if (!taken.insert({int(place.x()), int(place.y()), int(place.z())}).second) continue;
+    const TracedLine line = draw(SurfacePoint::at_vertex(v), std::atan2(y, x), length);
+    if (line.path.points.empty() || std::isnan(line.direction)) continue;
+    for (const double hand : {-1, 1}) {
+      draw(line.path.points.back(), line.direction + std::numbers::pi + hand * kBarbAngle,
+           kBarb * length);
+    }
+  }
+  return lines;
+}
+
+std::string spread_table(const SpreadWork& work, const char* what, Index reached) {
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  table.add_row({"model", one_line(work.model.name) + ": " +
+                              counted(work.model.mesh->vertex_count(), "vertex", "vertices") +
+                              ", " + counted(work.model.mesh->face_count(), "face", "faces")});
+  table.add_row({what, "at " + counted(reached, "vertex", "vertices")});
+  table.add_row({"t", significant(work.spread.t)});
+  table.add_row({"set-up", milliseconds(work.setup_ms) + " ms"});
+  table.add_row({"solve", milliseconds(work.solve_ms) + " ms"});
+  return table.text();
+}
+
+Result<void> write_arrows(const std::string& path, const SpreadWork& work,
+                          const PictureSettings& settings, const Progress& progress,
+                          Outputs& outputs, CommandOutput& out) {
+  LinePicture picture{work.model.mesh, {}, {}, 0, work.model.name + ", transported vectors"};
+  const auto lines = arrows(work);
+  if (!lines) return lines.error();
+  for (const SurfacePath& line : *lines) picture.lines.push_back({&line, 0.0});
+  return write_line_files({{path}, ""}, picture, settings, progress, outputs, out);
+}
+
+void add_spread_options(CLI::App& command, SpreadArguments& arguments, const char* option,
+                        const char* form, const char* help, const char* what, bool pictures) {
+  add_model_option(command, arguments.model, arguments.settings)->required();
+  command.add_option(option, arguments.given, help)
+      ->required()
+      ->type_name(form)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  add_column_options(command, arguments.outputs, arguments.json, what, pictures);
+  if (pictures) add_line_picture_options(command, arguments.settings);
+  add_quiet_option(command, arguments.quiet);
+  add_setting_options(command, arguments.settings, {"backend", "time-factor", "threads"});
+}
+
+}  // namespace
+
+void add_transport_options(CLI::App& command, SpreadArguments& arguments) {
+  add_spread_options(command, arguments, "--vector", "V:X:Y",
+                     "a vector at a vertex by its components along e1 and e2 there (geotherm trace "
+                     "says the frame); may be repeated",
+                     "the vectors, in space (vx, vy, vz) and in the frames (u, v),", true);
+  command.footer(
+      "The vector heat method: each vertex gets the vector of the nearest of those given, carried "
+      "along the shortest path. A picture has arrows on the surface.\n"
+      "Examples:\n"
+      "  geotherm transport bunny --vector 17:1:0 -o vectors.npy\n"
+      "  geotherm transport bunny --vector 17:1:0 --vector 900:0:2 -o vectors.svg");
+}
+
+Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto given = given_in(arguments, "--vector", 2);
+  if (!given) return given.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, {}, outputs);
+  const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
+  if (!expected) return expected.error();
+  std::vector<TangentVector> vectors;
+  for (const AtVertex& v : *given) vectors.push_back({v.vertex, v.numbers[0], v.numbers[1]});
+  const auto work = spread_over(
+      arguments, *asked, "vectors are",
+      [&](const VectorHeat& heat, const Progress& part) { return heat.transport(vectors, part); },
+      progress);
+  if (!work) return work.error();
+
+  std::vector<VertexColumn> columns = {{"vx", {}}, {"vy", {}}, {"vz", {}}, {"u", {}}, {"v", {}}};
+  Index reached = 0;
+  for (std::size_t v = 0; v < work->spread.vectors.size(); ++v) {
+    for (int k = 0; k < 3; ++k) columns[k].values.push_back(work->spread.vectors[v][k]);
+    for (int k = 0; k < 2; ++k) columns[3 + k].values.push_back(work->spread.components[v][k]);
+    reached += std::isfinite(work->spread.components[v][0]) ? 1 : 0;
+  }
+  CommandOutput out{"", work->spread.warnings, {}};
+  for (const std::string& path : arguments.outputs) {
+    const auto written = io::file_extension(path) == ".svg"
+                             ? write_arrows(path, *work, asked->picture, progress, outputs, out)
+                             : write_columns(path, *work->model.mesh, columns, outputs, out.text);
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    const auto written = outputs.write_text(
+        arguments.json, report_text(spread_json(*work, *given, reached)), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = spread_table(*work, "vectors", reached);
+  out.made = outputs.made();
+  return out;
+}
+
+void add_extend_options(CLI::App& command, SpreadArguments& arguments) {
+  add_spread_options(command, arguments, "--value", "V:X", "a value at a vertex; may be repeated",
+                     "the values", false);
+  command.footer(
+      "Each vertex gets the value of the nearest of those given; where two are almost as near, one "
+      "between them.\n"
+      "Example:\n"
+      "  geotherm extend bunny --value 17:1 --value 900:5 -o values.ply");
+}
+
+Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progress& progress) {
+  const auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  const auto given = given_in(arguments, "--value", 1);
+  if (!given) return given.error();
+  Outputs outputs;
+  protect_inputs(arguments.model, {}, outputs);
+  const auto expected = expect_columns(arguments.outputs, arguments.json, false, outputs);
+  if (!expected) return expected.error();
+  std::vector<Index> vertices;
+  std::vector<double> values;
+  for (const AtVertex& each : *given) {
+    vertices.push_back(each.vertex);
+    values.push_back(each.numbers[0]);
+  }
+  const auto work = spread_over(
+      arguments, *asked, "values are carried",
+      [&](const VectorHeat& heat, const Progress& part) {
+        return heat.extend(vertices, values, part);
+      },
+      progress);
+  if (!work) return work.error();
+  const std::vector<double>& all = work->spread.values;
+  const auto reached =
+      static_cast<Index>(std::ranges::count_if(all, [](double x) { return std::isfinite(x); }));
+  CommandOutput out{"", work->spread.warnings, {}};
+  for (const std::string& path : arguments.outputs) {
+    const auto written =
+        write_columns(path, *work->model.mesh, {{"value", all}}, outputs, out.text);
+    if (!written) return written.error();
+  }
+  if (!arguments.json.empty()) {
+    const auto written = outputs.write_text(
+        arguments.json, report_text(spread_json(*work, *given, reached)), out.text);
+    if (!written) return written.error();
+  }
+  if (!outputs.uses_stdout()) out.text = spread_table(*work, "values", reached);
+  out.made = outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "app/cli/many_work.h"
+
+// The files that `solve --each` writes as rows come.
+namespace geotherm::app {
+
+/// The error with what helps where a file cannot be written.
+Error about_file(const Error& error);
+
+/// A .npy array that ranks write together: each its rows, into the file of the first one, which is
+/// renamed when all are done. Alone it is written as NpyRows does it.
+class SharedRows {
+ public:
+  /// All ranks. Errors: kBadFile, the same on all.
+  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
+                                 NpyType type);
+  SharedRows(SharedRows&&) noexcept;
+  ~SharedRows();
+
+  /// Errors: kBadFile, kBadInput (a row that does not fit the type).
+  Result<void> write(std::size_t row, std::span<const double> distances);
+  /// On the first rank, when the others have written theirs.
+  Result<void> finish();
+
+ private:
+  struct State;
+  explicit SharedRows(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// The rows of --each as they come: an array, or what is reached alone.
+class RowsFile {
+ public:
+  /// All ranks. Errors: kBadFile (no room among them), kBadInput (sparse rows of several ranks).
+  static Result<RowsFile> open(const std::string& path, const ManySources& work, NpyType type);
+
+  /// Errors: those of SharedRows and SparseRows.
+  Result<void> write(std::size_t row, const DistanceResult& answer);
+  Result<void> finish() { return rows_ ? rows_->finish() : sparse_->finish(); }
+
+  Index columns() const { return columns_; }
+  /// Of sparse rows: so many distances.
+  std::optional<std::uint64_t> entries() const;
+  /// Of sparse rows those of the numbers so far.
+  double bytes() const;
+  std::string size_in_words() const;
+
+ private:
+  std::optional<SharedRows> rows_;
+  std::optional<SparseRows> sparse_;
+  Index columns_ = 0;
+  double bytes_ = 0, number_bytes_ = 8;
+};
+
+}  // namespace geotherm::app

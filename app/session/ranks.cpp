@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "app/session/ranks.h"
+
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+
+#include "app/session/wording.h"
+#include "app/text/text.h"
+
+namespace geotherm::app {
+namespace {
+
+/// Of Open MPI, of MPICH and its relatives, of Slurm's srun. A batch script of Slurm, which srun
+/// has not started, has SLURM_PROCID, but no step.
+constexpr std::array<std::array<const char*, 2>, 3> kLaunchers = {
+    {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"},
+     {"PMI_RANK", "PMI_SIZE"},
+     {"SLURM_PROCID", "SLURM_STEP_NUM_TASKS"}}};
+
+std::optional<int> number_of(const char* variable) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr ? number_in<int>(text) : std::nullopt;
+}
+
+}  // namespace
+
+RankOfCount launched_as() {
+  for (const auto& [rank, count] : kLaunchers) {
+    const auto ours = number_of(rank), all = number_of(count);
+    if (ours && all && *all > 1 && *ours >= 0 && *ours < *all) return {*ours, *all};
+  }
+  return {};
+}
+
+Result<void> refuse_ranks(const std::string& what) {
+  const int count = launched_as().count;
+  if (count == 1) return {};
+  return Error{ErrorCode::kBadInput,
+               what + " works in one process, and was started as " + std::to_string(count),
+               {"start it without mpirun; batch and solve with each or pairs share their work"}};
+}
+
+bool is_of_launcher(const std::string& variable) {
+  for (const std::string_view begin : {"OMPI_", "PMIX_", "PMI_", "SLURM_PROCID", "SLURM_STEP_"}) {
+    if (variable.starts_with(begin)) return true;
+  }
+  return false;
+}
+
+Result<Ranks> Ranks::join() {
+  const RankOfCount launched = launched_as();
+  if (launched.count == 1) return Ranks({});
+  const auto started = start_mpi();
+  if (!started) {
+    Error error = started.error();
+    error.message = "started as " + std::to_string(launched.count) +
+                    " processes that are to work together: " + error.message;
+    return error;
+  }
+  if (started->count == launched.count) return Ranks(*started);
+  return Error{ErrorCode::kNotAvailable,
+               "started as " + std::to_string(launched.count) + " processes, of which MPI knows " +
+                   std::to_string(started->count),
+               {"use the mpirun of the MPI that this program is built with (Open MPI)"}};
+}
+
+std::vector<std::string> Ranks::exchange(const std::string& mine) const {
+  if (alone()) return {mine};
+  std::vector<std::string> all;
+  (*mpi_module())
+      ->exchange(mine.data(), static_cast<std::int64_t>(mine.size()), &all,
+                 [](void* context, const char* bytes, std::int64_t size) {
+                   static_cast<std::vector<std::string>*>(context)->emplace_back(
+                       bytes, static_cast<std::size_t>(size));
+                 });
+  return all;
+}
+
+Result<void> Ranks::agree(const Result<void>& mine) const {
+  if (alone()) return mine;
+  std::string said;
+  if (!mine) said = std::to_string(static_cast<int>(mine.error().code)) + ' ' + told(mine.error());
+  const std::vector<std::string> all = exchange(said);
+  for (const std::string& each : all) {
+    if (each.empty()) continue;
+    const std::size_t blank = each.find(' ');
+    const auto code = number_in<int>(std::string_view(each).substr(0, blank));
+    return Error{static_cast<ErrorCode>(code.value_or(0)), each.substr(blank + 1)};
+  }
+  return {};
+}
+
+}  // namespace geotherm::app

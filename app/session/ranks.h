@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "geotherm/error.h"
+#include "solver/linear/mpi_module.h"
+
+// Several processes that work on one command (mpirun -n 4 geotherm ...), each of which is a rank.
+namespace geotherm::app {
+
+/// What the launcher (mpirun, srun) says of this process; one of one without any. Cost: none, MPI
+/// is not started.
+RankOfCount launched_as();
+
+/// Refuses to be one of several, where each would do the same. `what`: a command. Errors:
+/// kBadInput.
+Result<void> refuse_ranks(const std::string& what);
+
+/// Whether a variable of the environment makes a process a rank: one that a rank starts must not
+/// have it.
+bool is_of_launcher(const std::string& variable);
+
+/// The ranks of one command. What it offers is called by all of them, in the same order.
+class Ranks {
+ public:
+  /// Starts MPI where more than one process was launched. Errors: kNotAvailable, with what to
+  /// install.
+  static Result<Ranks> join();
+
+  int rank() const { return ours_.rank; }
+  int count() const { return ours_.count; }
+  bool alone() const { return ours_.count == 1; }
+  bool is_first() const { return ours_.rank == 0; }
+
+  /// What each rank has to say, in the order of the ranks, on all of them.
+  std::vector<std::string> exchange(const std::string& mine) const;
+
+  /// The error of the lowest rank that has one, on all of them: all go on or none does.
+  Result<void> agree(const Result<void>& mine) const;
+
+  /// The same for what has a value.
+  template <class Value>
+  Result<Value> agree_on(Result<Value> mine) const {
+    const auto all = agree(mine ? Result<void>() : Result<void>(mine.error()));
+    return all ? std::move(mine) : Result<Value>(all.error());
+  }
+
+ private:
+  explicit Ranks(RankOfCount ours) : ours_(ours) {}
+  RankOfCount ours_;
+};
+
+}  // namespace geotherm::app

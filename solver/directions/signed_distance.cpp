@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Signed distance to curves that separate the surface.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <numeric>
+#include <utility>
+
+#include "solver/directions/curve_pieces.h"
+#include "solver/directions/directions_state.h"
+#include "solver/geometry/edit.h"
+#include "solver/polyhedral/propagation.h"
+
+namespace geotherm {
+namespace {
+
+using Point2 = Eigen::Vector2d;
+using Layout = std::array<Point2, 3>;
+
+/// Which parts the curves cut the surface into, and on which side of them each is.
+class Parts {
+ public:
+  Parts(const Directions::State& state, const CurvePieces& curves)
+      : state_(state), curves_(curves), root_(curves.on_curve.size()), votes_(root_.size()) {
+    std::iota(root_.begin(), root_.end(), Index{0});
+  }
+
+  /// False where they are no sides of the curves.
+  bool find() {
+    const EdgeTable& edges = state_.paths.edges();
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      if (curves_.touched[e] == 0 && !on_curve(edges.low(e)) && !on_curve(edges.high(e))) {
+        root_[find_root(edges.low(e))] = find_root(edges.high(e));
+      }
+    }
+    vote();
+    for (Index e = 0; e < edges.edge_count(); ++e) {
+      const Index a = edges.low(e), b = edges.high(e);
+      if (curves_.touched[e] == 0 || on_curve(a) || on_curve(b)) continue;
+      const bool crossed = curves_.crossings[e] % 2 != 0;
+      if (crossed != (sign(a) != sign(b))) return false;
+    }
+    return std::ranges::none_of(votes_, [](const Votes& v) { return v.left > 0 && v.right > 0; });
+  }
+
+  /// -1 to the left of the curves, 1 to the right, 0 where they are not.
+  int sign(Index v) {
+    const Votes& votes = votes_[find_root(v)];
+    return votes.left > 0 ? -1 : votes.right > 0 ? 1 : 0;
+  }
+
+ private:
+  struct Votes {
+    int left = 0, right = 0;
+  };
+
+  bool on_curve(Index v) const { return curves_.on_curve[v] != 0; }
+  Index find_root(Index v) {
+    while (root_[v] != v) v = root_[v] = root_[root_[v]];
+    return v;
+  }
+
+  /// The corners of a face are on the side of the piece nearest to them there; where two meet, on
+  /// that of their mean normal.
+  void vote() {
+    std::vector<CurvePiece> pieces = curves_.pieces;
+    std::ranges::stable_sort(pieces, {}, &CurvePiece::face);
+    for (std::size_t begin = 0, end = 0; begin < pieces.size(); begin = end) {
+      const Index face = pieces[begin].face;
+      while (end < pieces.size() && pieces[end].face == face) ++end;
+      const Layout at = state_.layout(face);
+      for (int k = 0; k < 3; ++k) {
+        if (on_curve(state_.paths.face(face)[k])) continue;
+        const double side = side_of(at, at[k], {pieces.data() + begin, pieces.data() + end});
+        Votes& votes = votes_[find_root(state_.paths.face(face)[k])];
+        if (side > 0) ++votes.left;
+        if (side < 0) ++votes.right;
+      }
+    }
+  }
+
+  static double side_of(const Layout& at, const Point2& p, std::span<const CurvePiece> pieces) {
+    constexpr double kTied = 1e-9, kOnTheLine = 1e-12;
+    double nearest = kUnreached, side = 0;
+    const double size = (at[1] - at[0]).norm() + (at[2] - at[0]).norm();
+    for (const CurvePiece& piece : pieces) {
+      const Point2 from = place_of(at, piece.from), along = place_of(at, piece.to) - from;
+      const double length = along.norm();
+      if (!(length > 0)) continue;
+      const double t = std::clamp(along.dot(p - from) / (length * length), 0.0, 1.0);
+      const double distance = (p - from - t * along).norm();
+      if (distance > nearest + kTied * size) continue;
+      if (distance < nearest - kTied * size) side = 0;
+      nearest = std::min(nearest, distance);
+      side += cross(along, p - from) / length;
+    }
+    return std::abs(side) > kOnTheLine * size ? side : 0;
+  }
+
+  const Directions::State& state_;
+  const CurvePieces& curves_;
+  std::vector<Index> root_;
+  std::vector<Votes> votes_;
+};
+
+/// Every piece, and every point of the curves: there they may bend.
+SourceSeeds seeds_of(const Directions::State& state, const CurvePieces& curves) {
+  SourceSeeds seeds;
+  for (const CurvePiece& piece : curves.pieces) {
+    const Layout at = state.layout(piece.face);
+    seeds.pieces.push_back({piece.face, place_of(at, piece.from), place_of(at, piece.to), 0, 0});
+  }
+  for (Index v = 0; v < static_cast<Index>(curves.on_curve.size()); ++v) {
+    if (curves.on_curve[v] != 0) seeds.vertices.push_back({v, 0, 0});
+  }
+  for (const SurfacePoint& point : curves.points) {
+    if (point.is_vertex()) continue;
+    for (const Index face : state.paths.faces_at(point)) {
+      const Point2 there = place_of(state.layout(face), state.paths.express(point, face)->weights);
+      seeds.pieces.push_back({face, there, there, 0, 0});
+    }
+  }
+  return seeds;
+}
+
+}  // namespace
+
+Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> curves,
+                                                   const Progress& progress) const try {
+  const State& state = *state_;
+  const auto pieces = curve_pieces(state.paths, curves);
+  if (!pieces) return pieces.error();
+  Parts parts(state, *pieces);
+  if (!parts.find()) {
+    return Error{ErrorCode::kBadInput,
+                 "the curves do not separate the surface into what is left and right of them",
+                 {"close them, or use ", SettingHint{"rule", {"heat"}}}};
+  }
+  Propagation windows(state.windows);
+  if (auto done = windows.run(seeds_of(state, *pieces), progress); !done) return done.error();
+  SignedDistance out;
+  const double unit = state.surface->base.length_unit();
+  for (Index v = 0; v < state.paths.mesh()->vertex_count(); ++v) {
+    const Index own = state.paths.mesh()->standing_for(v);
+    const double distance = unit * windows.vertices()[static_cast<std::size_t>(own)].distance;
+    out.distances.push_back(std::isfinite(distance) && parts.sign(own) < 0 ? -distance : distance);
+  }
+  return out;
+} catch (const std::bad_alloc&) {
+  return directions_out_of_memory(state_->paths.mesh()->face_count());
+}
+
+Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
+                                       std::span<const SurfacePath> curves, SideRule rule,
+                                       const SpreadOptions& options, const Progress& progress) {
+  std::vector<Warning> warnings;
+  if (rule != SideRule::kHeat) {
+    const auto directions = Directions::build(mesh, part_of(progress, 0, 0.1));
+    if (!directions) return directions.error();
+    auto found = (*directions)->signed_distance(curves, part_of(progress, 0.1, 1));
+    if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
+      return found;
+    }
+    warnings.push_back({found.error().message + "; the signed heat method answers instead"});
+  }
+  const auto heat = VectorHeat::build(mesh, options, part_of(progress, 0, 0.7));
+  if (!heat) return heat.error();
+  auto found = (*heat)->signed_distance(curves, part_of(progress, 0.7, 1));
+  if (found) found->warnings.insert(found->warnings.begin(), warnings.begin(), warnings.end());
+  return found;
+}
+
+}  // namespace geotherm

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geotherm/error.h"
+#include "geotherm/mesh.h"
+#include "geotherm/names.h"
+#include "geotherm/path.h"
+#include "geotherm/progress.h"
+
+// Directions on a triangle mesh: tangent planes, logarithmic maps, straightest lines, vectors and
+// values carried over the surface, and on which side of a curve it is.
+namespace geotherm {
+
+/// The axes in which directions at a point are said. A direction is an angle in radians from e1
+/// towards e2.
+///
+/// In a face e1 points from its first corner to its second, as the file has them. At a vertex the
+/// angles of its corners are added up, from the first edge on: on the border that from which the
+/// faces follow each other counterclockwise, elsewhere that towards the next corner of the first
+/// face with the vertex. Inside the surface the sum is scaled to 2 pi, on the border it stays what
+/// it is; the surface then lies in the directions from 0 to `angle`. At vertices e1 and e2 lie in
+/// the plane of the mean normal (faces weighted by their angles), e1 below the first edge; vectors
+/// in space are those of the tangent plane by that.
+struct TangentFrame {
+  Vec3 e1 = Vec3::UnitX(), e2 = Vec3::UnitY(), normal = Vec3::UnitZ();  ///< orthonormal
+  double angle = 0;        ///< of the surface round the point, radians: 2 pi where it is flat
+  bool border = false;     ///< a vertex on the border, where directions are not scaled
+  Index first = kNoIndex;  ///< of a vertex: the other end of its first edge
+
+  /// The vector of this direction and length, in the units of the length.
+  Vec3 vector(double direction, double length = 1) const;
+};
+
+/// Polar coordinates about a point: where each vertex is seen from there along the shortest path.
+struct LogMap {
+  TangentFrame frame;              ///< at the point
+  std::vector<double> distances;   ///< V, model units; kUnreached where no path leads
+  std::vector<double> directions;  ///< V, radians, -pi to pi, on a border 0 to its angle, as the
+                                   ///< path leaves the point; NaN where there is no path
+};
+
+/// Why a straightest line ends.
+enum class TraceEnd {
+  kLength,  ///< it is as long as was asked for
+  kBorder,  ///< at the border
+  kSplit,   ///< at an edge with three faces or more, or a vertex of several fans
+};
+inline NamedValues<TraceEnd> named_values(TraceEnd) {
+  using enum TraceEnd;
+  return {"a line does not end by '*'",
+          {{kLength, "length"}, {kBorder, "border"}, {kSplit, "split"}}};
+}
+
+/// A straightest line.
+struct TracedLine {
+  SurfacePath path;                  ///< its length is that asked for unless it ends before
+  TraceEnd end = TraceEnd::kLength;  ///< why it ends
+  /// In which it would go on, in the frame of its last point; NaN where that is a vertex.
+  double direction = 0;
+};
+
+/// How the side of a curve is told.
+enum class SideRule {
+  kAuto,   ///< kSides where the curves separate the surface, else kHeat
+  kSides,  ///< exact distance, with the sign of the part of the surface that a vertex is in
+  kHeat,   ///< the signed heat method (Feng, Crane 2024), which closes gaps
+};
+inline NamedValues<SideRule> named_values(SideRule) {
+  using enum SideRule;
+  return {"there is no rule '*'", {{kAuto, "auto"}, {kSides, "sides"}, {kHeat, "heat"}}};
+}
+
+/// Distance to curves, negative to the left of their direction: inside a loop that runs
+/// counterclockwise.
+struct SignedDistance {
+  std::vector<double> distances;     ///< V, model units; kUnreached where no curve is
+  SideRule rule = SideRule::kSides;  ///< kSides or kHeat: which it was
+  std::vector<Warning> warnings;     ///< one sentence each
+};
+
+/// The directions of a mesh. Immutable; several threads may ask at once. Edges of degenerate faces
+/// are as long as mollification makes them (1e-5 of the longest side).
+class Directions {
+ public:
+  /// Errors: kBadInput (no face with area), kOutOfMemory, kCancelled. Cost: O(F).
+  static Result<std::shared_ptr<const Directions>> build(std::shared_ptr<const TriangleMesh> mesh,
+                                                         const Progress& progress = {});
+  ~Directions();
+
+  /// Errors: kBadInput (a point that is not on the mesh, a vertex whose faces are no single fan).
+  Result<TangentFrame> frame_at(const SurfacePoint& point) const;
+
+  /// The logarithmic map about a point, carried along by exact windows: exact on polyhedra. Paths
+  /// that bend round a vertex have the direction of their first piece. Errors: those of frame_at(),
+  /// a point on an edge with three faces or more, those of exact distances. Cost: an exact query.
+  Result<LogMap> log_map(const SurfacePoint& point, const Progress& progress = {}) const;
+
+  /// The straightest line (Polthier, Schmies 1998) from a point in a direction: straight across
+  /// edges, and with the same angle on both sides at vertices. `length` in model units. It may pass
+  /// a seam where orientations disagree. Errors: those of frame_at(), kBadInput (a direction or
+  /// length that is not finite, a negative length, at the border a direction that leaves the
+  /// surface), kBudgetEnded (ten million pieces). Cost: O(pieces).
+  Result<TracedLine> trace(const SurfacePoint& point, double direction, double length) const;
+
+  /// Signed distance to directed curves that separate the surface, each piece of which lies in one
+  /// face (PathFinder finds such): exact on the faces, by windows. Errors: kBadInput (no curve, a
+  /// piece that is in no face, curves that leave the surface in one part or go round a part in both
+  /// directions), those of exact distances. Cost: an exact query.
+  Result<SignedDistance> signed_distance(std::span<const SurfacePath> curves,
+                                         const Progress& progress = {}) const;
+
+  struct State;  ///< internal
+
+ private:
+  explicit Directions(std::unique_ptr<const State> state);
+  std::unique_ptr<const State> state_;
+};
+
+/// A tangent vector at a vertex, in its frame.
+struct TangentVector {
+  Index vertex = kNoIndex;  ///< where it stands
+  double x = 0, y = 0;      ///< along e1 and e2
+};
+
+/// How values and vectors are spread.
+struct SpreadOptions {
+  std::string backend;     ///< one that factorises, of backend_names(); empty: the first of them
+  double time_factor = 1;  ///< diffusion time in squares of the mean edge, > 0
+  int threads = 0;         ///< 0: all cores
+};
+
+/// Vectors or values at all vertices, from some of them.
+struct Spread {
+  std::vector<Vec3> vectors;  ///< V, of vectors: in space, model axes; NaN where none can be
+  std::vector<std::array<double, 2>> components;  ///< the same in the frames of the vertices
+  std::vector<double> values;                     ///< V, of values; NaN where none can be
+  double t = 0;                                   ///< diffusion time, model units squared
+  std::vector<Warning> warnings;                  ///< one sentence each
+};
+
+/// The vector heat method (Sharp, Soliman, Crane 2019): vectors carried along shortest paths from
+/// their nearest source without turning, and values extended as the nearest source has them, by
+/// short diffusion on the intrinsic Delaunay triangulation. Immutable; several threads may ask at
+/// once.
+class VectorHeat {
+ public:
+  /// Errors: kBadInput (no face with area, a time factor that is not above 0), kNotAvailable (no
+  /// such backend, or one that holds no factor), those of the backend. Cost: a factorisation of 2 V
+  /// and one of V rows.
+  static Result<std::shared_ptr<const VectorHeat>> build(std::shared_ptr<const TriangleMesh> mesh,
+                                                         const SpreadOptions& options = {},
+                                                         const Progress& progress = {});
+  ~VectorHeat();
+
+  /// The frames of the vertices: V; those in no face have the axes of space.
+  const std::vector<TangentFrame>& frames() const;
+
+  /// Vectors at all vertices. Their lengths are extended like values. Where the mesh is so wide
+  /// that heat falls below the smallest double, the time is made longer for this call and a warning
+  /// says so. Errors: kBadInput (no vector, a vertex out of range or in no face, numbers that are
+  /// not finite; a mesh that is no oriented manifold, with the vertex), those of the backend.
+  Result<Spread> transport(std::span<const TangentVector> vectors,
+                           const Progress& progress = {}) const;
+
+  /// Values at all vertices; on any mesh. Errors: the same, and not as many values as vertices.
+  Result<Spread> extend(std::span<const Index> vertices, std::span<const double> values,
+                        const Progress& progress = {}) const;
+
+  /// Signed distance to directed curves by the signed heat method, whether or not they are closed:
+  /// their normals diffuse, and gaps are closed by what they point to. Errors: kBadInput (no curve,
+  /// a piece that is in no face, a mesh that is no oriented manifold), those of the backend. Cost:
+  /// a factorisation more.
+  Result<SignedDistance> signed_distance(std::span<const SurfacePath> curves,
+                                         const Progress& progress = {}) const;
+
+ private:
+  struct State;
+  explicit VectorHeat(std::unique_ptr<const State> state);
+  std::unique_ptr<const State> state_;
+};
+
+/// Signed distance by a rule: that of Directions, or of VectorHeat. With kAuto a warning says that
+/// curves do not separate the surface. Errors: those of both.
+Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
+                                       std::span<const SurfacePath> curves,
+                                       SideRule rule = SideRule::kAuto,
+                                       const SpreadOptions& options = {},
+                                       const Progress& progress = {});
+
+}  // namespace geotherm

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "geotherm/error.h"
+
+namespace geotherm {
+
+/// What MPI and PETSc do for this program: a table of functions in a shared library of its own
+/// (geotherm-mpi.so), which is loaded when it is first needed, so that the program neither links to
+/// them nor needs them. Texts that are returned say what went wrong; empty: nothing. PETSc is for
+/// one thread at a time.
+struct MpiModule {
+  /// Starts MPI, once; this process has this rank of so many.
+  const char* (*start)(int* rank, int* count);
+
+  /// Hands the bytes of each rank to all of them, in the order of the ranks. All ranks call it.
+  void (*exchange)(const char* bytes, std::int64_t size, void* context,
+                   void (*take)(void* context, const char* bytes, std::int64_t size));
+
+  /// Ends MPI. Nothing may follow.
+  void (*finish)();
+
+  /// A symmetric positive definite matrix (n, rows of all entries, columns ascending), which stays
+  /// the caller's, and its BoomerAMG preconditioner; null with *problem.
+  void* (*make_solver)(int n, int* start, int* column, double* value, const char** problem);
+  void (*free_solver)(void* solver);
+
+  /// x = M^-1 b by conjugate gradients, to this residual relative to b's.
+  const char* (*solve)(void* solver, const double* b, double* x, double tolerance, int* iterations);
+};
+
+/// The function that a module has, const MpiModule* geotherm_mpi_module_1(): the number grows where
+/// the table changes.
+inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_1";
+
+/// Whether there is such a library: the one that the variable GEOTHERM_MPI_MODULE names (any other
+/// word: none), else the one beside the installed program, else that of the build. Cost: that of
+/// looking for files, once.
+bool has_mpi_module();
+
+/// Loads it, once, for as long as the process lives. Errors: kNotAvailable (there is none, or what
+/// it needs is missing), with what to install.
+Result<const MpiModule*> mpi_module();
+
+/// The rank of this process and how many there are.
+struct RankOfCount {
+  int rank = 0, count = 1;
+};
+
+/// Starts MPI where that has not been done. Errors: those of mpi_module(), kNotAvailable.
+Result<RankOfCount> start_mpi();
+
+/// Whether it was, and has not ended.
+bool mpi_is_started();
+
+/// Ends MPI where it was started; nothing of it may be used any more.
+void finish_mpi();
+
+}  // namespace geotherm

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace geotherm::io {
+
+/// The numbers of a mask.
+struct MaskNumbers {
+  std::vector<double> values;
+  bool flags = false;  ///< one for each vertex or face, whatever they are
+  bool ids = false;    ///< those of what is marked, whatever they are
+};
+
+/// `extension`: ".npy", ".label", ".ply", ".gii", else text; `property`: of the vertices of a .ply.
+/// Throws ReadFailure.
+MaskNumbers read_mask_numbers(std::string_view bytes, const std::string& extension,
+                              const std::string& property);
+
+}  // namespace geotherm::io

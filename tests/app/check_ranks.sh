@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check_ranks.sh PROGRAM MODULE: work that several processes share under mpirun, against that of one.
+# Exits 77 where mpirun or the library of MPI and PETSc is missing.
+set -euo pipefail
+program=$(realpath "$1") GEOTHERM_MPI_MODULE=$(realpath -m "$2")
+command -v mpirun >/dev/null && [ -f "$2" ] || {
+  echo "SKIPPED: no mpirun, or built without PETSc and MPI; scripts/setup.sh --dev installs them"
+  exit 77
+}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1
+export OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_hwloc_base_binding_policy=none
+export OMPI_MCA_mpi_yield_when_idle=1 GEOTHERM_MPI_MODULE
+
+fail() { printf 'FAILED: %s\n' "$*"; exit 1; }
+ranks() { local count=$1; shift; mpirun --oversubscribe -q -n "$count" "$@"; }
+# refused N WORDS COMMAND...: N ranks end with an error, of which WORDS are in the one line.
+refused() {
+  local count=$1 words=$2; shift 2
+  if timeout 60 mpirun --oversubscribe -q -n "$count" "$@" >out 2>said; then fail "$* was not refused"; fi
+  [ "$(grep -c 'geotherm: error' said)" = 1 ] || { cat said; fail "$*: not one line"; }
+  grep -q -- "$words" said || { cat said; fail "$*: no '$words'"; }
+}
+
+# Rows and pairs have the bits of one process; more ranks than blocks leave some without work.
+"$program" solve bunny -s random:70 --each --threads 1 -o one.npy >/dev/null
+"$program" solve bunny -s random:40 --pairs --threads 1 -o one.csv >/dev/null
+for count in 2 4 8; do
+  ranks "$count" "$program" solve bunny -s random:70 --each --threads 1 -o rows.npy --json rows.json >/dev/null
+  cmp one.npy rows.npy || fail "rows of $count ranks"
+  grep -q "\"ranks\": $count" rows.json || fail "the report of $count ranks"
+  rm rows.npy
+done
+ranks 2 "$program" solve bunny -s random:40 --pairs --threads 1 -o pairs.csv >/dev/null
+cmp one.csv pairs.csv || fail "pairs of 2 ranks"
+
+# One line of one rank, nothing left behind.
+refused 2 'works in one process' "$program" info bunny
+refused 2 'works in one process' "$program" solve bunny -s 0
+refused 2 'standard output' "$program" solve bunny -s 0,1 --each -o -
+refused 2 'no such file\|cannot' "$program" solve gone.ply -s 0,1 --each -o rows.npy
+# What one rank alone cannot do ends all: the others' model is whole, its disk is full.
+"$program" generate bunny -o bunny.ply >/dev/null
+mkdir other && head -c 20000 bunny.ply >other/bunny.ply
+cat >of_rank.sh <<'SH'
+case $1 in
+  truncated) [ "$OMPI_COMM_WORLD_RANK" = 1 ] && cd other && set -- x "../rows.npy" ;;
+  full) [ "$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -f 800 ;;
+esac
+[ "$1" = x ] && out=$2 || out=rows.npy
+exec "$PROGRAM" solve bunny.ply -s random:40 --each --threads 1 -o "$out"
+SH
+PROGRAM=$program refused 2 'bunny.ply' sh of_rank.sh truncated
+# Messages in shared memory would be files that are too large, too.
+OMPI_MCA_btl=self,tcp PROGRAM=$program refused 2 'cannot be written' sh of_rank.sh full
+[ -z "$(ls | grep rows.npy)" ] || fail "something of rows.npy was left: $(ls)"
+# Without the library of MPI.
+GEOTHERM_MPI_MODULE=none refused 2 'geotherm-mpi' "$program" solve bunny -s 0,1 --each -o rows.npy
+
+# A data set over ranks: the files of one process; what is done is not done again.
+mkdir set && for name in a b c d; do "$program" generate bunny --faces 600 -o set/$name.ply >/dev/null; done
+echo broken >set/e.ply
+"$program" batch 'set/?.ply' -s 0,5 --each --out-dir single >/dev/null 2>&1 && fail "a broken mesh passed"
+refused 3 '1 of 5 models' "$program" batch 'set/?.ply' -s 0,5 --each --out-dir shared
+for name in a b c d; do cmp single/$name.npy shared/$name.npy || fail "batch of 3 ranks: $name"; done
+[ "$(wc -l <shared/manifest.jsonl)" = 5 ] || fail "the manifest: $(cat shared/manifest.jsonl)"
+[ "$(grep -c '"status":"done"' shared/manifest.jsonl)" = 4 ] || fail "the manifest: $(cat shared/manifest.jsonl)"
+rm set/e.ply
+ranks 2 "$program" batch 'set/?.ply' -s 0,5 --each --out-dir shared --json again.json >/dev/null
+grep -q '"done_before": 4' again.json || fail "done twice: $(cat again.json)"
+echo "ranks: all checked"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// The commands logmap, trace, transport and extend.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/app/program_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+/// A square of side 2 in the plane z = 0, cut into four triangles about its middle, vertex 4, whose
+/// first edge leads to vertex 0.
+constexpr const char* kFlatSquare =
+    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+
+TEST_F(Program, LogMapSaysWhereVerticesAreSeen) {
+  folder.write("square.obj", kFlatSquare);
+  const Json map = json({"logmap", "square.obj", "-s", "4", "--json", "-"});
+  EXPECT_EQ(map["from"], 4);
+  EXPECT_EQ(map["reached"], 5);
+  EXPECT_EQ(map["frame"]["first"], 0);
+  const double first = map["log_map"]["directions"][0];
+  EXPECT_NEAR(first, 0, 1e-12);
+  for (int v = 0; v < 4; ++v) {
+    EXPECT_NEAR(map["log_map"]["distances"][v].get<double>(), std::numbers::sqrt2, 1e-12);
+    const double turn = map["log_map"]["directions"][v].get<double>() - v * std::numbers::pi / 2;
+    EXPECT_NEAR(std::remainder(turn, 2 * std::numbers::pi), 0, 1e-12) << v;
+  }
+}
+
+TEST_F(Program, LogMapWritesEveryFormat) {
+  folder.write("square.obj", kFlatSquare);
+  const ProgramRun table = run({"logmap", "square.obj", "-s", "4", "-o", "m.csv", "-o", "m.npy",
+                                "-o", "m.ply", "-o", "m.svg"});
+  EXPECT_NE(table.out.find("5 vertices"), std::string::npos) << table.out;
+  EXPECT_TRUE(
+      bytes_of(folder.path("m.csv")).starts_with("vertex,distance,direction,map_x,map_y\n0,1.41"));
+  EXPECT_NE(bytes_of(folder.path("m.npy")).find("(5, 4)"), std::string::npos);
+  EXPECT_NE(bytes_of(folder.path("m.ply")).find("property double map_y"), std::string::npos);
+  EXPECT_NE(bytes_of(folder.path("m.svg")).find("<svg"), std::string::npos);
+}
+
+TEST_F(Program, TraceFollowsStraightestLines) {
+  folder.write("square.obj", kFlatSquare);
+  const Json lines = json({"trace", "square.obj", "--from", "4", "--direction", "0", "--direction",
+                           "0.78539816339744831", "--length", "5", "--json", "-"});
+  ASSERT_EQ(lines["traced"].size(), 2U);
+  EXPECT_EQ(lines["traced"][0]["end"], "border");
+  EXPECT_NEAR(lines["traced"][0]["length"].get<double>(), std::numbers::sqrt2, 1e-12);
+  EXPECT_EQ(lines["traced"][0]["to"], 0);
+  EXPECT_NEAR(lines["traced"][1]["length"].get<double>(), 1, 1e-12);
+  const Json fan = json({"trace", "square.obj", "--from", "4", "--fan", "7", "--length", "0.25",
+                         "-o", "fan.vtp", "-o", "fan.svg", "--json", "-"});
+  ASSERT_EQ(fan["traced"].size(), 7U);
+  for (const Json& line : fan["traced"]) EXPECT_EQ(line["end"], "length");
+}
+
+TEST_F(Program, TransportAndExtendReachAllVertices) {
+  folder.write("square.obj", kFlatSquare);
+  const ProgramRun vectors = run({"transport", "square.obj", "--vector", "4:3:0", "-o", "-"});
+  // Towards vertex 0 all over the plane.
+  const std::string all = vectors.out;
+  EXPECT_TRUE(all.starts_with("vertex,vx,vy,vz,u,v\n")) << all;
+  EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 6);
+  EXPECT_NE(all.find("-2.12132034355964"), std::string::npos) << all;
+  const ProgramRun values =
+      run({"extend", "square.obj", "--value", "0:7", "-o", "v.ply", "-o", "-"});
+  EXPECT_EQ(values.out.substr(0, 13), "vertex,value\n");
+  EXPECT_NE(bytes_of(folder.path("v.ply")).find("property double value"), std::string::npos);
+  const Json said = json({"transport", "bunny", "--vector", "17:1:0", "--vector", "900:0:2",
+                          "--backend", "cholmod", "-o", "bunny.svg", "--json", "-"});
+  EXPECT_EQ(said["given"].size(), 2U);
+  EXPECT_EQ(said["reached"], said["model"]["vertices"]);
+}
+
+TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
+  folder.write("square.obj", kFlatSquare);
+  const std::vector<std::string> loop = {"signed",    "square.obj",    "--through", "xyz:0.5:0.5:0",
+                                         "--through", "xyz:1.5:0.5:0", "--through", "xyz:1.5:1.5:0",
+                                         "--through", "xyz:0.5:1.5:0", "--closed"};
+  auto words = loop;
+  words.insert(words.end(), {"-o", "-"});
+  const std::string csv = run(words).out;
+  EXPECT_TRUE(csv.starts_with("vertex,distance\n0,0.7071067811865")) << csv;
+  EXPECT_NE(csv.find("\n4,-0."), std::string::npos) << csv;
+  words = loop;
+  words.insert(words.end(), {"--json", "-", "-o", "signed.svg"});
+  const Json said = json(words);
+  EXPECT_EQ(said["rule"], "sides");
+  EXPECT_NEAR(said["length"].get<double>(), 4, 1e-9);
+  EXPECT_NEAR(said["range"][0].get<double>(), -0.5, 1e-9);
+  // Lines of other commands are curves, too; one that is open has no sides.
+  run({"path", "square.obj", "--from", "xyz:0.5:0.5:0", "--to", "xyz:1.5:0.5:0", "-o", "p.csv"});
+  const Json open = json({"signed", "square.obj", "--curves", "p.csv", "--json", "-"});
+  EXPECT_EQ(open["rule"], "heat");
+  EXPECT_EQ(open["warnings"].size(), 1U);
+  expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "sides"},
+                 "do not separate the surface");
+  expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "luck"}, "luck");
+  expect_refused({"signed", "square.obj", "--curves", "square.obj"}, "line 2 is no point");
+  expect_refused({"signed", "square.obj"}, "--through");
+}
+
+TEST_F(Program, DirectionsThatCannotBeAreOneLine) {
+  folder.write("square.obj", kFlatSquare);
+  folder.write("strip.obj",
+               "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 2 5\n");
+  expect_refused({"logmap", "square.obj", "-s", "0,1"}, "not one point");
+  expect_refused({"logmap", "square.obj", "-s", "99"}, "99");
+  expect_refused({"logmap", "square.obj", "-s", "4", "-o", "map.xyz"}, ".csv .npy .ply .svg");
+  expect_refused({"logmap", "strip.obj", "-s", "0"}, "no single fan");
+  expect_refused({"trace", "square.obj", "--from", "0", "--direction", "-1", "--length", "1"},
+                 "leaves the surface");
+  expect_refused({"trace", "square.obj", "--from", "0", "--direction", "east", "--length", "1"},
+                 "east");
+  expect_refused({"trace", "square.obj", "--from", "0", "--fan", "0", "--length", "1"}, "--fan");
+  expect_refused({"transport", "square.obj", "--vector", "4:1"}, "VERTEX:X:Y");
+  expect_refused({"transport", "square.obj", "--vector", "4:1:x"}, "VERTEX:X:Y");
+  expect_refused({"transport", "square.obj", "--vector", "77:1:0"}, "77");
+  expect_refused({"transport", "strip.obj", "--vector", "0:1:0"}, "no oriented manifold");
+  expect_refused({"transport", "square.obj", "--vector", "4:1:0", "--backend", "cg"}, "cg");
+  expect_refused({"extend", "square.obj", "--value", "4"}, "VERTEX:VALUE");
+}
+
+}  // namespace
+}  // namespace geotherm::test

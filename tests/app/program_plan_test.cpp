@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// What `plan` says of work that nobody has done yet.
+#include "tests/app/program_fixture.h"
+
+namespace geotherm::test {
+namespace {
+
+class PlanProgram : public Program {
+ protected:
+  Json plan(const std::vector<std::string>& words) {
+    std::vector<std::string> all = {"plan", "--json", "-"};
+    all.insert(all.end(), words.begin(), words.end());
+    return json(all)["plan"];
+  }
+};
+
+TEST_F(PlanProgram, GoesThroughTheMeasuredFigures) {
+  const Json small = plan({"--vertices", "140000"}), large = plan({"--vertices", "2.2e6"});
+  EXPECT_NEAR(small["setup_seconds"], 0.359, 1e-6);
+  EXPECT_NEAR(large["setup_seconds"], 8.44, 1e-6);
+  EXPECT_NEAR(large["queries_seconds"], 0.160, 1e-6);
+  EXPECT_NEAR(small["memory_mb_of_rank"], 143, 1e-6);
+}
+
+TEST_F(PlanProgram, SharesBlocksOfSixteenSources) {
+  const Json plan = this->plan({"--vertices", "1e6", "--sources", "100", "--ranks", "3"});
+  EXPECT_EQ(plan["rows_of_rank"], 48);
+  EXPECT_EQ(plan["idle_ranks"], 0);
+  EXPECT_EQ(this->plan({"--vertices", "1e6", "--sources", "20", "--ranks", "8"})["idle_ranks"], 6);
+  const double rows = plan["file_bytes"];
+  EXPECT_GE(rows, 8e8);
+  EXPECT_LE(rows, 8e8 + 1000);
+}
+
+TEST_F(PlanProgram, RefusesWhatNoProcessHoldsAndWhatIsNoCount) {
+  expect_refused({"plan", "--vertices", "1e9"}, "715,827,882");
+  expect_refused({"plan", "--vertices", "many"}, "--vertices");
+  expect_refused({"plan", "--vertices", "1e6", "--ranks", "0"}, "--ranks");
+  expect_refused({"plan", "--vertices", "1e6", "--sources", "1.5"}, "--sources");
+}
+
+}  // namespace
+}  // namespace geotherm::test

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Directions from C: on a square, where everything is known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "app/c/geotherm.h"
+
+namespace {
+
+class CDirections : public testing::Test {
+ protected:
+  void SetUp() override {
+    shape.positions = {positions, GEOTHERM_FLOAT64, 5, 3, 0, 0};
+    shape.cells = {faces, GEOTHERM_INT32, 4, 3, 0, 0};
+    ASSERT_EQ(geotherm_model_build(&shape, nullptr, nullptr, &model), GEOTHERM_OK);
+  }
+  void TearDown() override {
+    geotherm_free(model);
+    geotherm_free(answer);
+  }
+  const double* array(const char* name, std::int64_t rows, std::int64_t columns) {
+    geotherm_array found = {};
+    EXPECT_EQ(geotherm_array_of(answer, name, &found), GEOTHERM_OK) << name;
+    EXPECT_EQ(found.rows, rows);
+    EXPECT_EQ(found.columns, columns);
+    return static_cast<const double*>(found.data);
+  }
+
+  double positions[15] = {0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0, 1, 1, 0};
+  std::int32_t faces[12] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+  geotherm_shape shape = {};
+  geotherm_model* model = nullptr;
+  geotherm_answer* answer = nullptr;
+  geotherm_source middle = {GEOTHERM_VERTEX, 4, {}, 0};
+  geotherm_sources point = {&middle, 1, nullptr, 0, nullptr};
+};
+
+TEST_F(CDirections, LogMapIsWhereVerticesAre) {
+  ASSERT_EQ(geotherm_log_map(model, &point, nullptr, &answer), GEOTHERM_OK);
+  const double* const distances = array("distances", 5, 1);
+  const double* const directions = array("directions", 5, 1);
+  const double* const frame = array("frame", 1, 9);
+  for (int v = 0; v < 4; ++v) {
+    for (int k = 0; k < 3; ++k) {
+      const double offset =
+          std::cos(directions[v]) * frame[k] + std::sin(directions[v]) * frame[3 + k];
+      EXPECT_NEAR(1 - (k == 2) + distances[v] * offset, positions[3 * v + k], 1e-12);
+    }
+  }
+}
+
+TEST_F(CDirections, TraceEndsAtTheBorder) {
+  ASSERT_EQ(geotherm_trace(model, &point, 0, 9, nullptr, &answer), GEOTHERM_OK);
+  EXPECT_NEAR(*array("lengths", 1, 1), std::sqrt(2), 1e-12);
+  const char* end = nullptr;
+  ASSERT_EQ(geotherm_text_of(answer, "end", &end), GEOTHERM_OK);
+  EXPECT_STREQ(end, "border");
+}
+
+TEST_F(CDirections, VectorsAndValuesReachEveryVertex) {
+  std::int64_t at[] = {4};
+  double vector[] = {3, 4}, value[] = {7};
+  const geotherm_array vertices = {at, GEOTHERM_INT64, 1, 1, 0, 0};
+  const geotherm_array vectors = {vector, GEOTHERM_FLOAT64, 1, 2, 0, 0};
+  const geotherm_array values = {value, GEOTHERM_FLOAT64, 1, 1, 0, 0};
+  ASSERT_EQ(geotherm_transport(model, nullptr, &vertices, &vectors, nullptr, &answer), GEOTHERM_OK);
+  const double* const found = array("vectors", 5, 3);
+  for (int i = 0; i < 15; ++i) EXPECT_NEAR(found[i], found[12 + i % 3], 1e-9);
+  EXPECT_NEAR(std::hypot(found[0], found[1]), 5, 1e-9);
+  array("frames", 5, 9);
+  geotherm_free(answer);
+  ASSERT_EQ(geotherm_extend(model, nullptr, &vertices, &values, nullptr, &answer), GEOTHERM_OK);
+  for (int v = 0; v < 5; ++v) EXPECT_NEAR(array("values", 5, 1)[v], 7, 1e-9);
+  EXPECT_EQ(geotherm_transport(model, nullptr, &vertices, &values, nullptr, &answer),
+            GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_extend(model, nullptr, nullptr, &values, nullptr, &answer),
+            GEOTHERM_BAD_INPUT);
+}
+
+TEST_F(CDirections, SignedDistanceHasTheSideOfALoop) {
+  const geotherm_source corners[] = {{GEOTHERM_XYZ, 0, {0.5, 0.5, 0}, 0},
+                                     {GEOTHERM_XYZ, 0, {1.5, 0.5, 0}, 0},
+                                     {GEOTHERM_XYZ, 0, {1.5, 1.5, 0}, 0},
+                                     {GEOTHERM_XYZ, 0, {0.5, 1.5, 0}, 0}};
+  const std::int64_t starts[] = {0, 4};
+  const geotherm_sources loop = {corners, 4, starts, 1, nullptr};
+  ASSERT_EQ(geotherm_signed_distance(model, nullptr, &loop, 1, nullptr, nullptr, &answer),
+            GEOTHERM_OK);
+  const double* const distances = array("distances", 5, 1);
+  EXPECT_NEAR(distances[4], -0.5, 1e-9);
+  for (int v = 0; v < 4; ++v) EXPECT_NEAR(distances[v], std::sqrt(0.5), 1e-9);
+  const char* rule = nullptr;
+  ASSERT_EQ(geotherm_text_of(answer, "rule", &rule), GEOTHERM_OK);
+  EXPECT_STREQ(rule, "sides");
+}
+
+TEST_F(CDirections, WhatIsNullIsAnError) {
+  EXPECT_EQ(geotherm_log_map(nullptr, &point, nullptr, &answer), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_log_map(model, &point, nullptr, nullptr), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_trace(model, nullptr, 0, 1, nullptr, &answer), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_transport(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
+            GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_signed_distance(model, nullptr, &point, 0, "none", nullptr, &answer),
+            GEOTHERM_BAD_INPUT);
+}
+
+}  // namespace

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "geotherm/directions.h"
+#include "tests/support/broken_mesh.h"
+#include "tests/support/shapes.h"
+
+namespace geotherm::test {
+namespace {
+
+constexpr double kExact = 1e-9;
+/// The figure that was asked for, as a share of the radius.
+constexpr double kCircle = 1e-3;
+
+SignedDistance distance_to(const MeshPtr& mesh, const std::vector<SurfacePath>& curves,
+                           SideRule rule) {
+  auto found = signed_distance(mesh, curves, rule);
+  EXPECT_TRUE(found) << found.error().message;
+  return *std::move(found);
+}
+
+/// On a plane, straight from place to place.
+SurfacePath polygon(const MeshPtr& mesh, const std::vector<Vec3>& corners) {
+  const auto directions = *Directions::build(mesh);
+  SurfacePath path;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 way = corners[(i + 1) % corners.size()] - corners[i];
+    const SurfacePoint from = closest_point(*mesh, corners[i])->point;
+    const auto frame = directions->frame_at(from);
+    const auto line =
+        directions->trace(from, std::atan2(way.dot(frame->e2), way.dot(frame->e1)), way.norm());
+    EXPECT_TRUE(line) << line.error().message;
+    SurfacePath piece = line->path;
+    piece.points.back() = closest_point(*mesh, corners[(i + 1) % corners.size()])->point;
+    append(path, piece);
+  }
+  path.closed = true;
+  return path;
+}
+
+/// To a square from (a, a) to (b, b), negative inside.
+double to_square(const Vec3& p, double a, double b) {
+  const double x = std::max(a - p.x(), p.x() - b), y = std::max(a - p.y(), p.y() - b);
+  return std::max(x, y) <= 0 ? std::max(x, y) : std::hypot(std::max(x, 0.0), std::max(y, 0.0));
+}
+
+void expect_square(const MeshPtr& mesh, double a, double b) {
+  const SurfacePath loop = polygon(mesh, {{a, a, 0}, {b, a, 0}, {b, b, 0}, {a, b, 0}});
+  const SignedDistance found = distance_to(mesh, {loop}, SideRule::kAuto);
+  EXPECT_EQ(found.rule, SideRule::kSides);
+  const SignedDistance back = distance_to(mesh, {reversed(loop)}, SideRule::kSides);
+  for (Index v = 0; v < mesh->vertex_count(); ++v) {
+    const double want = to_square(mesh->positions()[v], a, b);
+    EXPECT_NEAR(found.distances[v], want, kExact) << v;
+    EXPECT_NEAR(back.distances[v], -want, kExact) << v;
+  }
+}
+
+TEST(SignedDistances, ToASquareAcrossFacesIsExact) {
+  expect_square(finish(jittered_plane(14, 0.3, 3)), 0.23, 0.71);
+}
+TEST(SignedDistances, ToASquareOfMeshEdgesIsExact) {
+  expect_square(finish(plane_grid(8, 8, 1, 1)), 0.25, 0.75);
+}
+TEST(SignedDistances, ToASquareInOneFaceIsExact) {
+  expect_square(finish(plane_grid(2, 2, 1, 1)), 0.28, 0.31);
+}
+
+/// The level set of a function, all in one direction.
+std::vector<SurfacePath> level_set(const MeshPtr& mesh, const std::vector<double>& values,
+                                   double level) {
+  const auto lines = find_isolines(*mesh, values, std::vector<double>{level});
+  EXPECT_TRUE(lines);
+  std::vector<SurfacePath> out;
+  for (const Isoline& line : *lines) out.push_back(line.path);
+  return out;
+}
+
+double worst(const SignedDistance& found, const std::vector<double>& want) {
+  // Which way round a level set runs is not said.
+  double same = 0, other = 0;
+  for (std::size_t v = 0; v < want.size(); ++v) {
+    same = std::max(same, std::abs(found.distances[v] - want[v]));
+    other = std::max(other, std::abs(found.distances[v] + want[v]));
+  }
+  return std::min(same, other);
+}
+
+/// Of two hundred sides across the faces.
+TEST(SignedDistances, ToACircleOnThePlaneAreRightToAThousandth) {
+  constexpr double kRadius = 0.3;
+  const MeshPtr mesh = finish(jittered_plane(30, 0.3, 4));
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 200; ++i) {
+    const double turn = 2 * std::numbers::pi * i / 200;
+    corners.emplace_back(0.5 + kRadius * std::cos(turn), 0.5 + kRadius * std::sin(turn), 0);
+  }
+  const SignedDistance found = distance_to(mesh, {polygon(mesh, corners)}, SideRule::kSides);
+  for (Index v = 0; v < mesh->vertex_count(); ++v) {
+    const double want = (mesh->positions()[v] - Vec3(0.5, 0.5, 0)).norm() - kRadius;
+    EXPECT_NEAR(found.distances[v], want, kCircle * kRadius) << v;
+  }
+}
+
+TEST(SignedDistances, ToACircleOnTheSphereAreRightToAThousandth) {
+  constexpr double kHeight = 0.4;
+  const MeshPtr mesh = finish(sphere(5));
+  std::vector<double> z, want;
+  for (const Vec3& p : mesh->positions()) {
+    z.push_back(p.z());
+    want.push_back(std::acos(std::clamp(p.z(), -1.0, 1.0)) - std::acos(kHeight));
+  }
+  const auto circle = level_set(mesh, z, kHeight);
+  EXPECT_LT(worst(distance_to(mesh, circle, SideRule::kSides), want), kCircle * std::acos(kHeight));
+}
+
+/// Two loops round a torus leave two parts, and one of them none.
+TEST(SignedDistances, OnATorusNeedCurvesThatSeparate) {
+  const MeshPtr mesh = finish(torus(40, 20, 0.4));
+  std::vector<double> x;
+  for (const Vec3& p : mesh->positions()) x.push_back(p.x());
+  const auto loops = level_set(mesh, x, 0.013);
+  ASSERT_EQ(loops.size(), 2U);
+  const auto one = signed_distance(mesh, std::vector<SurfacePath>{loops[0]}, SideRule::kSides);
+  ASSERT_FALSE(one);
+  EXPECT_EQ(one.error().code, ErrorCode::kBadInput);
+  const auto both = signed_distance(mesh, loops, SideRule::kSides);
+  const auto turned = signed_distance(mesh, std::vector<SurfacePath>{loops[0], reversed(loops[1])},
+                                      SideRule::kSides);
+  EXPECT_NE(both.has_value(), turned.has_value());
+}
+
+/// The circle with every other twentieth left out.
+TEST(SignedDistances, OfABrokenCircleComeFromHeat) {
+  constexpr double kRadius = 0.3;
+  const MeshPtr mesh = finish(jittered_plane(60, 0.3, 5));
+  std::vector<double> from_middle, want;
+  for (const Vec3& p : mesh->positions()) {
+    from_middle.push_back((p - Vec3(0.5, 0.5, 0)).norm());
+    want.push_back(from_middle.back() - kRadius);
+  }
+  const SurfacePath circle = level_set(mesh, from_middle, kRadius).front();
+  std::vector<SurfacePath> broken;
+  const std::size_t count = circle.faces.size(), part = count / 20;
+  for (std::size_t begin = 0; begin + part < count; begin += 2 * part) {
+    SurfacePath piece;
+    piece.points.assign(circle.points.begin() + begin, circle.points.begin() + begin + part + 1);
+    piece.faces.assign(circle.faces.begin() + begin, circle.faces.begin() + begin + part);
+    broken.push_back(piece);
+  }
+  const SignedDistance found = distance_to(mesh, broken, SideRule::kAuto);
+  EXPECT_EQ(found.rule, SideRule::kHeat);
+  ASSERT_EQ(found.warnings.size(), 1U);
+  EXPECT_LT(worst(found, want), 0.1 * kRadius);
+  const SignedDistance whole = distance_to(mesh, {circle}, SideRule::kHeat);
+  EXPECT_LT(worst(whole, want), 0.05 * kRadius);
+}
+
+TEST(SignedDistances, RefuseWhatIsNoCurve) {
+  const MeshPtr mesh = finish(plane_grid(4, 4, 1, 1));
+  SurfacePath jump;
+  jump.points = {SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(24)};
+  for (const SideRule rule : {SideRule::kSides, SideRule::kHeat, SideRule::kAuto}) {
+    EXPECT_FALSE(signed_distance(mesh, {}, rule));
+    const auto found = signed_distance(mesh, std::vector<SurfacePath>{jump}, rule);
+    ASSERT_FALSE(found);
+    EXPECT_NE(found.error().message.find("in no face"), std::string::npos);
+  }
+}
+
+class SignedOnBroken : public testing::TestWithParam<unsigned> {};
+
+TEST_P(SignedOnBroken, MeshesIsFiniteOrOneSentence) {
+  for (unsigned seed = 40 * GetParam(); seed < 40 * GetParam() + 40; ++seed) {
+    const BrokenMesh broken = broken_mesh(seed);
+    const auto built = TriangleMesh::build(broken.draft.positions, broken.draft.faces);
+    if (!built) continue;
+    const auto mesh = std::make_shared<const TriangleMesh>(*built);
+    std::vector<double> values;
+    for (Index v = 0; v < mesh->vertex_count(); ++v) values.push_back(std::sin(v * 1.3));
+    const auto lines = level_set(mesh, values, 0.2);
+    for (const SideRule rule : {SideRule::kSides, SideRule::kHeat}) {
+      const auto found = signed_distance(mesh, lines, rule);
+      if (!found) {
+        EXPECT_EQ(found.error().message.find('\n'), std::string::npos) << broken.recipe;
+        continue;
+      }
+      for (const double d : found->distances) EXPECT_FALSE(std::isnan(d)) << broken.recipe;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, SignedOnBroken, testing::Range(0U, 5U));
+
+}  // namespace
+}  // namespace geotherm::test

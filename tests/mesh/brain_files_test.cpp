@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Surfaces and masks of the brain, in files that nibabel wrote (tests/fuzz/corpus), and masks.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "geotherm/io.h"
+#include "tests/mesh/mesh_files.h"
+
+namespace geotherm::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string corpus(const std::string& name) {
+  return (fs::path(__FILE__).parent_path().parent_path() / "fuzz" / "corpus" / name).string();
+}
+
+/// A pyramid without its base: its faces meet in vertex 4.
+TriangleMesh pyramid() {
+  auto mesh = TriangleMesh::build({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}},
+                                  {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}});
+  return *std::move(mesh);
+}
+
+std::vector<char> vertices_out(const std::string& text) {
+  const auto mask = read_mask(text, pyramid());
+  EXPECT_TRUE(mask) << mask.error().message;
+  return mask ? mask->vertices : std::vector<char>();
+}
+
+std::string refusal(const std::string& text) {
+  const auto mask = read_mask(text, pyramid());
+  EXPECT_FALSE(mask);
+  return mask ? std::string() : mask.error().message;
+}
+
+TEST(BrainSurfaces, AreWhatWasWritten) {
+  for (const char* const name :
+       {"gii/gzip.surf.gii", "gii/base64.surf.gii", "gii/ascii.surf.gii", "fsurf/lh.white"}) {
+    const auto file = read_mesh(corpus(name));
+    ASSERT_TRUE(file) << name << ": " << file.error().message;
+    const TriangleMesh expected = pyramid();
+    EXPECT_TRUE(std::ranges::equal(file->mesh.positions(), expected.positions())) << name;
+    EXPECT_TRUE(std::ranges::equal(file->mesh.faces(), expected.faces())) << name;
+  }
+}
+
+TEST(BrainSurfaces, ThatAreNoneAreRefusedInOneSentence) {
+  const TemporaryDirectory folder;
+  const std::string whole = bytes_of(corpus("gii/gzip.surf.gii"));
+  const std::pair<std::string, std::string> kFiles[] = {
+      {"cut.gii", whole.substr(0, whole.find("eJxj") + 10)},
+      {"empty.gii", "<GIFTI></GIFTI>"},
+      {"other.gii", "<html></html>"},
+      {"cut.fsurf", bytes_of(corpus("fsurf/lh.white")).substr(0, 60)},
+      {"other.fsurf", "solid of nothing"}};
+  for (const auto& [name, bytes] : kFiles) {
+    folder.write(name, bytes);
+    const auto file = read_mesh(folder.path(name));
+    ASSERT_FALSE(file) << name;
+    EXPECT_EQ(file.error().code, ErrorCode::kBadFile) << name;
+    EXPECT_EQ(std::ranges::count(file.error().message, '\n'), 0) << name;
+  }
+  const auto mask = read_mesh(corpus("gii/roi.shape.gii"));
+  ASSERT_FALSE(mask);
+  EXPECT_NE(mask.error().message.find("no array POINTSET"), std::string::npos);
+}
+
+TEST(Masks, AreReadFromEveryFormat) {
+  EXPECT_EQ(vertices_out(corpus("mask/flags.txt")), (std::vector<char>{0, 0, 1, 0, 1}));
+  EXPECT_EQ(vertices_out(corpus("mask/ids.txt")), (std::vector<char>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(vertices_out(corpus("mask/flags.npy")), (std::vector<char>{0, 1, 0, 0, 1}));
+  EXPECT_EQ(vertices_out(corpus("mask/lh.wall.label")), (std::vector<char>{1, 0, 0, 1, 0}));
+  EXPECT_EQ(vertices_out(corpus("mask/ply.ply") + ":wall"), (std::vector<char>{0, 1, 0, 0, 0}));
+  EXPECT_EQ(vertices_out(corpus("gii/roi.shape.gii")), (std::vector<char>{1, 1, 0, 1, 1}));
+  EXPECT_EQ(vertices_out("keep:" + corpus("gii/roi.shape.gii")),
+            (std::vector<char>{0, 0, 1, 0, 0}));
+  const TemporaryDirectory folder;
+  folder.write("faces.txt", "0 1 0 0\n");
+  const auto faces = read_mask(folder.path("faces.txt"), pyramid());
+  ASSERT_TRUE(faces);
+  EXPECT_EQ(faces->faces, (std::vector<char>{0, 1, 0, 0}));
+  const auto ids = read_mask("keep:faces:" + corpus("mask/ids.txt"), pyramid());
+  EXPECT_FALSE(ids) << "there is no face 4";
+}
+
+TEST(Masks, OfAnotherMeshAreRefused) {
+  const TemporaryDirectory folder;
+  folder.write("far.txt", "3 5\n");
+  EXPECT_NE(refusal(folder.path("far.txt")).find("number 2 of the mask is 5"), std::string::npos);
+  folder.write("half.txt", "0 1.5\n");
+  EXPECT_NE(refusal(folder.path("half.txt")).find("is 1.5"), std::string::npos);
+  EXPECT_NE(refusal(corpus("mask/ply.ply")).find("not named"), std::string::npos);
+  EXPECT_NE(refusal(corpus("mask/ply.ply") + ":roof").find("no property roof"), std::string::npos);
+  const auto two = TriangleMesh::build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  ASSERT_TRUE(two);
+  EXPECT_FALSE(read_mask(corpus("gii/roi.shape.gii"), *two));
+}
+
+TEST(Masks, LeaveNumbersAsTheyAre) {
+  const TriangleMesh mesh = pyramid();
+  const auto left = masked(mesh, {.vertices = {1, 0, 0, 0, 0}, .faces = {}});
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->vertex_count(), 5);
+  EXPECT_EQ(left->faces()[1], (Face{1, 2, 4}));
+  EXPECT_EQ(left->faces()[0], (Face{0, 0, 0}));
+  EXPECT_EQ(left->faces()[3], (Face{3, 3, 3}));
+  EXPECT_FALSE(masked(mesh, {.vertices = {0, 0, 0, 0, 1}, .faces = {}})) << "nothing is left";
+  EXPECT_FALSE(masked(mesh, {.vertices = {1, 0}, .faces = {}})) << "of another mesh";
+}
+
+}  // namespace
+}  // namespace geotherm::test
