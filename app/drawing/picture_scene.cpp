@@ -31,8 +31,7 @@ constexpr glm::vec3 kNoValue{0.62F};
 
 constexpr float kPaperOpacity = 0.75F;
 
-/// Sources, and those in the view that is about them.
-constexpr float kMarker = 6.5F, kLargeMarker = 9;
+constexpr float kMarker = 6.5F, kLargeMarker = 9;  ///< of sources; in the view about them
 constexpr glm::vec3 kSourceRed{0.86F, 0.13F, 0.11F};
 
 constexpr glm::vec3 kDarkInk{0.10F, 0.11F, 0.13F};
@@ -205,14 +204,13 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
 engine::Insets insets_of(const PictureSettings& settings, const engine::LegendLayout& legend,
                          glm::vec2 extent) {
   if (settings.camera.fit != PictureFit::kSphere) return legend.insets;
-  engine::Legend usual;
-  usual.line_height = line_height_of(settings);
-  usual.heading = settings.title;
+  engine::Legend usual{.bar = settings.bar,
+                       .colours = {glm::vec3(0), glm::vec3(1)},
+                       .ticks = {{0, "0.05"}, {0.5F, "0.05"}, {1, "0.05"}},
+                       .title = "distance (model\u00a0units)",
+                       .heading = settings.title};
   if (settings.caption) usual.caption = "M";
-  usual.bar = settings.bar;
-  usual.colours.resize(2);
-  usual.title = "distance (model\u00a0units)";
-  for (const float place : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) usual.ticks.push_back({place, "0.05"});
+  usual.line_height = line_height_of(settings);
   return engine::lay_out(usual, extent).insets;
 }
 
@@ -251,11 +249,8 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
       settings.view == View::kHeatGradient || settings.view == View::kGradientError;
   scene.arrows.secondary = settings.view == View::kGradientError;
   scene.markers.visible = settings.markers && needs_sources(settings.view);
-  scene.markers.radius = kMarker;
-  if (settings.view == View::kSources) {
-    scene.markers.radius = kLargeMarker;
-    scene.markers.colour = kSourceRed;
-  }
+  scene.markers.radius = settings.view == View::kSources ? kLargeMarker : kMarker;
+  if (settings.view == View::kSources) scene.markers.colour = kSourceRed;
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
   scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
   const float wider = line_factor(settings, scene.surface.line_width * scene.pixel_scale);
