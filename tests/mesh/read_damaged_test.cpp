@@ -304,7 +304,7 @@ TEST(UnreadableFile, of_an_unknown_extension_is_told_which_there_are) {
   expect_message(
       path,
       "unknown extension \".blend\"; there are .obj .ply .off .stl .gltf .glb .3mf .dae .vtp "
-      ".vtk .vtu .msh .mesh .meshb");
+      ".vtk .vtu .msh .mesh .meshb .gii .fsurf");
   EXPECT_EQ(read_mesh(path).error().code, ErrorCode::kNotAvailable);
 }
 
