@@ -124,19 +124,18 @@ GEOTHERM_API geotherm_status geotherm_model_read(const char* path, const geother
 
 /* What a model is made of. */
 typedef enum geotherm_kind {
-  GEOTHERM_TRIANGLES =
-      0,                 /* positions V x 3, cells F x 3; values: none, or a mask of V numbers, or
-                            of F: what is marked by other than 0 is left out, and keeps its number */
-  GEOTHERM_POLYGONS = 1, /* positions, cells: corners of all faces, one after the other; starts */
-  GEOTHERM_TETS = 2,     /* positions, cells T x 4 */
-  GEOTHERM_POINTS = 3,   /* positions; values: normals V x 3, or none */
-  GEOTHERM_GRID = 4,     /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
-                            wall; or none: 1 everywhere. The answer is travel time */
-  GEOTHERM_LENGTHS = 5   /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
-                            side opposite each corner; the heat method alone, not checked */
+  GEOTHERM_TRIANGLES = 0, /* positions V x 3, cells F x 3; values: none, or a mask */
+  GEOTHERM_POLYGONS = 1,  /* positions, cells: corners of all faces, one after the other; starts */
+  GEOTHERM_TETS = 2,      /* positions, cells T x 4 */
+  GEOTHERM_POINTS = 3,    /* positions; values: normals V x 3, or none */
+  GEOTHERM_GRID = 4,      /* size, spacing, origin; values: a speed for each sample, x fastest, 0 is
+                             wall; or none: 1 everywhere. The answer is travel time */
+  GEOTHERM_LENGTHS = 5 /* triangles that lie nowhere: cells F x 3, values F x 3: the length of the
+                          side opposite each corner; the heat method alone, not checked */
 } geotherm_kind;
 
-/* A model as arrays. */
+/* A model as arrays. A mask of triangles has V numbers, or F: what has another one than 0 is left
+ * out, and keeps its own number. */
 typedef struct geotherm_shape {
   geotherm_kind kind;
   geotherm_array positions, cells, values;
