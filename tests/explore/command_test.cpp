@@ -138,19 +138,20 @@ TEST_P(SettingText, AWordThatIsNoValueIsRefusedWithItsColumn) {
   EXPECT_EQ(sentence(parsed.error()).find(column), 0U) << parsed.error().message;
 }
 
-INSTANTIATE_TEST_SUITE_P(AllSettings, SettingText, testing::ValuesIn([] {
-                           std::vector<std::string> names;
-                           const std::set<std::string_view> any = {"title", "bar-label", "units"};
-                           for (const Setting& s : settings()) {
-                             if (!any.contains(s.name)) names.emplace_back(s.name);
-                           }
-                           return names;
-                         }()),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    AllSettings, SettingText, testing::ValuesIn([] {
+      std::vector<std::string> names;
+      const std::set<std::string_view> any = {"title", "bar-label", "units", "mask"};
+      for (const Setting& s : settings()) {
+        if (!any.contains(s.name)) names.emplace_back(s.name);
+      }
+      return names;
+    }()),
+    [](const auto& test) {
+      std::string name = test.param;
+      std::erase(name, '-');
+      return name;
+    });
 
 TEST(Command, NumbersReadBackExactly) {
   std::mt19937_64 random(7);

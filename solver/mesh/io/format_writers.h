@@ -24,8 +24,8 @@ std::string npy_header(const std::string& type, std::span<const std::uint64_t> s
 /// Whether values can be written as float32. Errors: kBadInput, with the path.
 Result<void> check_float_range(const std::string& path, std::span<const double> values);
 
-/// npy_header() for rows of distances, and the bytes of one of them. Errors of the latter: kBadInput
-/// (values beyond the range of float32, with `path`).
+/// npy_header() for rows of distances, and the bytes of one of them. Errors of the latter:
+/// kBadInput (values beyond the range of float32, with `path`).
 std::string npy_rows_header(std::uint64_t rows, std::uint64_t columns, NpyType type);
 Result<void> npy_row(const std::string& path, std::span<const double> row, NpyType type,
                      std::string& bytes);
