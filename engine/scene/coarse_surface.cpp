@@ -8,8 +8,9 @@
 namespace geotherm::engine {
 namespace {
 
-/// Faces that a surface has for each cell of a grid that it passes through, about.
-constexpr double kFacesPerCell = 1.3;
+/// A plane passes through 1.5 cells for each of its squares of their side, on average over all
+/// directions; each becomes a vertex, of two faces.
+constexpr double kFacesPerCell = 3;
 constexpr float kMostCells = 2000;  ///< along an axis, so that three numbers fit one key
 
 /// The side of cells of which a surface of this area passes through as many as faces need.
