@@ -28,7 +28,7 @@ cd "$root"
 
 export GEOTHERM_LIBRARY=${GEOTHERM_LIBRARY:-$built/lib/libgeotherm.so.0}
 export PYTHONPATH=$root/app/python PYTHONDONTWRITEBYTECODE=1 GEOTHERM_SITE_XML=$work
-if [ -e "$site" ] && [ ! -e "$site/.buildinfo" ]; then
+if [ -n "$(ls -A "$site" 2>/dev/null)" ] && [ ! -e "$site/.buildinfo" ] && [ ! -e "$work" ]; then
   fail "$site is there and no site that Sphinx made; name another folder"
 fi
 rm -rf "$site" "$work"

@@ -122,7 +122,7 @@ struct Reach {
   /// (DistanceResult::vertices); empty: all vertices.
   std::vector<Index> targets = {};
   bool sparse = false;  ///< without targets: the answer holds those within reach alone
-
+  /// Whether it asks for less than all.
   bool is_bounded() const { return max_distance < kUnreached || !targets.empty(); }
 };
 
