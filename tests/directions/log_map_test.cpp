@@ -16,6 +16,12 @@
 namespace geotherm::test {
 namespace {
 
+MethodOptions with_method(MethodKind kind) {
+  MethodOptions options;
+  options.method = kind;
+  return options;
+}
+
 constexpr double kPi = std::numbers::pi;
 /// What exact answers may be off by, as a share of the size.
 constexpr double kExact = 1e-9;
@@ -197,7 +203,7 @@ TEST(LogMap, OfSpheresConvergesToTheirs) {
 
 TEST(LogMap, PassesTheSeamOfAMoebiusStrip) {
   const MeshPtr mesh = finish(moebius(30, 4));
-  const auto exact = build_method(mesh, {.method = MethodKind::kExact});
+  const auto exact = build_method(mesh, with_method(MethodKind::kExact));
   ASSERT_TRUE(exact);
   const SourceSet source = SourceSet::of_vertices({12});
   const auto distances = (*exact)->solve(source);
@@ -235,7 +241,7 @@ TEST_P(LogMapOnBroken, MeshesIsFiniteOrOneSentence) {
     if (!mesh) continue;
     const auto shared = std::make_shared<const TriangleMesh>(*mesh);
     const auto directions = Directions::build(shared);
-    const auto exact = build_method(shared, {.method = MethodKind::kExact});
+    const auto exact = build_method(shared, with_method(MethodKind::kExact));
     ASSERT_EQ(directions.has_value(), exact.has_value()) << broken.recipe;
     if (!directions) continue;
     for (const Index v : {Index{0}, shared->vertex_count() / 2, shared->vertex_count() - 1}) {
@@ -252,7 +258,8 @@ TEST_P(LogMapOnBroken, MeshesIsFiniteOrOneSentence) {
       for (Index w = 0; w < shared->vertex_count(); ++w) {
         const double d = distances->distances[w];
         EXPECT_EQ(std::isfinite(map->directions[w]), std::isfinite(d)) << broken.recipe;
-        if (std::isfinite(d)) EXPECT_NEAR(map->distances[w], d, kExact * size) << broken.recipe;
+        if (!std::isfinite(d)) continue;
+        EXPECT_NEAR(map->distances[w], d, kExact * size) << broken.recipe;
       }
     }
   }

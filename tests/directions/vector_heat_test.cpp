@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, VectorHeatAgainstDense,
                                          DenseCase{"prism", [] { return prism(16, 8, 0.5); }},
                                          DenseCase{"plane",
                                                    [] { return plane_grid(9, 7, 1, 0.8); }}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 /// Where the surface is flat, vectors stay parallel whatever the triangles are: directions are
 /// carried through flips.
@@ -255,7 +255,9 @@ TEST(Transport, IsRefusedWhereThereIsNoOrientedManifold) {
     const auto values = heat->extend(std::vector<Index>{0, 5}, std::vector<double>{3, 3});
     ASSERT_TRUE(values) << values.error().message;
     for (const double value : values->values) {
-      if (!std::isnan(value)) EXPECT_NEAR(value, 3, kAgree);  // not of vertices without a face
+      if (!std::isnan(value)) {  // not of vertices without a face
+        EXPECT_NEAR(value, 3, kAgree);
+      }
     }
     EXPECT_FALSE(std::isnan(values->values[5]));
   }
@@ -267,7 +269,9 @@ TEST(Transport, RefusesWhatIsNoVector) {
   EXPECT_FALSE(heat->transport(std::vector<TangentVector>{{99, 1, 0}}));
   EXPECT_FALSE(heat->transport(std::vector<TangentVector>{{0, std::nan(""), 0}}));
   EXPECT_FALSE(heat->extend(std::vector<Index>{0, 1}, std::vector<double>{1}));
-  EXPECT_FALSE(VectorHeat::build(finish(plane_grid(3, 3, 1, 1)), {.time_factor = 0}));
+  SpreadOptions no_time;
+  no_time.time_factor = 0;
+  EXPECT_FALSE(VectorHeat::build(finish(plane_grid(3, 3, 1, 1)), no_time));
 }
 
 class SpreadOnBroken : public testing::TestWithParam<unsigned> {};
@@ -286,7 +290,9 @@ TEST_P(SpreadOnBroken, MeshesIsFiniteOrOneSentence) {
     const auto values = (*heat)->extend(std::vector<Index>{v}, std::vector<double>{2});
     if (values) {
       for (const double value : values->values) {
-        if (!std::isnan(value)) EXPECT_NEAR(value, 2, 1e-6) << broken.recipe;
+        if (!std::isnan(value)) {
+          EXPECT_NEAR(value, 2, 1e-6) << broken.recipe;
+        }
       }
     }
     const auto vectors = (*heat)->transport(std::vector<TangentVector>{{v, 3, 4}});
