@@ -86,9 +86,12 @@ TangentFrame Directions::State::frame_at(const SurfacePoint& clean) const {
   const auto& vertex = fans.vertex(clean.vertex);
   frame.angle = vertex.angle;
   frame.border = vertex.kind == TangentFans::Kind::kBorder;
-  frame.first = fans.first_end(vertex.first);
+  // Corners without an order begin with any one; those of no face have none.
+  const auto corners = fans.corners_at(clean.vertex);
+  if (corners.empty()) return frame;
+  frame.first = fans.first_end(vertex.first != kNoSide ? vertex.first : corners.front());
   Vec3 normal = Vec3::Zero();
-  for (const Side c : fans.corners_at(clean.vertex)) {
+  for (const Side c : corners) {
     const Face& face = paths.face(face_of(c));
     const Vec3 own = unit_normal(positions[face[0]], positions[face[1]], positions[face[2]]);
     normal += (fans.corner(c).against ? -1 : 1) * fans.corner(c).angle * own;
