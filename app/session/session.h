@@ -47,8 +47,8 @@ struct SessionStudy {
   struct Point {
     double factor = 1, mean_error = 0;  ///< the latter relative
   };
-  std::vector<Point> points;  ///< by factor, as far as there are any yet
-  std::string failure;        ///< why there are no more; empty: nothing went wrong
+  std::vector<Point> points = {};  ///< by factor, as far as there are any yet
+  std::string failure = {};        ///< why there are no more; empty: nothing went wrong
 };
 
 /// What a session is given to work with.
