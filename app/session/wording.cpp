@@ -122,8 +122,7 @@ std::string mesh_in_words(const MeshSummary& mesh) {
 
 std::string refined_in_words(Index faces, int times) {
   const std::int64_t all = refined_faces(faces, times);
-  return grouped(all) + " faces, " +
-         significant(static_cast<double>(least_refined_bytes(all)) / 1e6, 2) + " MB or more";
+  return grouped(all) + " faces, " + significant(least_refined_bytes(all) / 1e6, 2) + " MB or more";
 }
 
 Warning crack_note(const CrackReport& cracks) {

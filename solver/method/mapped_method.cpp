@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solver/method/mapped_method.h"
 
+#include <cmath>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -41,26 +43,29 @@ void keep_own_vertices(const TriangleMesh& mesh, std::vector<Value>& values) {
 
 }  // namespace
 
-std::int64_t least_refined_bytes(std::int64_t faces) {
-  constexpr std::int64_t kBytesOfAFace = 400;  // places, faces, edges, and tables of a method
-  return kBytesOfAFace * faces;
+double least_refined_bytes(std::int64_t faces) {
+  constexpr double kBytesOfAFace = 400;  // places, faces, edges, and tables of a method
+  return kBytesOfAFace * static_cast<double>(faces);
 }
 
 namespace {
 
-/// Whether what is refined fits into the memory that is free.
+/// Whether what is refined fits into the memory that is free. More faces than can be numbered are
+/// left to subdivide(), which refuses them.
 Result<void> check_room(Index faces, int refine) {
   const auto free = free_memory();
   const std::int64_t cut = refined_faces(faces, refine);
-  if (!free || least_refined_bytes(cut) <= *free) return {};
-  const auto megabytes = [](std::int64_t bytes) { return std::to_string(bytes / 1'000'000); };
+  if (!free || cut > std::numeric_limits<Index>::max()) return {};
+  const auto bytes_free = static_cast<double>(*free);
+  if (least_refined_bytes(cut) <= bytes_free) return {};
+  const auto megabytes = [](double bytes) { return std::to_string(std::llround(bytes / 1e6)); };
   int fits = refine - 1;
-  while (fits > 0 && least_refined_bytes(refined_faces(faces, fits)) > *free) --fits;
+  while (fits > 0 && least_refined_bytes(refined_faces(faces, fits)) > bytes_free) --fits;
   return Error{ErrorCode::kOutOfMemory,
                std::to_string(faces) + " faces, each cut into four " + std::to_string(refine) +
                    " times, are " + std::to_string(cut) + " and take " +
-                   megabytes(least_refined_bytes(cut)) + " MB or more, and " + megabytes(*free) +
-                   " MB are free",
+                   megabytes(least_refined_bytes(cut)) + " MB or more, and " +
+                   megabytes(bytes_free) + " MB are free",
                {"set ", SettingHint{"refine", {std::to_string(fits)}}}};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -10,13 +11,14 @@
 
 namespace geotherm {
 
-/// Of a mesh whose faces are cut into four so often.
+/// Of a mesh whose faces are cut into four so often. More than 16 times count as 16, which already
+/// are more faces than can be numbered.
 inline std::int64_t refined_faces(Index faces, int times) {
-  return std::int64_t{faces} << (2 * times);
+  return std::int64_t{faces} << (2 * std::clamp(times, 0, 16));
 }
 
 /// That a mesh of so many faces and any method on it take at least.
-std::int64_t least_refined_bytes(std::int64_t faces);
+double least_refined_bytes(std::int64_t faces);
 
 /// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
 /// vertices that are one (TriangleMesh::same_as()). Immutable.
