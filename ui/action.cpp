@@ -96,8 +96,6 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
       return frame_beside(frame, -1);
     case Action::kLoop:
       return app::command::Loop{!frame.state().timeline.loop};
-    case Action::kFrame:
-      return app::command::Frame{};
     case Action::kMoreSources:
       return app::command::MoreSources{};
     case Action::kFewerSources:
@@ -158,6 +156,19 @@ std::optional<Tool> tool_of(Action action) {
   }
 }
 
+/// A bar that is wanted but has no room is shown in the other one's place.
+void turn_bar(bool& wanted, const Rect& place, bool& right_first, bool is_right) {
+  const bool shown = wanted && place.width > 0;
+  wanted = !shown;
+  if (wanted) right_first = is_right;
+}
+
+/// As large as there is room for from here; what follows turns a model of one size.
+void fit_model(Frame& frame) {
+  frame.send(app::command::Frame{});
+  if (const auto place = frame.canvas.tight()) frame.send(*place);
+}
+
 void turn_switch(Frame& frame, Action action) {
   Layout& layout = frame.ui.layout;
   if (const auto tool = tool_of(action)) {
@@ -168,12 +179,12 @@ void turn_switch(Frame& frame, Action action) {
   switch (action) {
     case Action::kRemovePointed:
       return frame.send(removal(frame.explored(), *frame.ui.input.pointed(frame)));
+    case Action::kFrame:
+      return fit_model(frame);
     case Action::kLeftPanel:
-      layout.left = !layout.left;
-      return;
+      return turn_bar(layout.left, frame.ui.places.left, layout.right_first, false);
     case Action::kRightPanel:
-      layout.right = !layout.right;
-      return;
+      return turn_bar(layout.right, frame.ui.places.right, layout.right_first, true);
     case Action::kLogPanel:
       layout.log = !layout.log;
       return;
@@ -265,9 +276,9 @@ bool is_on(const Frame& frame, Action action) {
     case Action::kLoop:
       return frame.state().timeline.loop;
     case Action::kLeftPanel:
-      return frame.ui.layout.left;
+      return frame.ui.places.left.width > 0;
     case Action::kRightPanel:
-      return frame.ui.layout.right;
+      return frame.ui.places.right.width > 0;
     case Action::kLogPanel:
       return frame.ui.layout.log;
     case Action::kTheme:

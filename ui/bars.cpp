@@ -203,8 +203,10 @@ void draw_status_bar(Frame& frame) {
   ImGui::PopStyleVar();
   ImGui::AlignTextToFramePadding();
 
-  const std::string fps = app::fixed(frame.canvas.fps(), 0) + " fps";
-  const std::string right = fps + "  \u00b7  " + frame.canvas.device();
+  // A picture that rests has no rate.
+  const bool rests = frame.canvas.fps() < 1;
+  const std::string fps = rests ? "" : app::fixed(frame.canvas.fps(), 0) + " fps";
+  const std::string right = fps + (rests ? "" : "  \u00b7  ") + frame.canvas.device();
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
   ImGui::TextUnformatted(what_is_shown(frame).c_str());

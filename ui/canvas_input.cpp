@@ -160,8 +160,8 @@ void CanvasInput::begin_with_tool(Frame& frame) {
     if (painted_ == kNoIndex) action_.reset();
   } else if (tool == Tool::kSculpt) {
     action_ = mouse_action(modifiers_, "Left drag while sculpting");
-    const auto tool = action_ ? sculpt_tool(*action_, frame.ui.sculpt.tool) : std::nullopt;
-    if (!tool || !stroke_.begin(frame, *tool, press_.x, press_.y)) action_.reset();
+    const auto touch = action_ ? sculpt_tool(*action_, frame.ui.sculpt.tool) : std::nullopt;
+    if (!touch || !stroke_.begin(frame, *touch, press_.x, press_.y)) action_.reset();
   }
 }
 

@@ -35,6 +35,9 @@ class Canvas {
   virtual std::optional<std::array<float, 2>> place_of(const Vec3& point) const = 0;
   /// What zooming scales about, pixels of the window.
   virtual std::array<float, 2> lens_centre() const = 0;
+  /// The whole model as large as there is room for, seen from the present direction; nothing where
+  /// none is drawn.
+  virtual std::optional<app::command::Place> tight() const { return {}; }
   virtual double fps() const = 0;  ///< of the frames drawn of late
   virtual std::vector<std::string> colour_maps() const = 0;
   virtual std::string device() const = 0;  ///< in words, with "in software" where it is so

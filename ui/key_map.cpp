@@ -25,7 +25,7 @@ constexpr KeyBinding kKeys[] = {
     {"t", Action::kTriangleQuality, "View", "triangle quality"},
     {"n", Action::kNonDelaunay, "View", "edges that are not Delaunay"},
     {"p", Action::kRotate, "View", "turn the model, and stop again"},
-    {"f", Action::kFrame, "View", "the whole model in the middle"},
+    {"f", Action::kFrame, "View", "the whole model, as large as it fits"},
     {"Space", Action::kPlay, "View", "play the frames, and pause"},
     {".", Action::kNextFrame, "View", "one frame on"},
     {",", Action::kPreviousFrame, "View", "one frame back"},

@@ -146,15 +146,17 @@ namespace {
 struct Bars {
   float left = 0, right = 0;
 };
-Bars fit_bars(Bars wanted, float room, float least) {
-  if (room < least + least) wanted.right = wanted.left > 0 ? 0 : wanted.right;
+Bars fit_bars(Bars wanted, float room, float least, bool right_first) {
+  if (room < least + least && wanted.left > 0 && wanted.right > 0) {
+    (right_first ? wanted.left : wanted.right) = 0;
+  }
   if (room < least) return {};
   const float total = wanted.left + wanted.right;
   if (total <= room) return wanted;
   // Both give what they have above the least, in proportion to it.
   const auto above = [least](float width) { return std::max(0.0F, width - least); };
   const float spare = above(wanted.left) + above(wanted.right);
-  if (spare <= 0) return {std::min(wanted.left, room), 0};
+  if (spare <= 0) return {std::min(wanted.left, room), std::min(wanted.right, room)};
   const float share = std::min(1.0F, (total - room) / spare);
   return {wanted.left - share * above(wanted.left), wanted.right - share * above(wanted.right)};
 }
@@ -172,7 +174,8 @@ Places place_panels(const Layout& layout, float width, float height, float scale
 
   Bars bars{layout.left ? std::max(layout.left_width, kMinBar) * scale : 0,
             layout.right ? std::max(layout.right_width, kMinBar) * scale : 0};
-  bars = fit_bars(bars, width - least_canvas, kMinBar * scale);
+  const float room = width - std::max(least_canvas, kMinCanvasShare * width);
+  bars = fit_bars(bars, room, kMinBar * scale, layout.right_first);
   bars = {std::floor(bars.left), std::floor(bars.right)};
 
   constexpr float kToolLines = 1.45F;

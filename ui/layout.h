@@ -18,6 +18,7 @@ enum class Theme { kDark, kLight };
 struct Layout {
   float left_width = 310, right_width = 310, log_height = 190;
   bool left = true, right = true, log = false;  ///< shown
+  bool right_first = false;  ///< where one side bar alone has room, it is the right one
   Theme theme = Theme::kDark;
   float scale = 1;                   ///< beside the monitor's own
   std::map<std::string, bool> open;  ///< sections that are open or closed, by name
@@ -48,8 +49,9 @@ struct Rect {
 };
 
 inline constexpr float kMinCanvas = 200;  ///< pixels at scale 1 that panels leave to the picture
-inline constexpr float kMinBar = 240;     ///< width of a side bar, pixels at scale 1
-inline constexpr float kMinLog = 70;      ///< height of the log, pixels at scale 1
+inline constexpr float kMinCanvasShare = 0.45F;  ///< of the window's width, beside the bars
+inline constexpr float kMinBar = 240;            ///< width of a side bar, pixels at scale 1
+inline constexpr float kMinLog = 70;             ///< height of the log, pixels at scale 1
 
 /// Where panels lie. What is hidden, or has no room, has no width.
 struct Places {
@@ -58,7 +60,7 @@ struct Places {
 
 /// Divides a window. `line`: height of menu bar and status bar, pixels; the toolbar is a little
 /// higher. Where room is scarce, side bars and log shrink, then the right one goes, then the left
-/// one, the log, the toolbar and the status bar.
+/// one, the log, the toolbar and the status bar. `Layout::right_first`: the left one goes first.
 /// Nothing overlaps, and nothing is smaller than 0.
 Places place_panels(const Layout& layout, float width, float height, float scale, float line);
 

@@ -152,7 +152,7 @@ void draw_camera(Frame& frame) {
   }
   const float width = button_width(3);
   if (draw_button(frame, "frame", "Frame", frame.model(), width)) perform(frame, Action::kFrame);
-  draw_tip(frame, "The whole model in the middle; the direction stays (f).");
+  draw_tip(frame, "The whole model, as large as there is room for; the direction stays (f).");
   ImGui::SameLine();
   if (draw_button(frame, "reset", "Reset", frame.model(), width)) {
     const app::CameraSettings start;

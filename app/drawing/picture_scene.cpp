@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "app/picture/picture_scale.h"
@@ -232,6 +233,33 @@ engine::Camera camera_of(const PictureData& data, const CameraSettings& camera,
   orbit.roll = static_cast<float>(camera.roll);
   if (camera.centre) orbit.centre = scene_centre(data, *camera.centre);
   return engine::make_camera(orbit, points, extent, with_margin(extent, insets));
+}
+
+CameraSettings tight_camera(const PictureData& data, CameraSettings camera,
+                            std::span<const glm::vec3> points, glm::vec2 extent,
+                            const engine::Insets& insets) {
+  camera.zoom = 1;
+  camera.pan_right = camera.pan_up = 0;
+  camera.centre.reset();
+  const engine::Camera seen = camera_of(data, camera, points, extent, insets);
+  glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
+  for (const glm::vec3& point : points) {
+    const glm::vec2 at(seen.project(point));
+    if (!std::isfinite(at.x + at.y)) continue;
+    low = glm::min(low, at);
+    high = glm::max(high, at);
+  }
+  const engine::Insets padded = with_margin(extent, insets);
+  const glm::vec2 room = extent - glm::vec2(padded.left + padded.right, padded.top + padded.bottom);
+  const glm::vec2 zooms = room / glm::max(high - low, glm::vec2(1e-3F));
+  const float zoom = std::min(zooms.x, zooms.y);
+  if (!std::isfinite(zoom) || zoom <= 0) return camera;
+  // A zoom scales about the middle of the room, where the middle of the model is to be.
+  const glm::vec2 off = zoom * ((low + high) / 2.0F - lens_centre(extent, insets)) / extent.y;
+  camera.zoom = zoom;
+  camera.pan_right = -off.x;
+  camera.pan_up = off.y;
+  return camera;
 }
 
 glm::vec2 lens_centre(glm::vec2 extent, const engine::Insets& insets) {

@@ -145,6 +145,11 @@ void SceneScreen::update_legend(const PictureSettings& settings) {
   laid_out_ = std::move(but_camera);
 }
 
+CameraSettings SceneScreen::tight_camera() const {
+  const CameraSettings camera = seen_ ? seen_->settings.camera : CameraSettings();
+  return app::tight_camera(data_, camera, positions_, area_.extent, insets_);
+}
+
 Result<void> SceneScreen::update(const Session& session, const PictureArea& area) {
   area_ = area;
   if (auto done = update_data(session); !done) return done;

@@ -67,6 +67,9 @@ class SceneScreen {
 
   const PictureArea& area() const { return area_; }
   const engine::Camera& camera() const { return scene_.camera; }
+  /// The camera of what was brought up to date last, without a centre of its own, zoomed and moved
+  /// so that the model fills the picture. Cost: O(vertices).
+  CameraSettings tight_camera() const;
   const PictureData& data() const { return data_; }
   /// Null where the whole model is drawn.
   const CutPicture* cut() const { return cut_ ? &*cut_ : nullptr; }

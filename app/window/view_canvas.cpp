@@ -95,6 +95,13 @@ std::array<float, 2> ViewCanvas::lens_centre() const {
   return in_window(app::lens_centre(screen_.area().extent, screen_.insets()));
 }
 
+std::optional<command::Place> ViewCanvas::tight() const {
+  if (!screen_.has_model()) return std::nullopt;
+  const CameraSettings camera = screen_.tight_camera();
+  return command::Place{camera.azimuth, camera.elevation, camera.zoom, camera.pan_right,
+                        camera.pan_up};
+}
+
 std::vector<std::string> ViewCanvas::colour_maps() const {
   std::vector<std::string> names;
   for (const engine::ColourMap& map : engine::colour_maps()) names.emplace_back(map.name);

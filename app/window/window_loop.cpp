@@ -251,10 +251,12 @@ Result<void> WindowLoop::after_failure(const Error& error) {
 }
 
 Result<DrawnPicture> WindowLoop::picture_with_panels(const PictureSettings& settings) {
+  // A script may ask before the window has had its first frame.
+  if (auto ready = follow_scale(); !ready) return ready.error();
   ImGuiIO& io = ImGui::GetIO();
   const float scale = pixels_per_point();
   const glm::ivec2 extent(settings.width, settings.height);
-  const ImVec2 usual_size = io.DisplaySize;
+  const ImVec2 usual_size{std::max(0.0F, io.DisplaySize.x), std::max(0.0F, io.DisplaySize.y)};
   const ImVec2 usual_mouse = io.MousePos;
   io.DisplaySize = {static_cast<float>(extent.x) / scale, static_cast<float>(extent.y) / scale};
   io.MousePos = {-FLT_MAX, -FLT_MAX};

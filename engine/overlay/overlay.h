@@ -120,14 +120,14 @@ struct Key {
 struct Legend {
   bool bar = false;
   std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
-  std::vector<float> lines;        ///< isolines on the bar: positions as of ticks
+  std::vector<float> lines{};      ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;
   std::string title;                  ///< over the bar: what the values are, and their unit
   bool below = false, above = false;  ///< values lie beyond the bar's ends: arrows there
   std::string heading;                ///< over the picture
   /// One line along the lower edge; cut with an ellipsis where it is too long.
-  std::string caption;
-  std::vector<Key> keys;        ///< one a line in the upper left corner
+  std::string caption{};
+  std::vector<Key> keys{};      ///< one a line in the upper left corner
   glm::vec3 ink{0};             ///< colour of letters and frames
   glm::vec4 paper{1, 1, 1, 0};  ///< under them, so that they can be read where the model lies there
   float scale = 1;              ///< of letters and bar; 1 suits a picture 720 pixels high

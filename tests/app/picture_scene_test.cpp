@@ -221,6 +221,34 @@ TEST(PictureLegend, NamesEachLineOnce) {
   EXPECT_TRUE(app::scene_of(data, settings, scale).lines.visible);
 }
 
+/// A long thin model seen from the side fills the room that the bar leaves, and stays in its
+/// middle.
+TEST(PictureCamera, FillsTheRoomWithTheModelWhenAsked) {
+  std::vector<glm::vec3> points;
+  for (int k = 0; k <= 20; ++k) {
+    const float x = 0.1F * static_cast<float>(k) - 1;
+    points.emplace_back(x, 0.05F * x * x, 0.05F * std::sin(9 * x));
+  }
+  const glm::vec2 extent(900, 500);
+  const engine::Insets insets{0, 0, 120, 40};
+  app::CameraSettings from;
+  from.fit = app::PictureFit::kSphere;
+  from.azimuth = 40;
+  from.zoom = 0.3;
+  from.pan_up = 0.7;
+  const app::CameraSettings tight = app::tight_camera({}, from, points, extent, insets);
+  const engine::Camera camera = app::camera_of({}, tight, points, extent, insets);
+  glm::vec2 low(1e9F), high(-1e9F);
+  for (const glm::vec3& point : points) {
+    low = glm::min(low, glm::vec2(camera.project(point)));
+    high = glm::max(high, glm::vec2(camera.project(point)));
+  }
+  const glm::vec2 middle = app::lens_centre(extent, insets);
+  EXPECT_LT(glm::distance((low + high) / 2.0F, middle), 0.1F);  // pixels
+  EXPECT_NEAR(high.x - low.x, 2 * std::min(middle.x, extent.x - insets.right - middle.x), 0.1F);
+  EXPECT_EQ(tight.azimuth, from.azimuth);
+}
+
 TEST(PictureCamera, LeavesAMarginAboutTheModel) {
   const std::vector<glm::vec3> points = {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
   const glm::vec2 extent(400, 200);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/ui/driver.h"
+#include "ui/key_map.h"
 
 namespace geotherm::ui {
 namespace {
@@ -109,12 +110,31 @@ class BarEdges : public UiTest {};
 TEST_F(BarEdges, ResizeTheSideBars) {
   drag(middle_of("Bars/left edge"), {400, 600});
   EXPECT_NEAR(panels_->layout().left_width, 400, 4);
-  drag(middle_of("Bars/right edge"), {1100, 600});
-  EXPECT_NEAR(panels_->layout().right_width, 500, 4);
+  drag(middle_of("Bars/right edge"), {1200, 600});
+  EXPECT_NEAR(panels_->layout().right_width, 400, 4);
   frame();
-  EXPECT_NEAR(panels_->canvas().width, 700, 8);
+  EXPECT_NEAR(panels_->canvas().width, 800, 8);
   drag(middle_of("Bars/left edge"), {5, 600});
   EXPECT_EQ(panels_->layout().left_width, kMinBar);
+}
+
+/// Letters twice as large leave room for one bar; the key of the other brings it instead.
+TEST_F(BarEdges, TakeTurnsWhereOneHasRoomAlone) {
+  ImGui::GetIO().DisplaySize = {1280, 800};
+  restart(Layout{}, 2);
+  open_square();
+  const auto share = [this] { return panels_->canvas().width / 1280; };
+  EXPECT_TRUE(is_drawn("View/"));
+  EXPECT_FALSE(is_drawn("Quality/"));
+  EXPECT_GE(share(), kMinCanvasShare);
+  key(kKeyF1 + 2);
+  frames(2);
+  EXPECT_FALSE(is_drawn("View/"));
+  EXPECT_TRUE(is_drawn("Quality/"));
+  EXPECT_GE(share(), kMinCanvasShare);
+  key(kKeyF1 + 1);
+  frames(2);
+  EXPECT_TRUE(is_drawn("View/"));
 }
 
 TEST_F(BarEdges, RememberWhichSectionsAreOpen) {

@@ -13,8 +13,9 @@ class PanelsOfSpaces : public UiTest {
   void SetUp() override {
     open_square();
     const std::vector<double> speeds(5 * 5 * 5, 1);
-    ASSERT_TRUE(
-        write_distances((folder() / "block.vti").string(), Grid{.size = {5, 5, 5}}, speeds));
+    Grid block;
+    block.size = {5, 5, 5};
+    ASSERT_TRUE(write_distances((folder() / "block.vti").string(), block, speeds));
   }
 };
 
