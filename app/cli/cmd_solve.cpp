@@ -249,6 +249,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
   }
+  if (is_shared(arguments)) return run_shared(arguments, progress);
   if (!arguments.each && !arguments.pairs) {
     if (auto alone = refuse_ranks("geotherm solve on one source set"); !alone) {
       return alone.error();
