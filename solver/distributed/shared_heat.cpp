@@ -31,7 +31,7 @@ constexpr double kWorstRow = 1e-4;
 constexpr std::int32_t kLevel = 900;
 
 bool is_news(const WideNumber& now, const WideNumber& before) {
-  if (now.mantissa == 0 && before.mantissa == 0) return false;
+  if (now.mantissa == 0 || before.mantissa == 0) return now.mantissa != before.mantissa;
   const std::int32_t reference = std::max(now.exponent, before.exponent);
   const double a = now.relative_to(reference), b = before.relative_to(reference);
   return !(std::abs(a - b) <= kNews * std::max(std::abs(a), std::abs(b)));
