@@ -194,7 +194,7 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
             {"gradient", answer.timing.gradient},
             {"poisson", answer.timing.poisson},
             {"query", answer.timing.query}}},
-          {"memory_mb", {{"peak_rss", peak_mb}}},
+          {"memory_mb", {{"factor", answer.factor_mb}, {"peak_rss", peak_mb}}},
           {"quality", quality_json(answer.quality, true)},
           {"warnings", told(answer.warnings)},
           {"ranks", ranks},
@@ -226,7 +226,8 @@ std::string shared_table(const SharedWork& work, const SharedAnswer& a, int rank
   table.add_row({"query", ms(a.timing.query) + " = heat " + milliseconds(a.timing.diffuse) +
                               " + gradient " + milliseconds(a.timing.gradient) + " + Poisson " +
                               milliseconds(a.timing.poisson)});
-  table.add_row({"memory", milliseconds(peak_mb) + " MB peak of the largest rank"});
+  table.add_row({"memory", milliseconds(a.factor_mb) + " MB factors, " + milliseconds(peak_mb) +
+                               " MB peak, of the largest rank"});
   table.add_row(
       {"distance",
        significant(a.least) + " to " + significant(a.most) + ", mean " + significant(a.mean) +

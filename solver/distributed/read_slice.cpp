@@ -148,9 +148,9 @@ class SliceReader {
       for (GlobalIndex& corner : face) {
         const double number = body.number(property.type);
         if (!(number >= 0 && number < static_cast<double>(slice_.vertices))) {
-          return bad("vertex " + rounded_text(number) + " is used, but the file has " +
-                     std::to_string(slice_.vertices) + " vertices (0 to " +
-                     std::to_string(slice_.vertices - 1) + ")" + where());
+          return bad("vertex " + std::to_string(static_cast<std::int64_t>(number)) +
+                     " is used, but the file has " + std::to_string(slice_.vertices) +
+                     " vertices (0 to " + std::to_string(slice_.vertices - 1) + ")" + where());
         }
         corner = static_cast<GlobalIndex>(number);
       }

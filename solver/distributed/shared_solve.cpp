@@ -2,8 +2,9 @@
 #include "solver/distributed/shared_solve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <memory>
 #include <utility>
 
 #include "solver/accuracy/check_heat.h"
@@ -367,7 +368,12 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "heat", 0.5);
   const auto heat = diffuse_over_ranks(task, *blocks);
   if (!heat) return heat.error();
-  for (MeshBlock& block : *blocks) block.heat = nullptr;
+  double factor_bytes = 0;
+  for (MeshBlock& block : *blocks) {
+    if (block.heat) factor_bytes += static_cast<double>(block.heat->factor().stats().bytes);
+    block.heat = nullptr;
+  }
+  out.factor_mb = ranks.most(factor_bytes) / (1024.0 * 1024.0);
   out.timing.diffuse = lap();
   std::vector<std::unique_ptr<BlockFaces>> fields;
   std::vector<BlockFaces*> faces;

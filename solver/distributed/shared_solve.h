@@ -26,6 +26,7 @@ struct SharedAnswer {
   Index flips = 0;  ///< of all blocks; those near their edges are made by several
   int blocks = 0, rings = 0, rounds = 0;
   double row_residual = 0;  ///< SharedHeat::row_residual
+  double factor_mb = 0;     ///< of the heat step, the rank that has most
   Quality quality;
   std::vector<Warning> warnings;
   double read_ms = 0, share_ms = 0, set_up_ms = 0;  ///< the slowest rank's
