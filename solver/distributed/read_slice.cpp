@@ -37,6 +37,15 @@ std::int64_t row_bytes(const PlyElement& element) {
   return bytes;
 }
 
+/// Whether the faces have a list of whole numbers that are their corners.
+bool has_corners(const PlyElement& face) {
+  int list = face.find("vertex_indices", true);
+  if (list < 0) list = face.find("vertex_index", true);
+  if (list < 0) return false;
+  const PlyProperty& corners = face.properties[static_cast<std::size_t>(list)];
+  return corners.type < io::PlyType::kFloat32 && corners.count_type < io::PlyType::kFloat32;
+}
+
 class SliceReader {
  public:
   SliceReader(const io::InputFile& file, PlyHeader header, std::int64_t body, int part, int parts)
@@ -179,15 +188,14 @@ Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts) {
                    {"write it as binary"}};
     }
     const PlyElement *vertex = header.find("vertex"), *face = header.find("face");
-    const bool complete =
-        vertex != nullptr && face != nullptr && vertex < face && vertex->find("x", false) >= 0 &&
-        vertex->find("y", false) >= 0 && vertex->find("z", false) >= 0 && face->count > 0 &&
-        (face->find("vertex_indices", true) >= 0 || face->find("vertex_index", true) >= 0);
+    const bool complete = vertex != nullptr && face != nullptr && vertex < face &&
+                          vertex->find("x", false) >= 0 && vertex->find("y", false) >= 0 &&
+                          vertex->find("z", false) >= 0 && face->count > 0 && has_corners(*face);
     if (!complete) {
       return Error{ErrorCode::kBadFile,
                    file->shown() +
                        ": the file has no vertices with x, y and z before faces with a list "
-                       "\"vertex_indices\""};
+                       "\"vertex_indices\" of whole numbers"};
     }
     const auto body = static_cast<std::int64_t>(header.body - start.data());
     return SliceReader(*file, std::move(header), body, part, parts).read();

@@ -308,6 +308,16 @@ SourceAnchors anchors_in(const SharedTask& task, const MeshBlock& block) {
   return placed ? *std::move(placed) : SourceAnchors();  // vertices with a row have a place
 }
 
+std::shared_ptr<const Surface> faces_alone(const Surface& surface) {
+  auto out = std::make_shared<Surface>();
+  out->operators = surface.operators;
+  out->intrinsic.twin = surface.intrinsic.twin;
+  out->unit = surface.unit;
+  out->vertex_of_row = surface.vertex_of_row;
+  out->row_of_vertex = surface.row_of_vertex;
+  return out;
+}
+
 BlockField field_of(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block) {
   const Surface& surface = *block.surface;
   const double square = surface.unit * surface.unit;

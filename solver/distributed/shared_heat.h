@@ -45,6 +45,10 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
 /// The sources in a block, where it has any on its surface.
 SourceAnchors anchors_in(const SharedTask& task, const MeshBlock& block);
 
+/// Of the surface of a block what is asked of it after the heat step: faces in their order, and no
+/// more of the mesh and the analysis that they came from.
+std::shared_ptr<const Surface> faces_alone(const Surface& surface);
+
 /// X of a block, as FaceField has it, for its own vertices.
 struct BlockField {
   HeatField heat;

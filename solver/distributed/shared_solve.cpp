@@ -117,10 +117,11 @@ Result<std::vector<double>> solve_poisson(const SharedTask& task, std::span<cons
 /// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
 class BlockFaces {
  public:
-  BlockFaces(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block)
+  BlockFaces(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block,
+             SourceAnchors anchors)
       : task_(task),
         block_(block),
-        anchors_(anchors_in(task, block)),
+        anchors_(std::move(anchors)),
         given_(field_of(task, heat, block)),
         field_(*block.surface, given_.heat, given_.t, {pool_, task.threads}, given_.extent) {}
 
@@ -344,6 +345,9 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
   Halo(ranks, part, others).fetch(ranks, components.of);
   measure_components(ranks, part, *blocks, components);
+  part.positions = {};  // blocks have theirs
+  part.corners = {};
+  part.halo = {};
   const auto times = diffusion_times(components.sizes, 1.0, options.time_step);
   if (!times) return times.error();
   const auto is_source = place(ranks, part, components, sources);
@@ -379,10 +383,13 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   std::vector<BlockFaces*> faces;
   std::vector<double> b(static_cast<std::size_t>(part.own), 0.0);
   double flips = 0;
-  for (const MeshBlock& block : *blocks) {
+  for (MeshBlock& block : *blocks) {
     if (!block.surface) continue;
     flips += block.surface->flips;
-    faces.push_back(fields.emplace_back(std::make_unique<BlockFaces>(task, *heat, block)).get());
+    SourceAnchors anchors = anchors_in(task, block);
+    block.surface = faces_alone(*block.surface);
+    fields.push_back(std::make_unique<BlockFaces>(task, *heat, block, std::move(anchors)));
+    faces.push_back(fields.back().get());
     faces.back()->add_divergence(b);
   }
   out.timing.gradient = lap();

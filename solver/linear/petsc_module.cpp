@@ -145,9 +145,10 @@ struct Solver {
 
 static_assert(sizeof(PetscInt) == sizeof(int) && sizeof(PetscScalar) == sizeof(double));
 
-/// Conjugate gradients with BoomerAMG for the matrix that `make` makes.
+/// Conjugate gradients with BoomerAMG for the matrix that `make` makes; what is not set up is so by
+/// the first solve, when arrays that were copied are gone.
 template <class Make>
-void* solver_for(MPI_Comm ranks, const Make& make, const char** problem) {
+void* solver_for(MPI_Comm ranks, const Make& make, bool set_up, const char** problem) {
   auto solver = std::make_unique<Solver>();
   Solver& s = *solver;
   PC preconditioner = nullptr;
@@ -161,7 +162,8 @@ void* solver_for(MPI_Comm ranks, const Make& make, const char** problem) {
       [&] { return KSPGetPC(s.method, &preconditioner); },
       [&] { return PCSetType(preconditioner, PCHYPRE); },
       [&] { return PCHYPRESetType(preconditioner, "boomeramg"); },
-      [&] { return KSPSetFromOptions(s.method); }, [&] { return KSPSetUp(s.method); });
+      [&] { return KSPSetFromOptions(s.method); },
+      [&] { return set_up ? KSPSetUp(s.method) : PetscErrorCode{}; });
   if (code == 0) return solver.release();
   *problem = told(words_of(code));
   return nullptr;
@@ -173,7 +175,7 @@ void* make_solver(int n, int* start, int* column, double* value, const char** pr
       [&](Mat* matrix) {
         return MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, start, column, value, matrix);
       },
-      problem);
+      true, problem);
 }
 
 void* make_shared_solver(int rows, const int* start, const int* column, const double* value,
@@ -184,7 +186,7 @@ void* make_shared_solver(int rows, const int* start, const int* column, const do
         return MatCreateMPIAIJWithArrays(MPI_COMM_WORLD, rows, rows, PETSC_DETERMINE,
                                          PETSC_DETERMINE, start, column, value, matrix);
       },
-      problem);
+      false, problem);
 }
 
 void free_solver(void* solver) { delete static_cast<Solver*>(solver); }
