@@ -12,107 +12,19 @@
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/distributed/shared_heat.h"
-#include "solver/linear/window_solver.h"
+#include "solver/distributed/shared_poisson.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
 
-/// Residual of the Poisson step, relative to its right side, each component's scaled to 1.
-constexpr double kPoissonTolerance = 1e-9;
 /// Of the largest distance: values below 0 by less are what the solver leaves of a 0.
 constexpr double kRoundOffOfDistance = 1e-6;
 /// Rings that a block solves for beside its own vertices, where t is the square of the mean edge,
 /// and the most of them.
 constexpr double kRings = 16;
 constexpr int kMostRings = 64;
-
-/// A matrix whose rows are this rank's own vertices, columns all ranks'.
-struct SharedRows {
-  std::vector<int> start = {0}, column;
-  std::vector<double> value;
-};
-
-/// phi = 0 is held where a source is, and where nothing is asked.
-bool is_pinned(const SharedTask& task, Index v) {
-  const Index component = task.components.of[v];
-  return component == kNoIndex || !task.reached[static_cast<std::size_t>(component)] ||
-         task.is_source[static_cast<std::size_t>(v)] != 0;
-}
-
-SharedRows poisson_rows(const SharedTask& task, std::span<const MeshBlock> blocks) {
-  SharedRows out;
-  std::vector<std::pair<int, double>> entries;
-  for (const MeshBlock& block : blocks) {
-    FullRows rows;
-    if (block.surface) {
-      rows = full_rows(block.surface->combine(0.0, 1.0, {}, 0.0, task.threads)->assembled());
-    }
-    for (Index here = 0; here < block.own(); ++here) {
-      const Index v = block.vertex[here], row = block.row(here);
-      entries.clear();
-      if (row == kNoIndex || is_pinned(task, v)) {
-        entries.emplace_back(static_cast<int>(task.part.id[v]), 1.0);
-      } else {
-        for (int e = rows.start[row]; e < rows.start[row + 1]; ++e) {
-          const Index to = block.part_vertex(rows.column[e]);
-          if (!is_pinned(task, to)) {
-            entries.emplace_back(static_cast<int>(task.part.id[to]), rows.value[e]);
-          }
-        }
-      }
-      std::ranges::sort(entries);
-      for (const auto& [column, value] : entries) {
-        out.column.push_back(column);
-        out.value.push_back(value);
-      }
-      out.start.push_back(static_cast<int>(out.column.size()));
-    }
-  }
-  return out;
-}
-
-/// The right side of each component comes to length 1: iterations end by one norm over all.
-std::vector<double> scales_of(const SharedTask& task, const std::vector<double>& b) {
-  std::vector<double> squares(task.components.sizes.size(), 0.0);
-  for (Index v = 0; v < task.part.own; ++v) {
-    if (!is_pinned(task, v)) squares[task.components.of[v]] += b[v] * b[v];
-  }
-  task.ranks.combine(squares, RankGroup::Combination::kSum);
-  for (double& each : squares) each = each > 0 ? std::sqrt(each) : 1.0;
-  return squares;
-}
-
-/// phi of own vertices; `iterations`: that it took.
-Result<std::vector<double>> solve_poisson(const SharedTask& task, std::span<const MeshBlock> blocks,
-                                          const std::vector<double>& b, int& iterations) {
-  const MpiModule& module = task.ranks.module();
-  const std::vector<double> scales = scales_of(task, b);
-  std::vector<double> right(b.size(), 0.0), phi(b.size());
-  for (Index v = 0; v < task.part.own; ++v) {
-    if (!is_pinned(task, v)) right[v] = b[v] / scales[task.components.of[v]];
-  }
-  void* solver = nullptr;
-  std::string problem;
-  {
-    const SharedRows rows = poisson_rows(task, blocks);
-    const char* said = nullptr;
-    solver = module.make_shared_solver(task.part.own, rows.start.data(), rows.column.data(),
-                                       rows.value.data(), &said);
-    if (solver == nullptr) problem = said;
-  }
-  const auto agree = [&]() -> Result<void> {
-    if (problem.empty()) return task.ranks.agree({});
-    return task.ranks.agree(Error{ErrorCode::kNumericalFailure, "the Poisson step: " + problem});
-  };
-  if (auto made = agree(); !made) return made.error();
-  problem = module.solve(solver, right.data(), phi.data(), kPoissonTolerance, &iterations);
-  module.free_solver(solver);
-  if (auto solved = agree(); !solved) return solved.error();
-  for (Index v = 0; v < task.part.own; ++v) {
-    if (!is_pinned(task, v)) phi[v] *= scales[task.components.of[v]];
-  }
-  return phi;
-}
 
 /// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
 class BlockFaces {
@@ -277,6 +189,35 @@ void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<d
   }
 }
 
+/// What a person should know of how the mesh was taken. `repeated`: faces that repeat a corner.
+std::vector<Warning> notes_of(const RankGroup& ranks, std::span<const MeshBlock> blocks,
+                              const HeatOptions& options, double repeated) {
+  double lengthened = 0, covers = 0;
+  for (const MeshBlock& block : blocks) {
+    if (!block.surface) continue;
+    const IntrinsicMesh& mesh = block.surface->intrinsic;
+    lengthened = std::max(lengthened, mesh.mollified.most * mesh.unit);
+    const Index vertices = block.surface->mesh->vertex_count();
+    if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
+  }
+  CleanFaces left_out;
+  left_out.repeated_corner = static_cast<Index>(ranks.sum(repeated));
+  std::vector<Warning> notes = cleaning_notes(left_out);
+  lengthened = ranks.most(lengthened);
+  if (lengthened > 0) {
+    notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
+                     rounded_text(lengthened) +
+                     "; distances across them may be too long by as "
+                     "much"});
+  }
+  if (ranks.most(covers) > 0 && options.laplacian == LaplacianKind::kAuto) {
+    notes.push_back(
+        {"the surface is no oriented manifold everywhere: edges there are not flipped, "
+         "where one process would take the tufted Laplacian"});
+  }
+  return notes;
+}
+
 /// How many rings a block takes in, by the longest diffusion length in mean edges.
 int rings_for(const TimeStep& step, double mean_edge) {
   const double m =
@@ -325,6 +266,8 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   auto slice = ranks.agree_on(read_ply_slice(path, ranks.rank(), ranks.count()));
   if (!slice) return slice.error();
   out.read_ms = lap();
+  const auto repeated = static_cast<double>(std::ranges::count_if(
+      slice->corners, [](const auto& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }));
   report(progress, "sharing", 0.1);
   auto shared = share_mesh(ranks, *std::move(slice));
   if (!shared) return shared.error();
@@ -345,6 +288,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
   Halo(ranks, part, others).fetch(ranks, components.of);
   measure_components(ranks, part, *blocks, components);
+  std::vector<Warning> notes = notes_of(ranks, *blocks, options, repeated);
   part.positions = {};  // blocks have theirs
   part.corners = {};
   part.halo = {};
@@ -402,6 +346,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "figures", 0.9);
   if (auto right = judge(task, faces, *heat, *phi, b, out); !right) return right.error();
   hand_over(ranks, part, distances, out);
+  out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
 
   out.vertices = part.vertices;
   out.faces = part.faces;
