@@ -12,9 +12,6 @@
 namespace geotherm {
 namespace {
 
-/// Vertices of a block, at most: so that its factor stays in proportion and heat does not fall too
-/// far within it.
-constexpr Index kMostOfBlock = 150'000;
 /// Rings beyond those that are solved for, in turn, in which triangulations may differ.
 constexpr int kMargins[] = {4, 12, 36};
 /// Heat falls by e over a ring or less; fewer than this would take many rounds.

@@ -57,6 +57,10 @@ struct MeshBlock {
   }
 };
 
+/// Vertices of a block, at most: so that its factor stays in proportion and heat does not fall too
+/// far within it.
+inline constexpr Index kMostOfBlock = 150'000;
+
 /// How a rank's share is cut and triangulated.
 struct BlockRules {
   bool flip = true;  ///< to intrinsic Delaunay
