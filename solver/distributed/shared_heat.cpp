@@ -308,9 +308,10 @@ SourceAnchors anchors_in(const SharedTask& task, const MeshBlock& block) {
   return placed ? *std::move(placed) : SourceAnchors();  // vertices with a row have a place
 }
 
-std::shared_ptr<const Surface> faces_alone(const Surface& surface) {
+std::shared_ptr<const Surface> faces_alone(const Surface& surface, bool analysis) {
   auto out = std::make_shared<Surface>();
   out->operators = surface.operators;
+  if (analysis) out->analysis = surface.analysis;
   out->intrinsic.twin = surface.intrinsic.twin;
   out->unit = surface.unit;
   out->vertex_of_row = surface.vertex_of_row;

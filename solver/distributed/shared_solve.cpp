@@ -309,6 +309,15 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
                            .is_source = *is_source,
                            .reached = {reached.begin(), reached.end()},
                            .threads = rules.threads};
+  double flips = 0;
+  std::vector<SourceAnchors> anchors(blocks->size());
+  for (std::size_t k = 0; k < blocks->size(); ++k) {
+    MeshBlock& block = (*blocks)[k];
+    if (!block.surface) continue;
+    flips += block.surface->flips;
+    anchors[k] = anchors_in(task, block);
+    block.surface = faces_alone(*block.surface, true);
+  }
   report(progress, "factorize", 0.3);
   if (auto made = factorise_blocks(task, *blocks); !made) return made.error();
   out.set_up_ms = lap();
@@ -326,13 +335,11 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   std::vector<std::unique_ptr<BlockFaces>> fields;
   std::vector<BlockFaces*> faces;
   std::vector<double> b(static_cast<std::size_t>(part.own), 0.0);
-  double flips = 0;
-  for (MeshBlock& block : *blocks) {
+  for (std::size_t k = 0; k < blocks->size(); ++k) {
+    MeshBlock& block = (*blocks)[k];
     if (!block.surface) continue;
-    flips += block.surface->flips;
-    SourceAnchors anchors = anchors_in(task, block);
-    block.surface = faces_alone(*block.surface);
-    fields.push_back(std::make_unique<BlockFaces>(task, *heat, block, std::move(anchors)));
+    block.surface = faces_alone(*block.surface, false);
+    fields.push_back(std::make_unique<BlockFaces>(task, *heat, block, std::move(anchors[k])));
     faces.push_back(fields.back().get());
     faces.back()->add_divergence(b);
   }
