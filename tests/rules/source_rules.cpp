@@ -72,9 +72,6 @@ const std::vector<Permission>& permissions() {
       {"solver/volume", volume, {"std", "eigen"}, {}},
       {"solver/grid", grid, {"std", "eigen"}, {"zlib", "png"}},
       {"solver/heat", heat, {"std", "eigen"}, {}},
-      // What ranks do is asked of linear/mpi_module.h: MPI and PETSc themselves stay in their
-      // module.
-      {"solver/distributed", with(heat, {"solver/distributed"}), {"std", "eigen"}, {}},
       {"solver", {"solver", "geotherm"}, {"std", "eigen"}, {}},
       {"docs/examples", {"geotherm", "docs/examples"}, {"std", "eigen"}, {}},
       {"app/main.cpp", {"solver", "geotherm", "engine", "shaders", "app", "ui"}, {"any"}, {}},
