@@ -12,6 +12,7 @@
 #include "app/session/report.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
+#include "solver/distributed/mesh_block.h"
 
 namespace geotherm::app {
 namespace {
@@ -35,6 +36,13 @@ constexpr Law kPeakBytes = {143 * kMegabyte, 2.62 * 1024 * kMegabyte};
 /// Two chunks of sixteen answers, of a thread each.
 constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
 
+/// One mesh over ranks (docs/large_scale.md): what a rank has before, and of each vertex it owns;
+/// torus of a million faces, half a million vertices a rank, one thread.
+constexpr double kRankBytes = 56 * kMegabyte, kShareBytes = 1150;
+constexpr double kShareSetup = 4.4e-6, kShareQuery = 4.8e-6;  ///< seconds
+/// Numbers of PETSc have 32 bits.
+constexpr double kMaxShared = std::numeric_limits<Index>::max();
+
 /// Distances are computed on rows numbered by 32 bits; a closed surface has twice as many faces.
 constexpr double kMaxVertices = std::numeric_limits<Index>::max() / 3.0;
 
@@ -43,6 +51,22 @@ Result<double> whole_number(const std::string& text, const char* option) {
   if (number && *number >= 1 && *number <= 1e15 && *number == std::floor(*number)) return *number;
   return Error{ErrorCode::kBadInput, std::string(option) + ": '" + one_line(text) +
                                          "' is no count; give a whole number from 1, such as 2e6"};
+}
+
+struct SharedPlan {
+  double own, blocks, rounds, bytes, setup, query;
+};
+
+/// One source on a mesh that ranks share.
+SharedPlan plan_shared(double vertices, double ranks) {
+  const double own = std::ceil(vertices / ranks);
+  const double blocks = ranks * std::ceil(own / kMostOfBlock);
+  return {.own = own,
+          .blocks = blocks,
+          .rounds = std::ceil(2 * std::sqrt(blocks) + 6),
+          .bytes = kRankBytes + kShareBytes * own,
+          .setup = kShareSetup * own,
+          .query = kShareQuery * own};
 }
 
 }  // namespace
@@ -58,10 +82,12 @@ void add_plan_options(CLI::App& command, PlanArguments& arguments) {
   command.add_option("--json", arguments.json, "the same as JSON; - is standard output")
       ->type_name("FILE");
   command.footer(
-      "Power laws through figures that were measured on two threads (docs/performance.md); "
-      "every rank holds the whole mesh.\n"
+      "Power laws through figures that were measured on two threads (docs/performance.md). Many "
+      "sources are shared out over ranks that hold the whole mesh; with one source ranks share "
+      "the mesh (--backend petsc, docs/large_scale.md).\n"
       "Examples:\n"
-      "  geotherm plan --vertices 2e6 --sources 10000 --ranks 64");
+      "  geotherm plan --vertices 2e6 --sources 10000 --ranks 64\n"
+      "  geotherm plan --vertices 1e9 --ranks 256");
 }
 
 Result<CommandOutput> run_plan(const PlanArguments& arguments) {
@@ -72,11 +98,14 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   if (!sources) return sources.error();
   const auto ranks = whole_number(or_one(arguments.ranks), "--ranks");
   if (!ranks) return ranks.error();
-  if (*vertices > kMaxVertices) {
+  const bool shared = *sources == 1 && *ranks > 1;
+  const double most_vertices = shared ? kMaxShared : kMaxVertices;
+  if (*vertices > most_vertices) {
     return Error{ErrorCode::kBadInput,
-                 "--vertices: a process holds meshes of up to " +
-                     grouped(static_cast<std::int64_t>(kMaxVertices)) + " vertices, not " +
-                     grouped(static_cast<std::int64_t>(*vertices)) + "; simplify the mesh first"};
+                 std::string("--vertices: ") + (shared ? "ranks share" : "a process holds") +
+                     " meshes of up to " + grouped(static_cast<std::int64_t>(most_vertices)) +
+                     " vertices, not " + grouped(static_cast<std::int64_t>(*vertices)) +
+                     "; simplify the mesh first"};
   }
   Outputs outputs;
   if (!arguments.json.empty()) {
@@ -87,38 +116,57 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   // Blocks of sixteen are dealt out whole.
   const double blocks = std::ceil(*sources / 16), most = std::ceil(blocks / *ranks);
   const double rows = std::min(16 * most, *sources);
-  const double idle = std::max(0.0, *ranks - blocks);
-  const double setup = kSetupSeconds.at(*vertices);
-  const double queries =
-      *sources == 1 ? kQuerySeconds.at(*vertices) : rows * kRowSeconds.at(*vertices);
-  const double bytes = kPeakBytes.at(*vertices) + (*sources > 1 ? kAnswersOfVertex * *vertices : 0);
+  const double idle = shared ? 0.0 : std::max(0.0, *ranks - blocks);
+  const SharedPlan share = plan_shared(*vertices, *ranks);
+  const double setup = shared ? share.setup : kSetupSeconds.at(*vertices);
+  const double queries = shared          ? share.query
+                         : *sources == 1 ? kQuerySeconds.at(*vertices)
+                                         : rows * kRowSeconds.at(*vertices);
+  const double bytes =
+      shared ? share.bytes
+             : kPeakBytes.at(*vertices) + (*sources > 1 ? kAnswersOfVertex * *vertices : 0);
   const auto file =
       static_cast<double>(npy_bytes_of(static_cast<std::uint64_t>(*sources),
                                        static_cast<std::uint64_t>(*vertices), NpyType::kFloat64));
   CommandOutput out;
   if (!arguments.json.empty()) {
-    const Json json = {{"plan",
-                        {{"vertices", *vertices},
-                         {"sources", *sources},
-                         {"ranks", *ranks},
-                         {"rows_of_rank", rows},
-                         {"idle_ranks", idle},
-                         {"memory_mb_of_rank", bytes / kMegabyte},
-                         {"setup_seconds", setup},
-                         {"queries_seconds", queries},
-                         {"file_bytes", file}}}};
+    Json json = {{"plan",
+                  {{"vertices", *vertices},
+                   {"sources", *sources},
+                   {"ranks", *ranks},
+                   {"rows_of_rank", rows},
+                   {"idle_ranks", idle},
+                   {"memory_mb_of_rank", bytes / kMegabyte},
+                   {"setup_seconds", setup},
+                   {"queries_seconds", queries},
+                   {"file_bytes", file}}}};
+    if (shared) {
+      json["plan"]["vertices_of_rank"] = share.own;
+      json["plan"]["blocks"] = share.blocks;
+      json["plan"]["rounds"] = share.rounds;
+    }
     const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!written) return written.error();
   }
   if (outputs.uses_stdout()) return out;
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   const auto count = [](double number) { return grouped(static_cast<std::int64_t>(number)); };
-  table.add_row({"memory a rank", bytes_in_words(bytes) + ", whole mesh and factors in each"});
+  table.add_row({"memory a rank",
+                 bytes_in_words(bytes) + (shared ? ", a share of the mesh and its factors in each"
+                                                 : ", whole mesh and factors in each")});
   table.add_row({"memory of all", bytes_in_words(bytes * *ranks)});
-  table.add_row({"rows a rank", count(rows) + " at most" +
-                                    (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
-  table.add_row({"set-up", seconds_in_words(setup) + ", two threads a rank"});
-  table.add_row({"queries", seconds_in_words(queries)});
+  if (shared) {
+    table.add_row(
+        {"vertices a rank", count(share.own) + ", " + count(share.blocks) + " blocks in all"});
+    table.add_row({"rounds", count(share.rounds) + " of the heat step at most"});
+  } else {
+    table.add_row({"rows a rank", count(rows) + " at most" +
+                                      (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
+  }
+  table.add_row({"set-up", seconds_in_words(setup) +
+                               (shared ? ", one thread a rank" : ", two threads a rank")});
+  table.add_row(
+      {"queries", seconds_in_words(queries) + (shared ? ", without waiting for the network" : "")});
   table.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
   out.text = table.text();
   out.made = outputs.made();

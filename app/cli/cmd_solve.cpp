@@ -177,7 +177,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "near.npz\n"
       "  geotherm solve bunny -s 17 --target 3,99 --method exact -o -\n"
       "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv\n"
-      "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy");
+      "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy\n"
+      "  mpirun -n 8 geotherm solve huge.ply -s 17 --backend petsc -o distances.npy");
 }
 
 namespace {
@@ -249,6 +250,7 @@ Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& 
   if (auto fits = refuse_with_sequence(arguments.sequence, arguments.check); !fits) {
     return fits.error();
   }
+  if (is_shared(arguments)) return run_shared(arguments, progress);
   if (!arguments.each && !arguments.pairs) {
     if (auto alone = refuse_ranks("geotherm solve on one source set"); !alone) {
       return alone.error();

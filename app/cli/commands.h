@@ -111,6 +111,10 @@ void add_many_options(CLI::App& command, SolveArguments& arguments);
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress = {}, const Announce& announce = {});
 
+/// Whether it is one mesh over the ranks of a launcher (--backend petsc), and its distances.
+bool is_shared(const SolveArguments& arguments);
+Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress& progress);
+
 /// `solve --each`: one row of distances for each source, streamed into a .npy array of K x V.
 Result<CommandOutput> run_each(const SolveArguments& arguments, const Progress& progress,
                                const Announce& announce);

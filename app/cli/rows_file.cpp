@@ -19,12 +19,11 @@ Error about_file(const Error& error) {
   return with_hint(error, {"make room there, or choose another place"});
 }
 
-struct SharedRows::State {
+struct SharedFile::State {
   std::optional<GrowingFile> file;  ///< of the first rank
-  std::string path, bytes;
-  int place = -1;  ///< where rows are written; -1: through the file, one after the other
-  std::uint64_t header = 0, row = 0;
-  NpyType type;
+  std::string path;
+  int place = -1;  ///< where others write; -1: through the file, one piece after the other
+  std::uint64_t header = 0;
 
   Error failure(int code) const {
     return {ErrorCode::kBadFile,
@@ -32,26 +31,21 @@ struct SharedRows::State {
   }
 };
 
-SharedRows::SharedRows(std::unique_ptr<State> state) : state_(std::move(state)) {}
-SharedRows::SharedRows(SharedRows&&) noexcept = default;
-SharedRows::~SharedRows() {
+SharedFile::SharedFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SharedFile::SharedFile(SharedFile&&) noexcept = default;
+SharedFile::~SharedFile() {
   if (state_ && state_->place >= 0) ::close(state_->place);
 }
 
-Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& work, Index columns,
-                                    NpyType type) {
-  const std::uint64_t rows = work.sources.sets.size();
-  const auto width = static_cast<std::uint64_t>(columns);
-  const std::string header = io::npy_rows_header(rows, width, type);
-  SharedRows out(std::make_unique<State>());
+Result<SharedFile> SharedFile::open(const std::string& path, std::string_view header,
+                                    const Ranks& ranks) {
+  SharedFile out(std::make_unique<State>());
   State& state = *out.state_;
   state.path = path;
-  state.type = type;
   state.header = header.size();
-  state.row = npy_bytes_of(1, width, type) - npy_bytes_of(0, width, type);
   const auto begin = [&]() -> Result<void> {
-    if (!work.ranks.is_first()) return {};
-    if (!work.ranks.alone() && path == "-") {
+    if (!ranks.is_first()) return {};
+    if (!ranks.alone() && path == "-") {
       return Error{ErrorCode::kBadInput,
                    "several processes cannot share standard output; give -o FILE.npy"};
     }
@@ -60,31 +54,45 @@ Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& 
     state.file = *std::move(file);
     return state.file->append(header);
   };
-  if (auto begun = work.ranks.agree(begin()); !begun) return begun.error();
-  if (work.ranks.alone()) return out;
+  if (auto begun = ranks.agree(begin()); !begun) return begun.error();
+  if (ranks.alone()) return out;
   const std::string place =
-      work.ranks.exchange(work.ranks.is_first() ? state.file->place() : std::string()).front();
+      ranks.exchange(ranks.is_first() ? state.file->place() : std::string()).front();
   state.place = ::open(place.c_str(), O_WRONLY | O_CLOEXEC);
-  const auto opened = work.ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
-  return opened ? Result<SharedRows>(std::move(out)) : opened.error();
+  const auto opened = ranks.agree(state.place >= 0 ? Result<void>() : state.failure(errno));
+  return opened ? Result<SharedFile>(std::move(out)) : opened.error();
 }
 
-Result<void> SharedRows::write(std::size_t row, std::span<const double> distances) {
+Result<void> SharedFile::write(std::uint64_t at, std::string_view bytes) {
   State& state = *state_;
-  if (auto made = io::npy_row(state.path, distances, state.type, state.bytes); !made) return made;
-  if (state.place < 0) return state.file->append(state.bytes);
-  std::string_view left = state.bytes;
-  for (auto at = state.header + row * state.row; !left.empty();) {
-    const ssize_t written = ::pwrite(state.place, left.data(), left.size(), static_cast<off_t>(at));
+  if (state.place < 0) return state.file->append(bytes);
+  for (at += state.header; !bytes.empty();) {
+    const ssize_t written =
+        ::pwrite(state.place, bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return state.failure(errno);
-    left.remove_prefix(static_cast<std::size_t>(written));
+    bytes.remove_prefix(static_cast<std::size_t>(written));
     at += static_cast<std::uint64_t>(written);
   }
   return {};
 }
 
-Result<void> SharedRows::finish() { return state_->file->finish(); }
+Result<void> SharedFile::finish() { return state_->file->finish(); }
+
+Result<SharedRows> SharedRows::open(const std::string& path, const ManySources& work, Index columns,
+                                    NpyType type) {
+  const std::uint64_t rows = work.sources.sets.size();
+  const auto width = static_cast<std::uint64_t>(columns);
+  auto file = SharedFile::open(path, io::npy_rows_header(rows, width, type), work.ranks);
+  if (!file) return file.error();
+  const std::uint64_t row = npy_bytes_of(1, width, type) - npy_bytes_of(0, width, type);
+  return SharedRows(*std::move(file), path, row, type);
+}
+
+Result<void> SharedRows::write(std::size_t row, std::span<const double> distances) {
+  if (auto made = io::npy_row(path_, distances, type_, bytes_); !made) return made;
+  return file_.write(row * row_, bytes_);
+}
 
 Result<RowsFile> RowsFile::open(const std::string& path, const ManySources& work, NpyType type) {
   RowsFile out;

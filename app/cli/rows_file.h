@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "app/cli/many_work.h"
 
@@ -15,25 +17,47 @@ namespace geotherm::app {
 /// The error with what helps where a file cannot be written.
 Error about_file(const Error& error);
 
-/// A .npy array that ranks write together: each its rows, into the file of the first one, which is
-/// renamed when all are done. Alone it is written as NpyRows does it.
-class SharedRows {
+/// A file that ranks write together: each its places in the file of the first one, which is renamed
+/// when all are done.
+class SharedFile {
  public:
   /// All ranks. Errors: kBadFile, the same on all.
-  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
-                                 NpyType type);
-  SharedRows(SharedRows&&) noexcept;
-  ~SharedRows();
+  static Result<SharedFile> open(const std::string& path, std::string_view header,
+                                 const Ranks& ranks);
+  SharedFile(SharedFile&&) noexcept;
+  ~SharedFile();
 
-  /// Errors: kBadFile, kBadInput (a row that does not fit the type).
-  Result<void> write(std::size_t row, std::span<const double> distances);
+  /// Writes at a place counted from the header's end; alone, behind what was written last. Errors:
+  /// kBadFile.
+  Result<void> write(std::uint64_t at, std::string_view bytes);
   /// On the first rank, when the others have written theirs.
   Result<void> finish();
 
  private:
   struct State;
-  explicit SharedRows(std::unique_ptr<State> state);
+  explicit SharedFile(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
+};
+
+/// Rows of a .npy array that ranks write together.
+class SharedRows {
+ public:
+  /// All ranks. Errors: kBadFile, the same on all.
+  static Result<SharedRows> open(const std::string& path, const ManySources& work, Index columns,
+                                 NpyType type);
+
+  /// Errors: kBadFile, kBadInput (a row that does not fit the type).
+  Result<void> write(std::size_t row, std::span<const double> distances);
+  /// On the first rank, when the others have written theirs.
+  Result<void> finish() { return file_.finish(); }
+
+ private:
+  SharedRows(SharedFile file, std::string path, std::uint64_t row, NpyType type)
+      : file_(std::move(file)), path_(std::move(path)), row_(row), type_(type) {}
+  SharedFile file_;
+  std::string path_, bytes_;
+  std::uint64_t row_;  ///< bytes
+  NpyType type_;
 };
 
 /// The rows of --each as they come: an array, or what is reached alone.

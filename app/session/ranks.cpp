@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/session/ranks.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <optional>
@@ -34,12 +35,21 @@ RankOfCount launched_as() {
   return {};
 }
 
+bool has_launcher() {
+  return std::ranges::any_of(kLaunchers, [](const auto& each) {
+    return number_of(each[0]).has_value() && number_of(each[1]).has_value();
+  });
+}
+
 Result<void> refuse_ranks(const std::string& what) {
   const int count = launched_as().count;
   if (count == 1) return {};
-  return Error{ErrorCode::kBadInput,
-               what + " works in one process, and was started as " + std::to_string(count),
-               {"start it without mpirun; batch and solve with each or pairs share their work"}};
+  return Error{
+      ErrorCode::kBadInput,
+      what + " works in one process, and was started as " + std::to_string(count),
+      {"start it without mpirun; batch and solve with each or pairs share their work, and one "
+       "mesh with ",
+       SettingHint{"backend", {"petsc"}}}};
 }
 
 bool is_of_launcher(const std::string& variable) {

@@ -15,6 +15,9 @@ namespace geotherm::app {
 /// is not started.
 RankOfCount launched_as();
 
+/// Whether there was one, even where this process is the only one.
+bool has_launcher();
+
 /// Refuses to be one of several, where each would do the same. `what`: a command. Errors:
 /// kBadInput.
 Result<void> refuse_ranks(const std::string& what);

@@ -44,6 +44,9 @@ Json error_json(const AccuracyReport& report);
 /// The same of some of many source sets.
 Json error_json(const SampleCheck& check);
 
+/// The key `quality`. `heat`: of the heat method; what others have not is null.
+Json quality_json(const Quality& quality, bool heat);
+
 Json solve_json(const Answer& figures);
 
 /// Text with a line end. Objects are indented down to the second level, what is deeper stands on

@@ -30,24 +30,6 @@ Json fallbacks_json(const HeatMethod& method, const DistanceResult& result) {
   return json;
 }
 
-Json quality_json(const Quality& q, bool heat) {
-  const auto where = [](bool known, auto value) { return known ? Json(value) : Json(nullptr); };
-  const auto of_heat = [&](auto value) { return where(heat, value); };
-  return {{"heat_residual", of_heat(q.heat_residual)},
-          {"poisson_residual", of_heat(q.poisson_residual)},
-          {"max_source_distance", q.max_source_distance},
-          {"eikonal_error_mean", q.eikonal_error_mean},
-          {"zero_gradient_faces", of_heat(q.zero_gradient_faces)},
-          {"iterations_heat", of_heat(q.iterations_heat)},
-          {"iterations_poisson", of_heat(q.iterations_poisson)},
-          {"clamped_vertices", of_heat(q.clamped_vertices)},
-          {"clamped_reach", of_heat(q.clamped_reach)},
-          {"below_straight_line", where(q.lines_checked, q.below_straight_line)},
-          {"most_below_straight_line", where(q.lines_checked, q.most_below_straight_line)},
-          {"steep_edges", where(q.edges_checked, q.steep_edges)},
-          {"steepest_edge", where(q.edges_checked, q.steepest_edge)}};
-}
-
 /// Offsets in the order of `sources`: vertices ascending, then points in faces.
 Json offsets_json(const SourceSet& sources) {
   std::map<Index, double> of_vertex;
@@ -85,6 +67,24 @@ Json tried_json(const TriedSetting& tried) {
 }
 
 }  // namespace
+
+Json quality_json(const Quality& q, bool heat) {
+  const auto where = [](bool known, auto value) { return known ? Json(value) : Json(nullptr); };
+  const auto of_heat = [&](auto value) { return where(heat, value); };
+  return {{"heat_residual", of_heat(q.heat_residual)},
+          {"poisson_residual", of_heat(q.poisson_residual)},
+          {"max_source_distance", q.max_source_distance},
+          {"eikonal_error_mean", q.eikonal_error_mean},
+          {"zero_gradient_faces", of_heat(q.zero_gradient_faces)},
+          {"iterations_heat", of_heat(q.iterations_heat)},
+          {"iterations_poisson", of_heat(q.iterations_poisson)},
+          {"clamped_vertices", of_heat(q.clamped_vertices)},
+          {"clamped_reach", of_heat(q.clamped_reach)},
+          {"below_straight_line", where(q.lines_checked, q.below_straight_line)},
+          {"most_below_straight_line", where(q.lines_checked, q.most_below_straight_line)},
+          {"steep_edges", where(q.edges_checked, q.steep_edges)},
+          {"steepest_edge", where(q.edges_checked, q.steepest_edge)}};
+}
 
 Json setting_json(const Setting& setting, const ViewerState& state) {
   const std::string text = setting.get(state);

@@ -85,7 +85,7 @@ CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
                          const SteepSides& steep, const FaceField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
-                         int threads, Quality& quality) {
+                         int threads, Quality& quality, std::span<const char> some) {
   std::vector<char> held(phi.size(), 0);
   std::ranges::copy(held_at_zero, held.begin());
   for (const auto& anchor : anchors.anchors) held[anchor.row] = 1;
@@ -93,6 +93,7 @@ CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
   for (const Index c : anchors.components) holds[c] = 1;
   const auto inspect = [&](Index f, FaceSums& sums) {
     const Face& face = mesh.faces[f];
+    if (!some.empty() && !some[static_cast<std::size_t>(f)]) return;
     if (!holds[mesh.components.of[face[0]]]) return;
     // In halves, since a face of a tufted cover is half of one of the surface.
     const Index halves = mesh.is_doubled(mesh.components.of[face[0]]) ? 1 : 2;

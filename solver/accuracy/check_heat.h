@@ -28,12 +28,12 @@ double poisson_residual(const Domain& domain, std::span<const double> phi, const
 /// components that hold a source. `phi` in units of the intrinsic mesh. Faces whose corners are all
 /// anchors or `held_at_zero` (a flag per row, or empty) have no gradient to lose. Edges too steep
 /// for `steep` are counted, those that have a twin in `twin` (3F of the intrinsic mesh) by halves.
-/// The same bits with any number of threads.
+/// `some`: a flag for each face that counts, or empty. The same bits with any number of threads.
 CellCounts inspect_faces(const OperatorMesh& mesh, std::span<const Side> twin,
                          const SteepSides& steep, const FaceField& field,
                          std::span<const double> phi, Eigen::Index column,
                          const SourceAnchors& anchors, std::span<const char> held_at_zero,
-                         int threads, Quality& quality);
+                         int threads, Quality& quality, std::span<const char> some = {});
 
 /// Whether a diffusion time, in squares of the mean edge, may be why a system could not be solved.
 bool is_extreme_time(double unit_t);

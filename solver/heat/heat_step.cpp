@@ -14,7 +14,7 @@
 namespace geotherm {
 namespace {
 
-double unit_time(const Domain& domain, const ComponentSize& size, const TimeStep& step) {
+double unit_time(double unit, const ComponentSize& size, const TimeStep& step) {
   switch (step.rule) {
     case TimeRule::kMeanEdge:
       return step.factor * size.grading * size.mean_edge * size.mean_edge;
@@ -23,32 +23,32 @@ double unit_time(const Domain& domain, const ComponentSize& size, const TimeStep
     case TimeRule::kAbsolute:
       break;
   }
-  return step.absolute / domain.unit / domain.unit;
+  return step.absolute / unit / unit;
 }
 
 }  // namespace
 
-Result<DiffusionTimes> diffusion_times(const Domain& domain, const TimeStep& step) {
+Result<DiffusionTimes> diffusion_times(std::span<const ComponentSize> components, double unit,
+                                       const TimeStep& step) {
   std::vector<double> t, relative;
   std::size_t largest = 0;
-  for (std::size_t c = 0; c < domain.components.size(); ++c) {
-    const ComponentSize& size = domain.components[c];
-    if (size.cells > domain.components[largest].cells) largest = c;
-    t.push_back(unit_time(domain, size, step));
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    const ComponentSize& size = components[c];
+    if (size.cells > components[largest].cells) largest = c;
+    t.push_back(unit_time(unit, size, step));
     relative.push_back(t.back() / size.mean_edge / size.mean_edge);
     const auto usable = [](double each) { return each > 0 && std::isfinite(each); };
     if (usable(t.back()) && usable(relative.back())) continue;
     return Error{ErrorCode::kBadInput,
                  "the diffusion time is " + rounded_text(relative.back()) +
                      " squared mean edges, where an edge is " +
-                     rounded_text(size.mean_edge * domain.unit) + " long",
+                     rounded_text(size.mean_edge * unit) + " long",
                  {"choose one near 1"}};
   }
-  const double edge = domain.unit;
   DiffusionTimes out;
   out.relative_t = relative[largest];
-  out.grading = domain.components[largest].grading;
-  out.model_t = step.rule == TimeRule::kAbsolute ? step.absolute : t[largest] * edge * edge;
+  out.grading = components[largest].grading;
+  out.model_t = step.rule == TimeRule::kAbsolute ? step.absolute : t[largest] * unit * unit;
   out.extreme =
       *std::ranges::max_element(relative, {}, [](double each) { return std::abs(std::log(each)); });
   out.t = PerComponent(std::move(t));

@@ -24,9 +24,11 @@ struct DiffusionTimes {
   bool operator==(const DiffusionTimes&) const = default;
 };
 
-/// Precondition: the step's factor, or its absolute time, is positive and finite. Errors:
+/// `unit`: Domain::unit, in which sizes are. Precondition: the step's factor, or its absolute time,
+/// is positive and finite. Errors:
 /// kBadInput (a time that is 0 or not finite in squares of the mean edge).
-Result<DiffusionTimes> diffusion_times(const Domain& domain, const TimeStep& step);
+Result<DiffusionTimes> diffusion_times(std::span<const ComponentSize> components, double unit,
+                                       const TimeStep& step);
 
 /// The share c of the mass that is consistent, FemOperator: half where the mesh resolves the
 /// diffusion length, none for Variant::kClassic.

@@ -123,7 +123,7 @@ class Spread {
 }  // namespace
 
 FaceField::FaceField(const Surface& surface, const HeatField& heat, const PerComponent& t,
-                     const Workspace& work)
+                     const Workspace& work, std::span<const Extent> whole)
     : surface_(surface),
       mesh_(*surface.operators),
       heat_(heat),
@@ -137,10 +137,10 @@ FaceField::FaceField(const Surface& surface, const HeatField& heat, const PerCom
     }
   }
   log_u_ = work.pool.take(heat.u.rows(), heat.u.cols());
-  take_logarithms(t);
+  take_logarithms(t, whole);
 }
 
-void FaceField::take_logarithms(const PerComponent& t) {
+void FaceField::take_logarithms(const PerComponent& t, std::span<const Extent> whole) {
   const Eigen::Index columns = log_u_.cols();
   const double step = std::log(heat_.step);
   Spread all(mesh_.components, columns);
@@ -160,23 +160,31 @@ void FaceField::take_logarithms(const PerComponent& t) {
     const std::lock_guard lock(mutex);
     all.take(spread);
   });
-  if (!measure_width(all.high(), all.low(), t)) {
+  Block high = all.high(), low = all.low();
+  std::vector<double> area = mesh_.area;
+  for (std::size_t c = 0; c < whole.size(); ++c) {
+    high.row(static_cast<Eigen::Index>(c)).setConstant(whole[c].high);
+    low.row(static_cast<Eigen::Index>(c)).setConstant(whole[c].low);
+    area[c] = whole[c].area;
+  }
+  if (!measure_width(high, low, area, t)) {
     root_t_ = 0;  // narrow everywhere: the published field
     return;
   }
-  measure_trust(all.high(), all.low());
+  measure_trust(high, low);
 }
 
 /// False where every component that heat has reached is narrow, for every source set.
-bool FaceField::measure_width(const Block& high, const Block& low, const PerComponent& t) {
+bool FaceField::measure_width(const Block& high, const Block& low, std::span<const double> area,
+                              const PerComponent& t) {
   std::vector<double> width(static_cast<std::size_t>(high.size()), 1.0);
   bool wide = true, some = false;
   for (Eigen::Index component = 0; component < high.rows(); ++component) {
     for (Eigen::Index c = 0; c < high.cols(); ++c) {
       const double fall = high(component, c) - low(component, c);
       if (!(fall > 0)) continue;  // no heat here
-      const double widths = mesh_.area[static_cast<std::size_t>(component)] /
-                            (fall * t.of(static_cast<Index>(component)));
+      const double widths =
+          area[static_cast<std::size_t>(component)] / (fall * t.of(static_cast<Index>(component)));
       double& of = width[static_cast<std::size_t>(component * high.cols() + c)];
       of = std::clamp((widths - kNarrow) / (kWide - kNarrow), 0.0, 1.0);
       wide = wide && of == 1;
@@ -317,6 +325,13 @@ CellCounts FaceField::inspect(std::span<const double> phi, Eigen::Index column,
   return inspect_faces(mesh_, surface_.intrinsic.twin,
                        SteepSides(bound_tolerance(MethodKind::kHeat)), *this, phi, column, anchors,
                        held_at_zero, threads, quality);
+}
+
+CellCounts FaceField::inspect(std::span<const double> phi, const SourceAnchors& anchors,
+                              std::span<const char> some, int threads, Quality& quality) const {
+  return inspect_faces(mesh_, surface_.intrinsic.twin,
+                       SteepSides(bound_tolerance(MethodKind::kHeat)), *this, phi, 0, anchors, {},
+                       threads, quality, some);
 }
 
 }  // namespace geotherm

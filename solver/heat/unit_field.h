@@ -25,10 +25,17 @@ namespace geotherm {
 /// distance beside the sources says more than the published field. Both fade out there.
 class FaceField final : public UnitField {
  public:
-  /// `t` in units of the intrinsic mesh squared, or 0 everywhere. Keeps references. Cost: a
+  /// How far log u falls over a component, and its area, in units of the intrinsic mesh.
+  struct Extent {
+    double high, low;  ///< largest and smallest logarithm
+    double area;
+  };
+
+  /// `t` in units of the intrinsic mesh squared, or 0 everywhere. `whole`: of each component of
+  /// which the surface is a piece; empty where it has all of them. Keeps references. Cost: a
   /// logarithm a row.
   FaceField(const Surface& surface, const HeatField& heat, const PerComponent& t,
-            const Workspace& work);
+            const Workspace& work, std::span<const Extent> whole = {});
   ~FaceField() override { work_.pool.give(std::move(log_u_)); }
   FaceField(const FaceField&) = delete;
   FaceField& operator=(const FaceField&) = delete;
@@ -42,14 +49,18 @@ class FaceField final : public UnitField {
   CellCounts inspect(std::span<const double> phi, Eigen::Index column, const SourceAnchors& anchors,
                      std::span<const char> held_at_zero, int threads,
                      Quality& quality) const override;
+  /// The same of the faces with a flag in `some` alone.
+  CellCounts inspect(std::span<const double> phi, const SourceAnchors& anchors,
+                     std::span<const char> some, int threads, Quality& quality) const;
 
  private:
-  void take_logarithms(const PerComponent& t);
+  void take_logarithms(const PerComponent& t, std::span<const Extent> whole);
   /// Adds what these faces give to b.
   void add_faces(Index first_face, Index end_face, Block& b) const;
   void add_group(Index first_face, Index end_face, Eigen::Index first, int group, Block& b) const;
   void measure_trust(const Block& high, const Block& low);
-  bool measure_width(const Block& high, const Block& low, const PerComponent& t);
+  bool measure_width(const Block& high, const Block& low, std::span<const double> area,
+                     const PerComponent& t);
   /// Of the component of a row; 1 where there are none.
   double at(const std::vector<double>& values, Index row, Eigen::Index column) const;
   double length(Index face, Eigen::Index column) const;

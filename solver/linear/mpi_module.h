@@ -13,6 +13,8 @@ namespace geotherm {
 /// them nor needs them. Texts that are returned say what went wrong; empty: nothing. PETSc is for
 /// one thread at a time.
 struct MpiModule {
+  enum class Combination { kSum, kLeast, kMost };
+
   /// Starts MPI, once; this process has this rank of so many.
   const char* (*start)(int* rank, int* count);
 
@@ -20,21 +22,36 @@ struct MpiModule {
   void (*exchange)(const char* bytes, std::int64_t size, void* context,
                    void (*take)(void* context, const char* bytes, std::int64_t size));
 
+  /// Hands to each rank the bytes that each has for it: of `bytes`, one rank's after the other's,
+  /// sizes[r] are for rank r. `room` gives the place for all that comes, in the order of the ranks,
+  /// when its sizes are known. All ranks call it.
+  void (*swap)(const char* bytes, const std::int64_t* sizes, void* context,
+               char* (*room)(void* context, const std::int64_t* sizes));
+
+  /// Each number becomes the sum, the least or the largest of what the ranks have there. All ranks
+  /// call it.
+  void (*combine)(double* values, std::int64_t count, Combination how);
+
   /// Ends MPI. Nothing may follow.
   void (*finish)();
 
   /// A symmetric positive definite matrix (n, rows of all entries, columns ascending), which stays
   /// the caller's, and its BoomerAMG preconditioner; null with *problem.
   void* (*make_solver)(int n, int* start, int* column, double* value, const char** problem);
+  /// The same of a matrix whose rows are shared out, each rank some that follow those of the rank
+  /// before; columns are numbers of all rows. The arrays are copied. All ranks call it, and what
+  /// else is done with it.
+  void* (*make_shared_solver)(int rows, const int* start, const int* column, const double* value,
+                              const char** problem);
   void (*free_solver)(void* solver);
 
   /// x = M^-1 b by conjugate gradients, to this residual relative to b's.
   const char* (*solve)(void* solver, const double* b, double* x, double tolerance, int* iterations);
 };
 
-/// The function that a module has, const MpiModule* geotherm_mpi_module_1(): the number grows where
+/// The function that a module has, const MpiModule* geotherm_mpi_module_2(): the number grows where
 /// the table changes.
-inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_1";
+inline constexpr const char* kMpiModuleEntry = "geotherm_mpi_module_2";
 
 /// Whether there is such a library: the one that the variable GEOTHERM_MPI_MODULE names (any other
 /// word: none), else the one beside the installed program, else that of the build. Cost: that of

@@ -65,9 +65,10 @@ const char* start_all(int* rank, int* count) {
   return "";
 }
 
+constexpr std::int64_t kPiece = std::int64_t{1} << 30;  // MPI counts in int
+
 void exchange(const char* bytes, std::int64_t size, void* context,
               void (*take)(void*, const char*, std::int64_t)) {
-  constexpr std::int64_t kPiece = std::int64_t{1} << 30;  // MPI counts in int
   int rank = 0, count = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &count);
@@ -82,6 +83,45 @@ void exchange(const char* bytes, std::int64_t size, void* context,
                 MPI_COMM_WORLD);
     }
     take(context, theirs.data(), length);
+  }
+}
+
+void swap(const char* bytes, const std::int64_t* sizes, void* context,
+          char* (*room)(void*, const std::int64_t*)) {
+  constexpr int kTag = 1;
+  int count = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  std::vector<std::int64_t> theirs(static_cast<std::size_t>(count));
+  MPI_Alltoall(sizes, 1, MPI_INT64_T, theirs.data(), 1, MPI_INT64_T, MPI_COMM_WORLD);
+  char* to = room(context, theirs.data());
+  std::vector<MPI_Request> open;
+  const auto in_pieces = [&](std::int64_t size, const auto& call) {
+    for (std::int64_t at = 0; at < size; at += kPiece) {
+      call(at, static_cast<int>(std::min(kPiece, size - at)), &open.emplace_back());
+    }
+  };
+  for (int rank = 0; rank < count; ++rank) {
+    const std::int64_t size = theirs[static_cast<std::size_t>(rank)];
+    in_pieces(size, [&](std::int64_t at, int length, MPI_Request* request) {
+      MPI_Irecv(to + at, length, MPI_BYTE, rank, kTag, MPI_COMM_WORLD, request);
+    });
+    to += size;
+  }
+  for (int rank = 0; rank < count; ++rank) {
+    in_pieces(sizes[rank], [&](std::int64_t at, int length, MPI_Request* request) {
+      MPI_Isend(bytes + at, length, MPI_BYTE, rank, kTag, MPI_COMM_WORLD, request);
+    });
+    bytes += sizes[rank];
+  }
+  MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE);
+}
+
+void combine(double* values, std::int64_t count, geotherm::MpiModule::Combination how) {
+  using enum geotherm::MpiModule::Combination;
+  const MPI_Op operation = how == kSum ? MPI_SUM : how == kLeast ? MPI_MIN : MPI_MAX;
+  for (std::int64_t at = 0; at < count; at += kPiece) {
+    MPI_Allreduce(MPI_IN_PLACE, values + at, static_cast<int>(std::min(kPiece, count - at)),
+                  MPI_DOUBLE, operation, MPI_COMM_WORLD);
   }
 }
 
@@ -105,27 +145,48 @@ struct Solver {
 
 static_assert(sizeof(PetscInt) == sizeof(int) && sizeof(PetscScalar) == sizeof(double));
 
-void* make_solver(int n, int* start, int* column, double* value, const char** problem) {
+/// Conjugate gradients with BoomerAMG for the matrix that `make` makes; what is not set up is so by
+/// the first solve, when arrays that were copied are gone.
+template <class Make>
+void* solver_for(MPI_Comm ranks, const Make& make, bool set_up, const char** problem) {
   auto solver = std::make_unique<Solver>();
   Solver& s = *solver;
   PC preconditioner = nullptr;
   const PetscErrorCode code = in_turn(
-      [&] {
-        return MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, start, column, value, &s.matrix);
-      },
-      [&] { return MatSetOption(s.matrix, MAT_SPD, PETSC_TRUE); },
+      [&] { return make(&s.matrix); }, [&] { return MatSetOption(s.matrix, MAT_SPD, PETSC_TRUE); },
       [&] { return MatCreateVecs(s.matrix, &s.answer, &s.right); },
-      [&] { return KSPCreate(PETSC_COMM_SELF, &s.method); },
+      [&] { return KSPCreate(ranks, &s.method); },
       [&] { return KSPSetOperators(s.method, s.matrix, s.matrix); },
       [&] { return KSPSetType(s.method, KSPCG); },
       [&] { return KSPSetNormType(s.method, KSP_NORM_UNPRECONDITIONED); },
       [&] { return KSPGetPC(s.method, &preconditioner); },
       [&] { return PCSetType(preconditioner, PCHYPRE); },
       [&] { return PCHYPRESetType(preconditioner, "boomeramg"); },
-      [&] { return KSPSetFromOptions(s.method); }, [&] { return KSPSetUp(s.method); });
+      [&] { return KSPSetFromOptions(s.method); },
+      [&] { return set_up ? KSPSetUp(s.method) : PetscErrorCode{}; });
   if (code == 0) return solver.release();
   *problem = told(words_of(code));
   return nullptr;
+}
+
+void* make_solver(int n, int* start, int* column, double* value, const char** problem) {
+  return solver_for(
+      PETSC_COMM_SELF,
+      [&](Mat* matrix) {
+        return MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, n, n, start, column, value, matrix);
+      },
+      true, problem);
+}
+
+void* make_shared_solver(int rows, const int* start, const int* column, const double* value,
+                         const char** problem) {
+  return solver_for(
+      MPI_COMM_WORLD,
+      [&](Mat* matrix) {
+        return MatCreateMPIAIJWithArrays(MPI_COMM_WORLD, rows, rows, PETSC_DETERMINE,
+                                         PETSC_DETERMINE, start, column, value, matrix);
+      },
+      false, problem);
 }
 
 void free_solver(void* solver) { delete static_cast<Solver*>(solver); }
@@ -163,8 +224,9 @@ const char* solve(void* solver, const double* b, double* x, double tolerance, in
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) const geotherm::MpiModule*
-geotherm_mpi_module_1() {
-  static constexpr geotherm::MpiModule kModule = {start_all,   exchange,    finish,
-                                                  make_solver, free_solver, solve};
+geotherm_mpi_module_2() {
+  static constexpr geotherm::MpiModule kModule = {
+      start_all,   exchange,           swap,        combine, finish,
+      make_solver, make_shared_solver, free_solver, solve};
   return &kModule;
 }

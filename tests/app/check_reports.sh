@@ -49,6 +49,13 @@ report backends backends
 report models models
 report batch batch bunny -s 0,3 --each --out-dir batch
 report plan plan --vertices 1e6 --sources 100 --ranks 8
+report plan_shared plan --vertices 1e9 --ranks 256
+# One mesh over ranks, where there is a launcher.
+if command -v mpirun >/dev/null && "$program" backends | grep -q petsc; then
+  "$program" generate bunny -o bunny.ply >/dev/null
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -q -n 2 \
+    "$program" solve bunny.ply -s 0 --backend petsc --threads 1 --json shared.json >/dev/null
+fi
 if "$program" devices >/dev/null 2>&1; then
   report devices devices
   report render render bunny -s 0 --path 99 --size 160x120 -o a.png

@@ -32,6 +32,16 @@ TEST_F(PlanProgram, SharesBlocksOfSixteenSources) {
   EXPECT_LE(rows, 8e8 + 1000);
 }
 
+TEST_F(PlanProgram, SharesOneMeshOfOneSource) {
+  const Json plan = this->plan({"--vertices", "1e9", "--ranks", "256"});
+  EXPECT_EQ(plan["vertices_of_rank"], 3906250);
+  EXPECT_EQ(plan["blocks"], 256 * 27);
+  EXPECT_EQ(plan["rounds"], 173);  // 2 sqrt(6912) + 6, up
+  const Json twice = this->plan({"--vertices", "1e9", "--ranks", "512"});
+  EXPECT_NEAR(plan["queries_seconds"], 2.0 * double{twice["queries_seconds"]}, 1e-3);
+  expect_refused({"plan", "--vertices", "1e10", "--ranks", "9"}, "2,147,483,647");
+}
+
 TEST_F(PlanProgram, RefusesWhatNoProcessHoldsAndWhatIsNoCount) {
   expect_refused({"plan", "--vertices", "1e9"}, "715,827,882");
   expect_refused({"plan", "--vertices", "many"}, "--vertices");

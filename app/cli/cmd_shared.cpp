@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+// `geotherm solve` of one mesh that several ranks hold together (mpirun, backend petsc).
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.h"
+#include "app/cli/rows_file.h"
+#include "app/session/machine.h"
+#include "app/session/ranks.h"
+#include "app/session/report.h"
+#include "app/session/wording.h"
+#include "app/text/text.h"
+#include "solver/core/parallel.h"
+#include "solver/core/text.h"
+#include "solver/distributed/mesh_part.h"
+#include "solver/distributed/shared_solve.h"
+#include "solver/mesh/io/format_writers.h"
+
+namespace geotherm::app {
+namespace {
+
+/// What is typed, as far as ranks can do it.
+struct SharedWork {
+  std::string path;
+  ViewerState asked;
+  std::vector<GlobalIndex> sources;
+  Outputs outputs;
+};
+
+/// Names the first thing that was asked for and that one process alone does. Errors: kBadInput.
+Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& asked) {
+  const MethodOptions& options = asked.options;
+  const ModelReading& reading = asked.reading;
+  const HeatOptions usual;
+  const bool other_laplacian = options.laplacian != LaplacianKind::kAuto &&
+                               options.laplacian != LaplacianKind::kCotan &&
+                               options.laplacian != LaplacianKind::kIntrinsicDelaunay;
+  const bool other_boundary =
+      options.boundary != BoundaryRule::kAuto && options.boundary != BoundaryRule::kNeumann;
+  const bool other_format = !reading.format.empty() && reading.format != "ply";
+  const bool other_domain =
+      reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles;
+  const std::pair<bool, const char*> kept[] = {
+      {options.method != MethodKind::kHeat, "--method other than heat"},
+      {options.refine > 0, "--refine"},
+      {options.constraint != usual.constraint, "--constraint other than pin-sources"},
+      {options.heat != usual.heat, "--heat other than unit"},
+      {other_boundary, "--boundary other than neumann"},
+      {other_laplacian, "--laplacian other than cotan and intrinsic-delaunay"},
+      {options.memory_limit_mb > 0, "--memory-limit"},
+      {other_format, "--format other than ply"},
+      {other_domain, "--domain other than triangles"},
+      {reading.weld.has_value(), "--weld"},
+      {!reading.mask.empty(), "--mask"},
+      {a.check.check, "--check"},
+      {!a.check.on_poor.empty(), "--on-poor"},
+      {!a.fields.empty(), "--fields"},
+      {!a.bake.empty(), "--bake-colours"},
+      {a.labels, "--labels"},
+      {!a.max_distance.empty(), "--max-distance"},
+      {!a.targets.empty(), "--target"},
+      {!a.sequence.frames.empty(), "--sequence"},
+      {a.symmetric, "--symmetric"},
+      {a.float32 || !a.dtype.empty(), "--dtype and --float32"},
+      {a.sources.curve, "--curve"},
+  };
+  for (const auto& [asked_for, what] : kept) {
+    if (!asked_for) continue;
+    return Error{ErrorCode::kBadInput, std::string(what) +
+                                           " is for one process, not for a mesh that ranks "
+                                           "share; leave it out, or start without mpirun"};
+  }
+  for (const std::string& path : a.outputs) {
+    if (io::file_extension(path) == ".npy") continue;
+    return Error{ErrorCode::kBadInput, "--output: " + one_line(path) +
+                                           ": ranks write one array together; give -o FILE.npy"};
+  }
+  return {};
+}
+
+Result<std::vector<GlobalIndex>> vertices_in(const SourceArguments& arguments) {
+  const auto named = some_sources_of(arguments);
+  if (!named) return named.error();
+  std::vector<GlobalIndex> out;
+  for (const Source& source : *named) {
+    const auto* const list = std::get_if<VertexList>(&source.spec);
+    if (list == nullptr || list->offset != 0) {
+      return Error{source.blame, source.where +
+                                     ": sources of a mesh that ranks share are vertices by their "
+                                     "numbers, without offsets"};
+    }
+    out.insert(out.end(), list->vertices.begin(), list->vertices.end());
+  }
+  std::ranges::sort(out);
+  out.erase(std::ranges::unique(out).begin(), out.end());
+  return out;
+}
+
+Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
+  SharedWork work;
+  auto asked = settings_in(arguments.settings);
+  if (!asked) return asked.error();
+  work.asked = *std::move(asked);
+  if (auto fits = refuse_what_one_does(arguments, work.asked); !fits) return fits.error();
+  auto sources = vertices_in(arguments.sources);
+  if (!sources) return sources.error();
+  work.sources = *std::move(sources);
+  work.path = arguments.model;
+  if (is_bundled(work.path)) {
+    auto file = bundled_file(work.path);
+    if (!file) return file.error();
+    work.path = *std::move(file);
+  }
+  if (io::file_extension(work.path) != ".ply" && work.asked.reading.format.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 one_line(work.path) +
+                     ": a mesh that ranks share is read from a binary .ply; geotherm generate and "
+                     "most programs write one"};
+  }
+  protect_inputs(arguments.model, arguments.sources, work.outputs);
+  if (!first) return work;
+  for (const std::string& path : arguments.outputs) {
+    if (auto expected = work.outputs.expect(path, "--output"); !expected) return expected.error();
+  }
+  if (!arguments.json.empty()) {
+    if (auto expected = work.outputs.expect(arguments.json, "--json"); !expected) {
+      return expected.error();
+    }
+  }
+  return work;
+}
+
+/// Every rank writes the share of the file that it has. Errors, the same on all: kBadFile.
+Result<void> write_shared(const std::string& path, const Ranks& ranks, const SharedAnswer& answer) {
+  const auto count = static_cast<std::uint64_t>(answer.vertices);
+  auto room = ranks.agree(ranks.is_first() ? check_room(path, 8.0 * static_cast<double>(count))
+                                           : Result<void>());
+  if (!room) return room;
+  auto file = SharedFile::open(path, io::npy_header("<f8", {&count, 1}), ranks);
+  if (!file) return about_file(file.error());
+  const std::string bytes = io::npy_bytes(answer.distances);
+  const std::size_t header = bytes.size() - sizeof(double) * answer.distances.size();
+  const auto begin = share_begin(answer.vertices, ranks.rank(), ranks.count());
+  auto written = ranks.agree(file->write(sizeof(double) * static_cast<std::uint64_t>(begin),
+                                         std::string_view(bytes).substr(header)));
+  if (written) written = ranks.agree(ranks.is_first() ? file->finish() : Result<void>());
+  return written ? written : about_file(written.error());
+}
+
+/// Laplacian and boundary as they are.
+ViewerState settings_used(ViewerState state) {
+  state.options.boundary = BoundaryRule::kNeumann;
+  if (state.options.laplacian == LaplacianKind::kAuto) {
+    state.options.laplacian = LaplacianKind::kIntrinsicDelaunay;
+  }
+  return state;
+}
+
+Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, double peak_mb) {
+  Json options;
+  const ViewerState used = settings_used(work.asked);
+  for (const Setting& setting : settings()) {
+    if (setting.group == SettingGroup::kMethod) {
+      options[key_of(setting)] = setting_json(setting, used);
+    }
+  }
+  options["threads"] = thread_count(used.options.threads);
+  if (used.options.time_step.rule == TimeRule::kAbsolute) options["time_factor"] = nullptr;
+  options["t"] = answer.t;
+  options["flips"] = answer.flips;
+  return {{"model",
+           {{"name", std::filesystem::path(work.path).stem().string()},
+            {"path", std::filesystem::absolute(work.path).string()},
+            {"vertices", answer.vertices},
+            {"faces", answer.faces},
+            {"components", answer.components},
+            {"mean_edge_length", answer.mean_edge},
+            {"area", answer.area}}},
+          {"options", options},
+          {"sources", work.sources},
+          {"distance",
+           {{"min", answer.least},
+            {"max", answer.most},
+            {"mean", answer.mean},
+            {"unreached", answer.unreached}}},
+          {"timing_ms",
+           {{"load", answer.read_ms},
+            {"share", answer.share_ms},
+            {"setup", answer.set_up_ms},
+            {"diffuse", answer.timing.diffuse},
+            {"gradient", answer.timing.gradient},
+            {"poisson", answer.timing.poisson},
+            {"query", answer.timing.query}}},
+          {"memory_mb", {{"factor", answer.factor_mb}, {"peak_rss", peak_mb}}},
+          {"quality", quality_json(answer.quality, true)},
+          {"warnings", told(answer.warnings)},
+          {"ranks", ranks},
+          {"shared",
+           {{"blocks", answer.blocks},
+            {"rings", answer.rings},
+            {"rounds", answer.rounds},
+            {"row_residual", answer.row_residual}}}};
+}
+
+std::string shared_table(const SharedWork& work, const SharedAnswer& a, int ranks, double peak_mb) {
+  const HeatOptions& options = settings_used(work.asked).options;
+  const auto ms = [](double value) { return milliseconds(value) + " ms"; };
+  TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
+  table.add_row({"model", one_line(std::filesystem::path(work.path).stem().string()) + ": " +
+                              counted(a.vertices, "vertex", "vertices") + ", " +
+                              counted(a.faces, "face", "faces") + ", " +
+                              counted(a.components, "component", "components")});
+  table.add_row({"ranks", std::to_string(ranks) + ", " + counted(a.blocks, "block", "blocks") +
+                              " with " + counted(a.rings, "ring", "rings") + " around"});
+  table.add_row({"t", significant(a.t) + " = " + significant(a.relative_t) + " h^2"});
+  table.add_row({"method", "pin-sources, heat unit, boundary neumann, " + to_text(options.variant) +
+                               ", " + to_text(options.precision) + " precision"});
+  table.add_row(
+      {"laplacian", to_text(options.laplacian) + (a.flips > 0 ? ", edges were flipped" : "")});
+  table.add_row({"sources", counted(std::ssize(work.sources), "vertex", "vertices")});
+  table.add_row({"read", ms(a.read_ms) + " + " + milliseconds(a.share_ms) + " to share it out"});
+  table.add_row({"set-up", ms(a.set_up_ms)});
+  table.add_row({"query", ms(a.timing.query) + " = heat " + milliseconds(a.timing.diffuse) +
+                              " + gradient " + milliseconds(a.timing.gradient) + " + Poisson " +
+                              milliseconds(a.timing.poisson)});
+  table.add_row({"memory", milliseconds(a.factor_mb) + " MB factors, " + milliseconds(peak_mb) +
+                               " MB peak, of the largest rank"});
+  table.add_row(
+      {"distance",
+       significant(a.least) + " to " + significant(a.most) + ", mean " + significant(a.mean) +
+           (a.unreached > 0 ? ", " + grouped(a.unreached) + " unreached" : std::string())});
+  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(a.quality.eikonal_error_mean, 2) +
+                                 " on average, " +
+                                 counted(a.quality.zero_gradient_faces, "face", "faces") +
+                                 " without direction"});
+  table.add_row(
+      {"residuals", "heat " + significant(a.quality.heat_residual, 2) + ", its worst row " +
+                        significant(a.row_residual, 2) + ", after " +
+                        counted(a.rounds, "round", "rounds") + "; Poisson " +
+                        significant(a.quality.poisson_residual, 2) + ", after " +
+                        counted(a.quality.iterations_poisson, "iteration", "iterations")});
+  return table.text();
+}
+
+}  // namespace
+
+bool is_shared(const SolveArguments& arguments) {
+  if (arguments.each || arguments.pairs || !has_launcher()) return false;
+  const auto typed = arguments.settings.texts.find("backend");
+  return typed != arguments.settings.texts.end() && typed->second == "petsc";
+}
+
+Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress& progress) {
+  const auto ranks = Ranks::join();
+  if (!ranks) return ranks.error();
+  const auto module = mpi_module();
+  if (!module) return module.error();
+  const auto started = start_mpi();
+  if (!started) return started.error();
+  auto work = ranks->agree_on(begin_shared(arguments, ranks->is_first()));
+  if (!work) return work.error();
+  const RankGroup group(**module, *started,
+                        [&ranks](const Result<void>& mine) { return ranks->agree(mine); });
+  const auto answer =
+      solve_over_ranks(group, work->path, work->sources, work->asked.options, progress);
+  if (!answer) return answer.error();
+  for (const std::string& path : arguments.outputs) {
+    const auto write = [&] { return write_shared(path, *ranks, *answer); };
+    const auto written = ranks->is_first() ? work->outputs.write(path, write) : write();
+    if (!written) return written.error();
+  }
+  const double peak_mb = group.most(peak_rss_mb());
+  CommandOutput out;
+  if (!ranks->is_first()) return out;
+  out.warnings = answer->warnings;
+  if (!arguments.json.empty()) {
+    const auto json = shared_json(*work, *answer, ranks->count(), peak_mb);
+    const auto written = work->outputs.write_text(arguments.json, report_text(json), out.text);
+    if (!written) return written.error();
+  }
+  if (!work->outputs.uses_stdout())
+    out.text = shared_table(*work, *answer, ranks->count(), peak_mb);
+  out.made = work->outputs.made();
+  return out;
+}
+
+}  // namespace geotherm::app

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+#include "solver/distributed/shared_solve.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "solver/accuracy/check_heat.h"
+#include "solver/core/parallel.h"
+#include "solver/core/stopwatch.h"
+#include "solver/core/text.h"
+#include "solver/distributed/shared_heat.h"
+#include "solver/distributed/shared_poisson.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/geometry/tufted_cover.h"
+
+namespace geotherm {
+namespace {
+
+/// Of the largest distance: values below 0 by less are what the solver leaves of a 0.
+constexpr double kRoundOffOfDistance = 1e-6;
+/// Rings that a block solves for beside its own vertices, where t is the square of the mean edge,
+/// and the most of them.
+constexpr double kRings = 16;
+constexpr int kMostRings = 64;
+
+/// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
+class BlockFaces {
+ public:
+  BlockFaces(const SharedTask& task, const SharedHeat& heat, const MeshBlock& block,
+             SourceAnchors anchors)
+      : task_(task),
+        block_(block),
+        anchors_(std::move(anchors)),
+        given_(field_of(task, heat, block)),
+        field_(*block.surface, given_.heat, given_.t, {pool_, task.threads}, given_.extent) {}
+
+  /// Of own vertices, model units.
+  void add_divergence(std::vector<double>& b) const {
+    const Block divergence = field_.divergence({&anchors_, 1});
+    for (Index here = 0; here < block_.own(); ++here) {
+      const Index row = block_.row(here);
+      if (row != kNoIndex) b[block_.vertex[here]] = divergence(row, 0) * block_.surface->unit;
+    }
+  }
+
+  struct Sums {
+    CellCounts cells;
+    Quality quality;
+    double error = 0, area = 0;  ///< eikonal, by area
+    double left = 0, given = 0;  ///< squares of L phi - b and of b
+  };
+
+  /// `phi`, `b`: of vertices of the part, model units.
+  Sums inspect(const std::vector<double>& phi, const std::vector<double>& b) const {
+    const Surface& surface = *block_.surface;
+    const OperatorMesh& mesh = *surface.operators;
+    std::vector<double> here(static_cast<std::size_t>(surface.size())), product(here.size());
+    for (Index row = 0; row < surface.size(); ++row) {
+      here[row] = phi[block_.part_vertex(row)] / surface.unit;
+    }
+    SourceAnchors anchors = anchors_;
+    anchors.components.clear();
+    const auto reached = block_.per_component(
+        task_.components, [&](Index c) { return task_.reached[static_cast<std::size_t>(c)]; });
+    for (std::size_t c = 0; c < reached.size(); ++c) {
+      if (reached[c]) anchors.components.push_back(static_cast<Index>(c));
+    }
+    Sums out;
+    const std::vector<char> own = own_faces(task_.part, block_);
+    out.cells = field_.inspect(here, anchors, own, task_.threads, out.quality);
+    const double square = surface.unit * surface.unit;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      if (!own[f] || !reached[mesh.components.of[mesh.faces[f][0]]]) continue;
+      out.area += mesh.layout[f].base * mesh.layout[f].height * square / 2;
+    }
+    out.error = out.quality.eikonal_error_mean * out.area;
+    surface.apply_stiffness(here, product, task_.threads);
+    for (Index v = block_.first; v < block_.end; ++v) {
+      const Index row = block_.row(v - block_.first);
+      if (row == kNoIndex || is_pinned(task_, v)) continue;
+      const double left = product[row] * surface.unit - b[v];
+      out.left += left * left;
+      out.given += b[v] * b[v];
+    }
+    return out;
+  }
+
+ private:
+  const SharedTask& task_;
+  const MeshBlock& block_;
+  mutable BlockPool pool_;
+  SourceAnchors anchors_;
+  BlockField given_;
+  FaceField field_;
+};
+
+/// Makes distances of phi, of own vertices, and what there is to say about them.
+std::vector<double> distances_of(const SharedTask& task, const std::vector<double>& phi,
+                                 SharedAnswer& out) {
+  std::vector<double> distances(static_cast<std::size_t>(task.part.own), kUnreached);
+  double most = 0, sum = 0, unreached = 0, clamped = 0;
+  std::array<double, 1> least = {kUnreached};
+  for (Index v = 0; v < task.part.own; ++v) {
+    const Index component = task.components.of[v];
+    if (component == kNoIndex || !task.reached[static_cast<std::size_t>(component)]) {
+      ++unreached;
+      continue;
+    }
+    distances[v] = std::max(phi[v], 0.0);
+    most = std::max(most, distances[v]);
+    least[0] = std::min(least[0], distances[v]);
+    sum += distances[v];
+  }
+  out.most = task.ranks.most(most);
+  task.ranks.combine(least, RankGroup::Combination::kLeast);
+  out.least = least[0];
+  out.unreached = static_cast<GlobalIndex>(task.ranks.sum(unreached));
+  const auto reached = static_cast<double>(task.part.vertices - out.unreached);
+  out.mean = task.ranks.sum(sum) / reached;
+  for (Index v = 0; v < task.part.own; ++v) {
+    clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * out.most ? 1 : 0;
+  }
+  out.quality.clamped_vertices = static_cast<Index>(task.ranks.sum(clamped));
+  out.quality.reached_vertices = static_cast<Index>(reached);
+  return distances;
+}
+
+/// The quality figures, and what a person should know of them.
+Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces,
+                   const SharedHeat& heat, std::vector<double> phi, const std::vector<double>& b,
+                   SharedAnswer& out) {
+  phi.resize(static_cast<std::size_t>(task.part.size()), 0.0);
+  Halo(task.ranks, task.part, heat.beside).fetch(task.ranks, phi);
+  std::array<double, 8> sums{};
+  std::array<double, 1> steepest{};
+  for (const BlockFaces* const block : faces) {
+    const auto part = block->inspect(phi, b);
+    const std::array<double, 8> here = {part.error,
+                                        part.area,
+                                        part.left,
+                                        part.given,
+                                        static_cast<double>(part.cells.in_reach),
+                                        static_cast<double>(part.cells.without_direction),
+                                        static_cast<double>(part.quality.zero_gradient_faces),
+                                        static_cast<double>(part.quality.steep_edges)};
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += here[k];
+    steepest[0] = std::max(steepest[0], part.quality.steepest_edge);
+  }
+  task.ranks.combine(sums, RankGroup::Combination::kSum);
+  task.ranks.combine(steepest, RankGroup::Combination::kMost);
+  Quality& q = out.quality;
+  q.eikonal_error_mean = sums[1] > 0 ? sums[0] / sums[1] : 0.0;
+  q.poisson_residual = sums[3] > 0 ? std::sqrt(sums[2] / sums[3]) : 0.0;
+  q.heat_residual = heat.residual;
+  q.zero_gradient_faces = static_cast<Index>(sums[6]);
+  q.steep_edges = static_cast<Index>(sums[7]);
+  q.steepest_edge = steepest[0];
+  q.edges_checked = true;
+  DistanceResult result;
+  result.quality = q;
+  const CellCounts cells = {static_cast<Index>(sums[4]), static_cast<Index>(sums[5])};
+  const auto assessed = assess_heat(task.options, task.times.extreme, cells, result);
+  out.warnings = std::move(result.warnings);
+  return assessed;
+}
+
+/// Distances of own vertices to those who have their share of the file.
+void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<double>& distances,
+               SharedAnswer& out) {
+  struct Entry {
+    GlobalIndex file_id;
+    double distance;
+  };
+  PerRank<Entry> entries(static_cast<std::size_t>(ranks.count()));
+  for (Index v = 0; v < part.own; ++v) {
+    const int to = part_of_share(part.file_id[v], part.vertices, ranks.count());
+    entries[static_cast<std::size_t>(to)].push_back({part.file_id[v], distances[v]});
+  }
+  const GlobalIndex begin = share_begin(part.vertices, ranks.rank(), ranks.count());
+  out.distances.resize(static_cast<std::size_t>(
+      share_begin(part.vertices, ranks.rank() + 1, ranks.count()) - begin));
+  for (const auto& each : ranks.swap(entries)) {
+    for (const Entry& entry : each) {
+      out.distances[static_cast<std::size_t>(entry.file_id - begin)] = entry.distance;
+    }
+  }
+}
+
+/// What a person should know of how the mesh was taken. `repeated`: faces that repeat a corner.
+std::vector<Warning> notes_of(const RankGroup& ranks, std::span<const MeshBlock> blocks,
+                              const HeatOptions& options, double repeated) {
+  double lengthened = 0, covers = 0;
+  for (const MeshBlock& block : blocks) {
+    if (!block.surface) continue;
+    const IntrinsicMesh& mesh = block.surface->intrinsic;
+    lengthened = std::max(lengthened, mesh.mollified.most * mesh.unit);
+    const Index vertices = block.surface->mesh->vertex_count();
+    if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
+  }
+  CleanFaces left_out;
+  left_out.repeated_corner = static_cast<Index>(ranks.sum(repeated));
+  std::vector<Warning> notes = cleaning_notes(left_out);
+  lengthened = ranks.most(lengthened);
+  if (lengthened > 0) {
+    notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
+                     rounded_text(lengthened) +
+                     "; distances across them may be too long by as "
+                     "much"});
+  }
+  if (ranks.most(covers) > 0 && options.laplacian == LaplacianKind::kAuto) {
+    notes.push_back(
+        {"the surface is no oriented manifold everywhere: edges there are not flipped, "
+         "where one process would take the tufted Laplacian"});
+  }
+  return notes;
+}
+
+/// How many rings a block takes in, by the longest diffusion length in mean edges.
+int rings_for(const TimeStep& step, double mean_edge) {
+  const double m =
+      step.rule == TimeRule::kAbsolute ? step.absolute / mean_edge / mean_edge : step.factor;
+  return static_cast<int>(
+      std::clamp(std::ceil(kRings * std::sqrt(m)), kRings, static_cast<double>(kMostRings)));
+}
+
+/// Flags for the vertices of the part. Errors: kBadInput, no such vertex, or in no face.
+Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
+                                const SharedComponents& components,
+                                std::span<const GlobalIndex> sources) {
+  std::vector<char> flags(static_cast<std::size_t>(part.size()), 0);
+  std::vector<GlobalIndex> wanted(sources.begin(), sources.end()), loose;
+  std::ranges::sort(wanted);
+  for (Index v = 0; v < part.own; ++v) {
+    if (!std::ranges::binary_search(wanted, part.file_id[v])) continue;
+    flags[v] = 1;
+    if (components.of[v] == kNoIndex) loose.push_back(part.file_id[v]);
+  }
+  loose = ranks.gather(loose);
+  if (wanted.back() >= part.vertices) {
+    return Error{ErrorCode::kBadInput,
+                 "there is no vertex " + std::to_string(wanted.back()),
+                 {"vertices are 0 to " + std::to_string(part.vertices - 1)}};
+  }
+  if (!loose.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "vertex " + std::to_string(loose.front()) + " belongs to no face",
+                 {"choose another"}};
+  }
+  std::vector<Index> others;
+  for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
+  Halo(ranks, part, others).fetch(ranks, flags);
+  return flags;
+}
+
+}  // namespace
+
+Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
+                                      std::span<const GlobalIndex> sources,
+                                      const HeatOptions& options, const Progress& progress) {
+  auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
+  SharedAnswer out;
+  report(progress, "reading", 0.0);
+  auto slice = ranks.agree_on(read_ply_slice(path, ranks.rank(), ranks.count()));
+  if (!slice) return slice.error();
+  out.read_ms = lap();
+  const auto repeated = static_cast<double>(std::ranges::count_if(
+      slice->corners, [](const auto& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }));
+  report(progress, "sharing", 0.1);
+  auto shared = share_mesh(ranks, *std::move(slice));
+  if (!shared) return shared.error();
+  MeshPart& part = *shared;
+  auto named = name_components(ranks, part);
+  if (!named) return named.error();
+  SharedComponents& components = *named;
+  out.share_ms = lap();
+
+  report(progress, "operators", 0.2);
+  const BlockRules rules = {.flip = options.laplacian != LaplacianKind::kCotan,
+                            .rings = rings_for(options.time_step, components.mean_edge),
+                            .threads = thread_count(options.threads)};
+  auto blocks = build_blocks(ranks, rules, part);
+  if (!blocks) return blocks.error();
+  components.of.resize(static_cast<std::size_t>(part.size()), kNoIndex);
+  std::vector<Index> others;
+  for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
+  Halo(ranks, part, others).fetch(ranks, components.of);
+  measure_components(ranks, part, *blocks, components);
+  std::vector<Warning> notes = notes_of(ranks, *blocks, options, repeated);
+  part.positions = {};  // blocks have theirs
+  part.corners = {};
+  part.halo = {};
+  const auto times = diffusion_times(components.sizes, 1.0, options.time_step);
+  if (!times) return times.error();
+  const auto is_source = place(ranks, part, components, sources);
+  if (!is_source) return is_source.error();
+  std::vector<double> reached(components.sizes.size(), 0.0);
+  for (Index v = 0; v < part.own; ++v) {
+    if ((*is_source)[v]) reached[components.of[v]] = 1;
+  }
+  ranks.combine(reached, RankGroup::Combination::kMost);
+  const SharedTask task = {.ranks = ranks,
+                           .part = part,
+                           .components = components,
+                           .times = *times,
+                           .options = options,
+                           .is_source = *is_source,
+                           .reached = {reached.begin(), reached.end()},
+                           .threads = rules.threads};
+  double flips = 0;
+  std::vector<SourceAnchors> anchors(blocks->size());
+  for (std::size_t k = 0; k < blocks->size(); ++k) {
+    MeshBlock& block = (*blocks)[k];
+    if (!block.surface) continue;
+    flips += block.surface->flips;
+    anchors[k] = anchors_in(task, block);
+    block.surface = faces_alone(*block.surface, true);
+  }
+  report(progress, "factorize", 0.3);
+  if (auto made = factorise_blocks(task, *blocks); !made) return made.error();
+  out.set_up_ms = lap();
+
+  report(progress, "heat", 0.5);
+  const auto heat = diffuse_over_ranks(task, *blocks);
+  if (!heat) return heat.error();
+  double factor_bytes = 0;
+  for (MeshBlock& block : *blocks) {
+    if (block.heat) factor_bytes += static_cast<double>(block.heat->factor().stats().bytes);
+    block.heat = nullptr;
+  }
+  out.factor_mb = ranks.most(factor_bytes) / (1024.0 * 1024.0);
+  out.timing.diffuse = lap();
+  std::vector<std::unique_ptr<BlockFaces>> fields;
+  std::vector<BlockFaces*> faces;
+  std::vector<double> b(static_cast<std::size_t>(part.own), 0.0);
+  for (std::size_t k = 0; k < blocks->size(); ++k) {
+    MeshBlock& block = (*blocks)[k];
+    if (!block.surface) continue;
+    block.surface = faces_alone(*block.surface, false);
+    fields.push_back(std::make_unique<BlockFaces>(task, *heat, block, std::move(anchors[k])));
+    faces.push_back(fields.back().get());
+    faces.back()->add_divergence(b);
+  }
+  out.timing.gradient = lap();
+  report(progress, "poisson", 0.7);
+  const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
+  if (!phi) return phi.error();
+  const std::vector<double> distances = distances_of(task, *phi, out);
+  out.timing.poisson = lap();
+  out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
+  report(progress, "figures", 0.9);
+  if (auto right = judge(task, faces, *heat, *phi, b, out); !right) return right.error();
+  hand_over(ranks, part, distances, out);
+  out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
+
+  out.vertices = part.vertices;
+  out.faces = part.faces;
+  out.components = static_cast<Index>(components.sizes.size());
+  out.mean_edge = components.mean_edge;
+  for (const ComponentSize& size : components.sizes) out.area += size.area;
+  out.t = times->model_t;
+  out.relative_t = times->relative_t;
+  out.flips = static_cast<Index>(ranks.sum(flips));
+  out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
+  out.rings = rules.rings;
+  out.rounds = heat->rounds;
+  out.row_residual = heat->row_residual;
+  return out;
+}
+
+}  // namespace geotherm
