@@ -194,7 +194,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!work) return work.error();
   const TriangleMesh& mesh = *work->model.mesh;
   const Stopwatch watch;
-  const auto map = work->directions->log_map(work->point, part_of(progress, 0.2, 1));
+  const auto map = work->directions->log_map(work->point, {}, part_of(progress, 0.2, 1));
   if (!map) return about_model(work->model.name, map.error());
   const double map_ms = watch.milliseconds();
   const auto reached =

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solver/directions/directions_state.h"
+#include "solver/method/reach.h"
 #include "solver/polyhedral/propagation.h"
 
 namespace geotherm {
@@ -50,12 +51,34 @@ Error no_order() {
       {"choose another point"}};
 }
 
+Result<void> check_options(const LogMapOptions& options, const TriangleMesh& mesh) {
+  if (options.method != MethodKind::kExact) {
+    return Error{ErrorCode::kNotAvailable,
+                 "directions are not carried along by the method " + to_text(options.method),
+                 {"use ", SettingHint{"method", {"exact"}}}};
+  }
+  return check_reach({options.max_distance, options.targets, false}, mesh.vertex_count());
+}
+
+/// Leaves out what is too far, or not among the targets.
+void keep_asked(const LogMapOptions& options, LogMap& map) {
+  std::vector<char> asked(map.distances.size(), options.targets.empty() ? 1 : 0);
+  for (const Index v : options.targets) asked[static_cast<std::size_t>(v)] = 1;
+  for (std::size_t v = 0; v < map.distances.size(); ++v) {
+    if (asked[v] != 0 && map.distances[v] <= options.max_distance) continue;
+    map.distances[v] = kUnreached;
+    map.directions[v] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
-Result<LogMap> Directions::log_map(const SurfacePoint& point, const Progress& progress) const try {
+Result<LogMap> Directions::log_map(const SurfacePoint& point, const LogMapOptions& options,
+                                   const Progress& progress) const try {
   const State& state = *state_;
   const auto clean = state.point(point);
   if (!clean) return clean.error();
+  if (auto can = check_options(options, *state.paths.mesh()); !can) return can.error();
   SourceSet set;
   set.points.push_back(point);
   const auto seeds = seed_sources(*state.surface, set);
@@ -85,14 +108,16 @@ Result<LogMap> Directions::log_map(const SurfacePoint& point, const Progress& pr
 
   Propagation windows(state.windows);
   windows.follow_directions(starts);
-  if (auto done = windows.run(*seeds, progress); !done) {
+  const double unit = state.surface->base.length_unit();
+  std::vector<Index> targets = options.targets;
+  for (Index& v : targets) v = state.paths.mesh()->standing_for(v);
+  if (auto done = windows.run(*seeds, progress, options.max_distance / unit, targets); !done) {
     Error error = done.error();
     if (error.code != ErrorCode::kCancelled) error.hint = {"take a mesh with fewer faces"};
     return error;
   }
   LogMap map;
   map.frame = state.frame_at(*clean);
-  const double unit = state.surface->base.length_unit();
   for (const auto& vertex : windows.vertices()) map.distances.push_back(unit * vertex.distance);
   map.directions = windows.directions();
   for (double& angle : map.directions) {
@@ -104,6 +129,7 @@ Result<LogMap> Directions::log_map(const SurfacePoint& point, const Progress& pr
     map.distances[v] = map.distances[static_cast<std::size_t>(same[v])];
     map.directions[v] = map.directions[static_cast<std::size_t>(same[v])];
   }
+  keep_asked(options, map);
   return map;
 } catch (const std::bad_alloc&) {
   return directions_out_of_memory(state_->paths.mesh()->face_count());
