@@ -137,7 +137,8 @@ geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sou
     const auto from =
         directed_point(model, point, map, "log maps are", part_of(watched.progress(), 0.0, 0.2));
     if (!from) return from.error();
-    auto found = from->directions->log_map(from->point, options, part_of(watched.progress(), 0.2, 1.0));
+    auto found =
+        from->directions->log_map(from->point, options, part_of(watched.progress(), 0.2, 1.0));
     if (!found) return found.error();
     auto made = std::make_shared<Answer>();
     std::vector<double> frame;

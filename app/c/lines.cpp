@@ -151,8 +151,9 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
     for (std::size_t i = 0; i < ends->size(); ++i) {
       const double done = static_cast<double>(i);
       const std::array<SurfacePoint, 2> stops = {begin->front(), (*ends)[i]};
-      auto found = (*finder)->find(stops, {}, part_of(watched.progress(), 0.5 + 0.5 * done / count,
-                                                      0.5 + 0.5 * (done + 1) / count));
+      auto found = (*finder)->find(
+          stops, {},
+          part_of(watched.progress(), 0.5 + 0.5 * done / count, 0.5 + 0.5 * (done + 1) / count));
       if (!found) return found.error();
       made->warnings.insert(made->warnings.end(), found->warnings.begin(), found->warnings.end());
       made->lines->all.push_back({0, std::move(found->path)});

@@ -53,7 +53,9 @@ Result<std::vector<double>> weights_in(const std::string& text) {
   std::vector<double> out;
   if (text.empty()) return out;
   std::string numbers = text;
-  const auto is_number = [](const std::string& word) { return number_in<double>(word).has_value(); };
+  const auto is_number = [](const std::string& word) {
+    return number_in<double>(word).has_value();
+  };
   if (!is_number(numbers.substr(0, numbers.find(',')))) {
     const auto file = io::FileBytes::read(text);
     if (!file) return about("--weights", file.error());
@@ -64,8 +66,10 @@ Result<std::vector<double>> weights_in(const std::string& text) {
   for (std::string word; words >> word;) {
     const auto number = number_in<double>(word);
     if (!number) {
-      return Error{ErrorCode::kBadInput, "--weights: '" + one_line(word) + "' is no weight; give "
-                                         "numbers from 0 on with commas between, or a file of them"};
+      return Error{ErrorCode::kBadInput,
+                   "--weights: '" + one_line(word) +
+                       "' is no weight; give "
+                       "numbers from 0 on with commas between, or a file of them"};
     }
     out.push_back(*number);
   }
@@ -119,8 +123,8 @@ Json centre_json(const TriangleMesh& mesh, const Centre& centre) {
 Json centres_json(const CentreFigures& f) {
   Json of = Json::array(), centres = Json::array();
   for (std::size_t i = 0; i < f.points.size(); ++i) {
-    of.push_back({{"point", point_json(f.points[i])},
-                  {"weight", f.weights.empty() ? 1.0 : f.weights[i]}});
+    of.push_back(
+        {{"point", point_json(f.points[i])}, {"weight", f.weights.empty() ? 1.0 : f.weights[i]}});
   }
   for (const Centre& centre : f.centres.found) {
     centres.push_back(centre_json(*f.model.mesh, centre));
@@ -141,7 +145,8 @@ std::string centres_table(const CentreFigures& f) {
   TextTable figures({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   figures.add_row({"model", one_line(f.model.name) + ": " +
                                 counted(f.model.mesh->vertex_count(), "vertex", "vertices")});
-  figures.add_row({to_text(f.options.kind), "of " + counted(std::ssize(f.points), "point", "points") +
+  figures.add_row({to_text(f.options.kind), "of " +
+                                                counted(std::ssize(f.points), "point", "points") +
                                                 ", " + milliseconds(f.centre_ms) + " ms"});
   constexpr auto kRight = TextTable::Align::kRight;
   TextTable list({{"at", TextTable::Align::kLeft},
@@ -248,8 +253,8 @@ Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progres
     if (!written) return written.error();
   }
   if (!arguments.files.json.empty()) {
-    const auto written = outputs.write_text(arguments.files.json,
-                                            report_text(centres_json(figures)), out.text);
+    const auto written =
+        outputs.write_text(arguments.files.json, report_text(centres_json(figures)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = centres_table(figures);

@@ -209,9 +209,10 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
                   "the vertex to begin with; default: the one farthest from the first vertex")
       ->type_name("V");
   command
-      .add_option("--relax", arguments.relax,
-                  "Lloyd's iteration: so many times, or until nothing is gained, every sample moves "
-                  "to the mean of the part of the surface that is nearest to it")
+      .add_option(
+          "--relax", arguments.relax,
+          "Lloyd's iteration: so many times, or until nothing is gained, every sample moves "
+          "to the mean of the part of the surface that is nearest to it")
       ->type_name("N");
   command
       .add_option("-o,--output", arguments.outputs,

@@ -137,8 +137,13 @@ std::vector<double> sample_row(const SampleFigures& f, std::size_t sample) {
   if (f.relaxed) {
     const SurfacePoint point = in_face(*f.model.mesh, f.relaxed->points[sample]);
     const Vec3 at = position_at(*f.model.mesh, point);
-    return {static_cast<double>(point.face), point.weights[0], point.weights[1], point.weights[2],
-            at[0], at[1], at[2]};
+    return {static_cast<double>(point.face),
+            point.weights[0],
+            point.weights[1],
+            point.weights[2],
+            at[0],
+            at[1],
+            at[2]};
   }
   const FarthestSample& s = f.points.samples[sample];
   const Vec3& p = f.model.mesh->positions()[s.vertex];
@@ -146,8 +151,8 @@ std::vector<double> sample_row(const SampleFigures& f, std::size_t sample) {
 }
 
 std::string samples_csv(const SampleFigures& f) {
-  std::string text = f.relaxed ? "sample,face,b0,b1,b2,x,y,z\n"
-                               : "sample,vertex,x,y,z,distance,radius\n";
+  std::string text =
+      f.relaxed ? "sample,face,b0,b1,b2,x,y,z\n" : "sample,vertex,x,y,z,distance,radius\n";
   for (std::size_t i = 0; i < f.points.samples.size(); ++i) {
     const std::vector<double> row = sample_row(f, i);
     text += std::to_string(i) + ',' + std::to_string(static_cast<Index>(row.front()));

@@ -25,8 +25,8 @@ struct SampleFigures {
   double sampling_ms = 0;
   double peak_rss_mb = 0;
   std::vector<Warning> warnings;
-  std::optional<SampleCheck> error = {};     ///< of some samples; none: not to be checked
-  std::optional<SampleCheck> replaced = {};  ///< of the poor method that this one stands for
+  std::optional<SampleCheck> error = {};      ///< of some samples; none: not to be checked
+  std::optional<SampleCheck> replaced = {};   ///< of the poor method that this one stands for
   std::optional<RelaxedPoints> relaxed = {};  ///< from the samples on
   double relaxing_ms = 0;
 
@@ -42,8 +42,8 @@ Json sample_json(const SampleFigures& figures);
 /// What `sample` shows to people: the figures and the first samples.
 std::string sample_table(const SampleFigures& figures);
 
-/// `sample,vertex,x,y,z,distance,radius`, one sample a line; `sample,face,b0,b1,b2,x,y,z` where they
-/// were relaxed.
+/// `sample,vertex,x,y,z,distance,radius`, one sample a line; `sample,face,b0,b1,b2,x,y,z` where
+/// they were relaxed.
 std::string samples_csv(const SampleFigures& figures);
 
 /// The numbers of a line of that but for the first, as a row of a .npy array.

@@ -20,8 +20,9 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-/// A descent has converged when what is left to do is this share of the mean distance.
-constexpr double kConverged = 1e-9;
+/// A descent goes on until what is left to do is this share of the mean distance; it has converged
+/// with the second, whose square is about what rounding leaves of an energy.
+constexpr double kAtRest = 1e-9, kConverged = 1e-5;
 /// Energies that differ by less are equal but for rounding.
 constexpr double kSameEnergy = 1e-12;
 /// So many starts are tried, and a step is halved so often.
@@ -110,7 +111,7 @@ class Descent {
     Centre out;
     for (int i = 0; i < options_.max_steps; ++i) {
       out.energies.push_back(here.energy);
-      if (has_converged(here)) break;
+      if (here.residual() <= kAtRest * here.scale) break;
       auto next = better(here, progress);
       if (!next) return next.error();
       if (next->distances.empty()) break;
@@ -162,6 +163,7 @@ class Descent {
   Result<Place> better(const Place& here, const Progress& progress) {
     constexpr double kPi = std::numbers::pi;
     for (const double turn : {0.0, kPi / 4, -kPi / 4, kPi / 2, -kPi / 2}) {
+      if (turn != 0 && has_converged(here)) break;
       double share = 1;
       for (int i = 0; i < kHalvings; ++i, share /= 2) {
         const auto point = i == 0 && turn == 0 && here.at != kNoIndex
@@ -208,8 +210,8 @@ Result<void> check_asked(std::span<const SurfacePoint> points, std::span<const d
                      counted_text(points.size(), "point", "points"),
                  {"give one for each, or none"}};
   }
-  const auto bad = std::ranges::find_if(
-      weights, [](double w) { return !(w >= 0) || !std::isfinite(w); });
+  const auto bad =
+      std::ranges::find_if(weights, [](double w) { return !(w >= 0) || !std::isfinite(w); });
   if (bad != weights.end()) {
     return Error{ErrorCode::kBadInput,
                  "weight " + std::to_string(bad - weights.begin()) + " is " + number_text(*bad),
@@ -309,18 +311,18 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   if (!energies) return energies.error();
   const double least = *std::ranges::min_element(*energies), edge = (*surface)->base.mean_edge;
   if (!std::isfinite(least)) {
-    return Error{ErrorCode::kBadInput,
-                 "no vertex is reached from all of " +
-                     counted_text(points.size(), "point", "points"),
-                 {"choose points on one component"}};
+    return Error{
+        ErrorCode::kBadInput,
+        "no vertex is reached from all of " + counted_text(points.size(), "point", "points"),
+        {"choose points on one component"}};
   }
   const auto pointed = pointed_mesh(mesh, points);
   if (!pointed) return pointed.error();
   const auto directions = Directions::build(pointed->mesh, part_of(progress, 0.5, 0.6));
   if (!directions) return directions.error();
 
-  const double slack = (options.kind == CentreKind::kMean ? 4 * edge * edge : 2 * edge) +
-                       kTied * least;
+  const double slack =
+      (options.kind == CentreKind::kMean ? 4 * edge * edge : 2 * edge) + kTied * least;
   const std::vector<Index> starts = starts_of(*mesh, *energies, slack);
   Centres out;
   Error refused;

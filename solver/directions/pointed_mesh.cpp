@@ -62,8 +62,7 @@ class Cutter {
       cut_face(face, weights, v);
       return v;
     }
-    const int k =
-        next_corner(static_cast<int>(std::ranges::find(weights, 0.0) - weights.begin()));
+    const int k = next_corner(static_cast<int>(std::ranges::find(weights, 0.0) - weights.begin()));
     const Index a = corners[k], b = corners[next_corner(k)];
     const double share = weights[static_cast<std::size_t>(next_corner(k))];
     for (std::size_t f = 0, count = faces_.size(); f < count; ++f) cut_edge(f, a, b, share, v);
@@ -103,8 +102,8 @@ class Cutter {
                                   [static_cast<std::size_t>(i)];
         }
       }
-      const Vec3 w = corners.partialPivLu().solve(
-          Vec3(point.weights[0], point.weights[1], point.weights[2]));
+      const Vec3 w =
+          corners.partialPivLu().solve(Vec3(point.weights[0], point.weights[1], point.weights[2]));
       if (!(w.minCoeff() > best_least)) continue;
       best_least = w.minCoeff();
       best = {part, {w[0], w[1], w[2]}};

@@ -58,8 +58,7 @@ class Lloyd {
     }
   }
 
-  Result<RelaxedPoints> run(std::vector<SurfacePoint> points, int steps,
-                            const Progress& progress) {
+  Result<RelaxedPoints> run(std::vector<SurfacePoint> points, int steps, const Progress& progress) {
     const double parts = steps + 1;
     RelaxedPoints now;
     if (auto done = assign(points, now, part_of(progress, 0, 1 / parts)); !done) {

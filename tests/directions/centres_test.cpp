@@ -34,9 +34,8 @@ Centres centres(const MeshPtr& mesh, const std::vector<SurfacePoint>& points,
   auto found = find_centres(mesh, points, weights, options);
   EXPECT_TRUE(found) << found.error().message;
   for (const Centre& centre : found->found) {
-    EXPECT_TRUE(std::ranges::is_sorted(centre.energies, [](double a, double b) {
-      return a > b * (1 + 1e-11);
-    }));
+    EXPECT_TRUE(std::ranges::is_sorted(centre.energies,
+                                       [](double a, double b) { return a > b * (1 + 1e-11); }));
   }
   return *std::move(found);
 }
@@ -165,8 +164,9 @@ TEST(Centres, OfARingRoundThePoleOfASphereIsThePole) {
   std::vector<SurfacePoint> ring;
   for (int i = 0; i < 5; ++i) {
     const double turn = 2 * kPi * i / 5;
-    const auto point = closest_point(
-        *mesh, std::cos(0.9) * pole + std::sin(0.9) * (std::cos(turn) * side + std::sin(turn) * other));
+    const auto point =
+        closest_point(*mesh, std::cos(0.9) * pole +
+                                 std::sin(0.9) * (std::cos(turn) * side + std::sin(turn) * other));
     ASSERT_TRUE(point);
     ring.push_back(point->point);
   }

@@ -212,8 +212,7 @@ enum class CentreKind {
   kMedian,  ///< sum of w d is least (Fletcher, Venkatasubramanian, Joshi 2009)
 };
 inline NamedValues<CentreKind> named_values(CentreKind) {
-  return {"there is no centre '*'",
-          {{CentreKind::kMean, "mean"}, {CentreKind::kMedian, "median"}}};
+  return {"there is no centre '*'", {{CentreKind::kMean, "mean"}, {CentreKind::kMedian, "median"}}};
 }
 
 /// How a centre is looked for.
@@ -229,7 +228,7 @@ struct Centre {
   SurfacePoint point;             ///< where it is
   double energy = 0;              ///< mean of w d^2 (model units squared), or of w d
   double residual = 0;            ///< length of the step that was left to do, model units
-  bool converged = false;         ///< the residual is 1e-9 of the mean distance, or less
+  bool converged = false;         ///< the residual is 1e-5 of the mean distance, or less
   std::vector<double> distances;  ///< K: to the points
   std::vector<double> energies;   ///< of each step of the descent; they fall
 };
@@ -248,9 +247,9 @@ struct Centres {
 /// energy is about the least are found, too. At tips, on the border and at creases of the distances
 /// a descent can stall; then it has not converged.
 ///
-/// `points`: K, on one component. `weights`: K, >= 0, some above; none: all 1. Errors: kBadInput (no
-/// point, other numbers of weights, points in several components, an option out of range), those of
-/// log_map(). Cost: K wavefront queries and a log map for each step.
+/// `points`: K, on one component. `weights`: K, >= 0, some above; none: all 1. Errors: kBadInput
+/// (no point, other numbers of weights, points in several components, an option out of range),
+/// those of log_map(). Cost: K wavefront queries and a log map for each step.
 Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
                              std::span<const SurfacePoint> points,
                              std::span<const double> weights = {},
