@@ -172,11 +172,16 @@ void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
                      "of every vertex",
                      true);
   add_line_picture_options(command, arguments.settings);
+  add_max_distance_option(command, arguments.max_distance);
+  add_setting_options(command, arguments.settings, {"method"});
   add_quiet_option(command, arguments.quiet);
   command.footer(
       "Paths are exact on the faces, and so are directions; behind a vertex that bends a path they "
-      "are those of its first piece. A picture shows squares of the map.\n"
+      "are those of its first piece. --method wavefront and wavefront-fine are near exact, and "
+      "fast "
+      "on large models. A picture shows squares of the map.\n"
       "Examples:\n"
+      "  geotherm logmap gargoyle -s 17 --method wavefront --max-distance 0.5 -o map.svg\n"
       "  geotherm logmap bunny -s 17 -o map.npy --json -\n"
       "  geotherm logmap bunny -s 17 -o map.svg");
 }
@@ -186,6 +191,10 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!asked) return asked.error();
   const auto source = single_point(arguments.source, "--source");
   if (!source) return source.error();
+  const auto largest = max_distance_in(arguments.max_distance);
+  if (!largest) return largest.error();
+  LogMapOptions options{MethodKind::kExact, *largest, {}};
+  if (arguments.settings.has("method")) options.method = asked->options.method;
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
@@ -194,7 +203,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!work) return work.error();
   const TriangleMesh& mesh = *work->model.mesh;
   const Stopwatch watch;
-  const auto map = work->directions->log_map(work->point, {}, part_of(progress, 0.2, 1));
+  const auto map = work->directions->log_map(work->point, options, part_of(progress, 0.2, 1));
   if (!map) return about_model(work->model.name, map.error());
   const double map_ms = watch.milliseconds();
   const auto reached =
@@ -222,6 +231,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!arguments.json.empty()) {
     Json json = work_json(*work, "log_map", map_ms);
     json["reached"] = reached;
+    json["method"] = to_text(options.method);
     json["log_map"] = {{"distances", map->distances}, {"directions", map->directions}};
     const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();

@@ -235,6 +235,7 @@ struct LogMapArguments {
   std::string model;
   SettingArguments settings;
   std::string source;
+  std::string max_distance;  ///< empty: all of the surface
   std::vector<std::string> outputs;
   std::string json;
   bool quiet = false;

@@ -21,8 +21,11 @@ namespace {
 using Point2 = Eigen::Vector2d;
 
 /// A descent goes on until what is left to do is this share of the mean distance; it has converged
-/// with the second, whose square is about what rounding leaves of an energy.
-constexpr double kAtRest = 1e-9, kConverged = 1e-5;
+/// with the second, whose square is about what rounding leaves of an energy. Maps by waves are no
+/// better than the third.
+constexpr double kAtRest = 1e-9, kConverged = 1e-5, kConvergedByWaves = 2e-3;
+/// Above so many faces the way near the centre is made by waves, which take less time.
+constexpr Index kManyFaces = 20'000;
 /// Energies that differ by less are equal but for rounding.
 constexpr double kSameEnergy = 1e-12;
 /// So many starts are tried, and a step is halved so often.
@@ -126,8 +129,9 @@ class Descent {
   }
 
  private:
-  static bool has_converged(const Place& place) {
-    return place.residual() <= kConverged * place.scale;
+  bool is_exact() const { return options_.method == MethodKind::kExact; }
+  bool has_converged(const Place& place) const {
+    return place.residual() <= (is_exact() ? kConverged : kConvergedByWaves) * place.scale;
   }
 
   Result<Place> place_at(const SurfacePoint& point, const Progress& progress) {
@@ -163,7 +167,7 @@ class Descent {
   Result<Place> better(const Place& here, const Progress& progress) {
     constexpr double kPi = std::numbers::pi;
     for (const double turn : {0.0, kPi / 4, -kPi / 4, kPi / 2, -kPi / 2}) {
-      if (turn != 0 && has_converged(here)) break;
+      if (turn != 0 && (has_converged(here) || !is_exact())) break;
       double share = 1;
       for (int i = 0; i < kHalvings; ++i, share /= 2) {
         const auto point = i == 0 && turn == 0 && here.at != kNoIndex
@@ -324,13 +328,19 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   const double slack =
       (options.kind == CentreKind::kMean ? 4 * edge * edge : 2 * edge) + kTied * least;
   const std::vector<Index> starts = starts_of(*mesh, *energies, slack);
+  CentreOptions first = options;
+  const bool is_large = mesh->face_count() > kManyFaces;
+  if (options.method == MethodKind::kExact && is_large) first.method = MethodKind::kWavefrontFine;
   Centres out;
   Error refused;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const double begun = 0.6 + 0.4 * static_cast<double>(i) / static_cast<double>(starts.size());
     const Progress part = part_of(progress, begun, begun);  // how many steps there are is not known
-    auto centre = Descent(**directions, *pointed, weights, options)
+    auto centre = Descent(**directions, *pointed, weights, first)
                       .run(SurfacePoint::at_vertex(starts[i]), part);
+    if (centre && first.method != options.method) {
+      centre = Descent(**directions, *pointed, weights, options).run(centre->point, part);
+    }
     if (!centre && centre.error().code == ErrorCode::kBadInput) {
       refused = centre.error();
       continue;  // a start where directions have no order

@@ -16,6 +16,9 @@ namespace {
 
 using Turn = StartDirections::Turn;
 
+/// Beside waves windows go as far, in mean edges.
+constexpr double kNear = 40;
+
 /// Directions of the lines from a vertex, in the frames of the sides opposite to it.
 std::vector<Turn> turns_at(Index v, const WindowMesh& windows, const TangentFans& fans) {
   std::vector<Turn> turns;
@@ -147,13 +150,25 @@ Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds
                  "the waves of a log map fall for ever on this mesh",
                  {"use ", SettingHint{"method", {"exact"}}}};
   }
+  // Near the point what waves get wrong would be wrong all the way behind it.
+  WaveStart begin = wave_start(state, seeds, start);
+  Propagation windows(state.windows);
+  windows.follow_directions(start.starts);
+  const auto near = windows.run(seeds, progress, kNear);
+  begin.known.assign(state.tables->rank_of_vertex.size(), std::numeric_limits<double>::quiet_NaN());
+  const auto is_near = [&](std::size_t v) {
+    return near && windows.vertices()[v].distance <= kNear;
+  };
+  for (std::size_t v = 0; v < begin.known.size(); ++v) {
+    if (is_near(v)) begin.known[v] = windows.directions()[v];
+  }
   LogMap map;
-  map.directions = wave_directions(*state.surface, *state.tables, front, samples,
-                                   wave_start(state, seeds, start));
+  map.directions = wave_directions(*state.surface, *state.tables, front, samples, begin);
   map.distances.assign(map.directions.size(), kUnreached);
   for (std::size_t rank = 0; rank < state.tables->vertex_of_rank.size(); ++rank) {
     const auto v = static_cast<std::size_t>(state.tables->vertex_of_rank[rank]);
-    map.distances[v] = unit * (front.distances()[rank] + front.base());
+    map.distances[v] =
+        unit * (is_near(v) ? windows.vertices()[v].distance : front.distances()[rank]);
   }
   return map;
 }

@@ -39,6 +39,9 @@ class DirectionPass {
                    kNone) {}
 
   std::vector<double> run() {
+    for (std::size_t rank = 0; rank < count_; ++rank) {
+      direction_[rank] = start_.known[static_cast<std::size_t>(tables_.vertex_of_rank[rank])];
+    }
     for (const WaveStart::Face& face : start_.faces) seed(face);
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::size_t node = 0; node < direction_.size(); ++node) {

@@ -20,6 +20,7 @@ struct WaveStart {
   };
   std::vector<Face> faces;
   double period = 0;  ///< directions that differ by it are one; 0: none do
+  std::vector<double> known;  ///< V: directions that are known already, no number elsewhere
 };
 
 /// The directions in which the paths of a wave that has run leave its source, one point: V, no
