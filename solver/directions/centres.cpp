@@ -23,7 +23,7 @@ using Point2 = Eigen::Vector2d;
 /// A descent goes on until what is left to do is this share of the mean distance; it has converged
 /// with the second, whose square is about what rounding leaves of an energy. Maps by waves are no
 /// better than the third.
-constexpr double kAtRest = 1e-9, kConverged = 1e-5, kConvergedByWaves = 2e-3;
+constexpr double kAtRest = 1e-7, kConverged = 1e-5, kConvergedByWaves = 5e-3;
 /// Above so many faces the way near the centre is made by waves, which take less time.
 constexpr Index kManyFaces = 20'000;
 /// Energies that differ by less are equal but for rounding.
@@ -330,7 +330,7 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   const std::vector<Index> starts = starts_of(*mesh, *energies, slack);
   CentreOptions first = options;
   const bool is_large = mesh->face_count() > kManyFaces;
-  if (options.method == MethodKind::kExact && is_large) first.method = MethodKind::kWavefrontFine;
+  if (options.method == MethodKind::kExact && is_large) first.method = MethodKind::kWavefront;
   Centres out;
   Error refused;
   for (std::size_t i = 0; i < starts.size(); ++i) {

@@ -228,7 +228,7 @@ struct Centre {
   SurfacePoint point;      ///< where it is
   double energy = 0;       ///< mean of w d^2 (model units squared), or of w d
   double residual = 0;     ///< length of the step that was left to do, model units
-  bool converged = false;  ///< the residual is 1e-5 of the mean distance or less (waves: 2e-3)
+  bool converged = false;  ///< the residual is 1e-5 of the mean distance or less (waves: 5e-3)
   std::vector<double> distances;  ///< K: to the points
   /// Where the descent began and after each step; they fall. With exact maps on more than 20,000
   /// faces it begins where one by waves has ended.
