@@ -31,8 +31,9 @@ constexpr double kSameEnergy = 1e-12;
 /// So many starts are tried, and a step is halved so often.
 constexpr std::size_t kMaxStarts = 8;
 constexpr int kHalvings = 12;
-/// Minima whose energies differ by less than this share cannot be told apart on a mesh.
-constexpr double kTied = 1e-3;
+/// Minima whose energies differ by less than this share cannot be told apart on a mesh; those within
+/// the second are told.
+constexpr double kTied = 1e-3, kAboutAsLow = 0.02;
 /// Descents that end nearer to each other than this share of the mean edge have found one minimum.
 constexpr double kOnePlace = 0.01;
 
@@ -354,6 +355,8 @@ Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
   }
   if (out.found.empty()) return refused;
   std::ranges::stable_sort(out.found, {}, &Centre::energy);
+  const double most = out.found.front().energy * (1 + kAboutAsLow);
+  std::erase_if(out.found, [most](const Centre& centre) { return centre.energy > most; });
   note(options, out);
   return out;
 } catch (const std::bad_alloc&) {

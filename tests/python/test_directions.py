@@ -142,5 +142,7 @@ def test_a_log_map_ends_at_its_largest_distance(bunny):
     assert 2 < inside.sum() < inside.size and np.array_equal(np.isfinite(near.distances), inside)
     assert np.array_equal(near.distances[inside], whole.distances[inside])
     assert np.array_equal(near.directions[inside], whole.directions[inside])
+    waves = geotherm.log_map(bunny, 17, method="wavefront", max_distance=0.4)
+    assert np.allclose(waves.distances[inside], near.distances[inside], rtol=1e-2)
     with pytest.raises(geotherm.InputError, match="largest distance"):
         geotherm.log_map(bunny, 17, max_distance=0)
