@@ -240,7 +240,9 @@ TEST(LogMap, EndsAtItsReach) {
       inside += in;
       EXPECT_EQ(near.distances[v], in ? whole.distances[v] : kUnreached);
       EXPECT_EQ(std::isfinite(near.directions[v]), in);
-      if (in) EXPECT_EQ(near.directions[v], whole.directions[v]);
+      if (in) {
+        EXPECT_EQ(near.directions[v], whole.directions[v]);
+      }
       EXPECT_EQ(std::isfinite(one.distances[v]), v == 77 || v == 500);
     }
     EXPECT_GT(inside, 50);
