@@ -31,8 +31,8 @@ constexpr double kSameEnergy = 1e-12;
 /// So many starts are tried, and a step is halved so often.
 constexpr std::size_t kMaxStarts = 8;
 constexpr int kHalvings = 12;
-/// Minima whose energies differ by less than this share cannot be told apart on a mesh; those within
-/// the second are told.
+/// Minima whose energies differ by less than this share cannot be told apart on a mesh; those
+/// within the second are told.
 constexpr double kTied = 1e-3, kAboutAsLow = 0.02;
 /// Descents that end nearer to each other than this share of the mean edge have found one minimum.
 constexpr double kOnePlace = 0.01;

@@ -19,7 +19,7 @@ struct WaveStart {
     StartDirections::Turn turn;
   };
   std::vector<Face> faces;
-  double period = 0;  ///< directions that differ by it are one; 0: none do
+  double period = 0;          ///< directions that differ by it are one; 0: none do
   std::vector<double> known;  ///< V: directions that are known already, no number elsewhere
 };
 

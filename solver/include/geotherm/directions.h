@@ -246,8 +246,8 @@ struct Centres {
 /// from the lowest of these, eight at most, it descends: in the tangent plane of a log map the mean
 /// or the median is found (Weiszfeld 1937; at the points themselves as in Vardi, Zhang 2000), and a
 /// straightest line leads there, half as far and so on until the energy falls. Further minima whose
-/// energy is at most 2 % more are found, too. At tips, on the border and at creases of the distances
-/// a descent can stall; then it has not converged.
+/// energy is at most 2 % more are found, too. At tips, on the border and at creases of the
+/// distances a descent can stall; then it has not converged.
 ///
 /// `points`: K, on one component. `weights`: K, >= 0, some above; none: all 1. Errors: kBadInput
 /// (no point, other numbers of weights, points in several components, an option out of range),
