@@ -245,7 +245,8 @@ Result<std::vector<double>> energies_at_vertices(const WavefrontMethod& method,
     const double share = weights[set] / weight;
     for (std::size_t v = 0; v < sum.size(); ++v) {
       const double d = answer.distances[v];
-      sum[v] += options.kind == CentreKind::kMean ? share * d * d : share * d;
+      const double term = options.kind == CentreKind::kMean ? share * d * d : share * d;
+      sum[v] += d < kUnreached ? term : kUnreached;  // with a weight of 0, too
     }
     return {};
   };

@@ -207,6 +207,7 @@ TEST(Centres, RefuseWhatCannotBe) {
   };
   EXPECT_EQ(code({}, {}), ErrorCode::kBadInput);
   EXPECT_EQ(code(at_vertices({0, 10}), {}), ErrorCode::kBadInput);  // two components
+  EXPECT_EQ(code(at_vertices({0, 10}), {1, 0}), ErrorCode::kBadInput);
   EXPECT_EQ(code(at_vertices({0, 1}), {1}), ErrorCode::kBadInput);
   EXPECT_EQ(code(at_vertices({0, 1}), {1, -1}), ErrorCode::kBadInput);
   EXPECT_EQ(code(at_vertices({0, 1}), {0, 0}), ErrorCode::kBadInput);
