@@ -12,6 +12,7 @@
 
 #include "geotherm/build_method.h"
 #include "geotherm/directions.h"
+#include "tests/support/broken_mesh.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {
@@ -303,6 +304,44 @@ TEST(Relaxation, IsTheSameWithAnyNumberOfThreads) {
   ASSERT_TRUE(one && three);
   EXPECT_EQ(one->points, three->points);
   EXPECT_EQ(one->energies, three->energies);
+}
+
+/// On meshes as files bring them, at worst: finite numbers, or one sentence.
+TEST(Relaxation, AndCentresOfBrokenMeshesAreFiniteOrOneSentence) {
+  int found = 0;
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    const BrokenMesh broken = broken_mesh(seed, {.placed = false});
+    const auto built = TriangleMesh::build(broken.draft.positions, broken.draft.faces);
+    if (!built) continue;
+    const auto mesh = std::make_shared<const TriangleMesh>(*built);
+    const Index last = mesh->vertex_count() - 1;
+    const auto points = at_vertices({0, last / 2, last});
+    for (const CentreKind kind : {CentreKind::kMean, CentreKind::kMedian}) {
+      CentreOptions options;
+      options.kind = kind;
+      const auto centres = find_centres(mesh, points, {}, options);
+      if (!centres) {
+        EXPECT_EQ(centres.error().message.find('\n'), std::string::npos) << broken.recipe;
+        continue;
+      }
+      ++found;
+      EXPECT_TRUE(position_at(*mesh, centres->found.front().point).allFinite()) << broken.recipe;
+      EXPECT_TRUE(std::isfinite(centres->found.front().energy)) << broken.recipe;
+    }
+    MethodOptions options;
+    options.method = MethodKind::kWavefront;
+    const auto method = build_method(mesh, options);
+    if (!method) continue;
+    const auto relaxed = relax_points(**method, mesh, points, 3);
+    if (!relaxed) continue;
+    for (const SurfacePoint& point : relaxed->points) {
+      EXPECT_TRUE(position_at(*mesh, point).allFinite()) << broken.recipe;
+    }
+    for (std::size_t i = 1; i < relaxed->energies.size(); ++i) {
+      EXPECT_LT(relaxed->energies[i], relaxed->energies[i - 1]) << broken.recipe;
+    }
+  }
+  EXPECT_GT(found, 20);
 }
 
 TEST(Relaxation, RefusesMethodsWithoutNearestPoints) {
