@@ -50,11 +50,15 @@ Result<SpreadOptions> spread_options(const geotherm_options* options) {
   return SpreadOptions{asked.backend, asked.time_step.factor, asked.threads};
 }
 
-/// Each set of points as one curve.
+/// Each set of points as one curve, which may pass a point several times.
 Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool closed,
                                            const Model& model, const Progress& progress) {
   const auto sets = many_sets(sources, model);
   if (!sets) return sets.error();
+  if (sources->starts == nullptr) {
+    return bad_argument("curves has no starts, so that each has one point",
+                        {"say in starts where each begins"});
+  }
   MethodOptions options;
   options.method = MethodKind::kWavefront;
   app::ModelSolver solver(model);
@@ -62,8 +66,12 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
   if (!ready) return ready.error();
   const PathFinder finder(model.mesh, ready->method);
   std::vector<SurfacePath> curves;
-  for (const SourceSet& set : sets->sets) {
-    auto found = finder.find(set.points, {PathField::kGeodesic, closed, closed}, progress);
+  for (std::int64_t k = 0; k < sources->sets; ++k) {
+    const std::int64_t from = sources->starts[k], count = sources->starts[k + 1] - from;
+    const geotherm_sources stops = {sources->points + from, count, nullptr, 0, nullptr};
+    const auto points = points_in_order(&stops, model);
+    if (!points) return points.error();
+    auto found = finder.find(*points, {PathField::kGeodesic, closed, closed}, progress);
     if (!found) return found.error();
     curves.push_back(std::move(found->path));
   }
@@ -115,13 +123,22 @@ using namespace geotherm;     // NOLINT: the functions below are C
 using namespace geotherm::c;  // NOLINT
 
 geotherm_status geotherm_log_map(const geotherm_model* model, const geotherm_sources* point,
+                                 const char* method, double max_distance,
                                  const geotherm_watch* watch, geotherm_answer** map) {
   return guarded([&]() -> Result<void> {
+    LogMapOptions options;
+    if (method != nullptr) {
+      const auto kind = parse<MethodKind>(method);
+      if (!kind) return kind.error();
+      options.method = *kind;
+    }
+    options.max_distance = max_distance;
     const Watched watched(watch);
     const auto from =
         directed_point(model, point, map, "log maps are", part_of(watched.progress(), 0.0, 0.2));
     if (!from) return from.error();
-    auto found = from->directions->log_map(from->point, part_of(watched.progress(), 0.2, 1.0));
+    auto found =
+        from->directions->log_map(from->point, options, part_of(watched.progress(), 0.2, 1.0));
     if (!found) return found.error();
     auto made = std::make_shared<Answer>();
     std::vector<double> frame;

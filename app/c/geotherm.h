@@ -248,6 +248,13 @@ GEOTHERM_API geotherm_status geotherm_path(const geotherm_solver* solver,
                                            int closed, const geotherm_watch* watch,
                                            geotherm_answer** lines);
 
+/* The shortest paths from one point to each of others, in their order; the distances from it are
+ * computed once. */
+GEOTHERM_API geotherm_status geotherm_paths(const geotherm_solver* solver,
+                                            const geotherm_sources* from,
+                                            const geotherm_sources* to, const geotherm_watch* watch,
+                                            geotherm_answer** lines);
+
 /* The level sets of the function that is linear on each face. values: V; levels: ascending. */
 GEOTHERM_API geotherm_status geotherm_isolines(const geotherm_model* model,
                                                const geotherm_array* values,
@@ -259,17 +266,41 @@ GEOTHERM_API geotherm_status geotherm_samples(const geotherm_solver* solver, int
                                               int64_t first, const geotherm_watch* watch,
                                               geotherm_answer** samples);
 
+/* Lloyd's iteration: each point moves to the mean of the vertices that are nearest to it, `steps`
+ * times or until the energy, the sum of area times distance^2, does not fall. By the solver's
+ * distances, in place of heat by wavefront's. The arrays points K x 3, faces K, weights K x 3 (the
+ * points in these), distances V, nearest_source V, energies (before the first step and after each),
+ * moves (the farthest of each step), settled (1: the last step gained nothing). */
+GEOTHERM_API geotherm_status geotherm_relax(const geotherm_solver* solver,
+                                            const geotherm_sources* points, int64_t steps,
+                                            const geotherm_watch* watch, geotherm_answer** relaxed);
+
 /* ---- Directions: on triangles and points alone ------------------------------------------------*/
 
 /* In a tangent frame, an angle in radians from e1 towards e2; frames are arrays of nine numbers:
  * e1, e2 and the normal. At a vertex e1 lies below its first edge, and angles are scaled to 2 pi
  * round it, but on the border; in a face e1 leads from its first corner to the second. */
 
-/* Polar coordinates of all vertices about one point, exact on the faces: the arrays distances V,
- * directions V (no number where no path leads), frame 1 x 9. */
+/* Polar coordinates of all vertices about one point: the arrays distances V, directions V (no
+ * number where no path leads), frame 1 x 9. `method`: "exact" (or NULL; exact on the faces),
+ * "wavefront", "wavefront-fine" (near exact, and fast). What is farther than `max_distance` (> 0,
+ * INFINITY for all) is infinite, and no time is spent there. */
 GEOTHERM_API geotherm_status geotherm_log_map(const geotherm_model* model,
-                                              const geotherm_sources* point,
-                                              const geotherm_watch* watch, geotherm_answer** map);
+                                              const geotherm_sources* point, const char* method,
+                                              double max_distance, const geotherm_watch* watch,
+                                              geotherm_answer** map);
+
+/* The mean or median of points, with weights (K numbers from 0 on) or without (NULL): where the sum
+ * of weight times distance^2, or of weight times distance, is least. `kind`: "mean" (or NULL),
+ * "median"; `method`: of log maps, as above. All minima that were found and are about as low, the
+ * least first: the arrays points N x 3, faces N, weights N x 3 (the points in these), energies N
+ * (that sum over the sum of the weights), residuals N (length of the step that was left to do),
+ * converged N (0 or 1), distances N x K; the text "warnings" says where there are several. */
+GEOTHERM_API geotherm_status geotherm_centres(const geotherm_model* model,
+                                              const geotherm_sources* points,
+                                              const geotherm_array* weights, const char* kind,
+                                              const char* method, const geotherm_watch* watch,
+                                              geotherm_answer** centres);
 
 /* The straightest line from one point. The text "end" of the line is "length", or why it is
  * shorter: "border", "split" (three faces at an edge, or several fans at a vertex). */
@@ -316,8 +347,8 @@ GEOTHERM_API geotherm_status geotherm_array_of(const void* handle, const char* n
                                                geotherm_array* array);
 
 /* Texts. Models: "json" (all of `info`), "table", "name", "domain", "summary". Solvers: "json"
- * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths and
- * samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
+ * (times in ms, memory in MB, warnings). Answers of geotherm_solve(): "json", "table". Paths,
+ * centres and samples: "warnings" (JSON). Lines of geotherm_trace(): "end". Signed
  * distances: "rule". */
 GEOTHERM_API geotherm_status geotherm_text_of(const void* handle, const char* name,
                                               const char** text);

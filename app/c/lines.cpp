@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths, isolines, samples.
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <utility>
 
@@ -114,6 +115,49 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     auto made = std::make_shared<Answer>();
     made->warnings = std::move(found->warnings);
     made->lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
+    keep_lines(*made);
+    hand_out_answer(std::move(made), lines);
+    return {};
+  });
+}
+
+geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sources* from,
+                               const geotherm_sources* to, const geotherm_watch* watch,
+                               geotherm_answer** lines) {
+  return guarded([&]() -> Result<void> {
+    const auto object = object_of<const Solver>(solver, "solver");
+    if (!object) return object.error();
+    if (auto there = require(lines, "lines"); !there) return there;
+    const Model& model = (*object)->model();
+    if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
+    const auto begin = points_in_order(from, model), ends = points_in_order(to, model);
+    if (!begin) return begin.error();
+    if (!ends) return ends.error();
+    if (begin->size() != 1 || ends->empty()) {
+      return bad_argument("from has " + std::to_string(begin->size()) + " points, and to " +
+                              std::to_string(ends->size()),
+                          {"give one, and one or more"});
+    }
+    const Watched watched(watch);
+    const auto prepared = [&] {
+      const std::lock_guard lock((*object)->lock);
+      return finder_of(**object, PathField::kGeodesic, part_of(watched.progress(), 0.0, 0.5));
+    };
+    const auto finder = prepared();
+    if (!finder) return finder.error();
+    auto made = std::make_shared<Answer>();
+    made->lines = Lines{model.mesh, {}, false};
+    const auto count = static_cast<double>(ends->size());
+    for (std::size_t i = 0; i < ends->size(); ++i) {
+      const double done = static_cast<double>(i);
+      const std::array<SurfacePoint, 2> stops = {begin->front(), (*ends)[i]};
+      auto found = (*finder)->find(
+          stops, {},
+          part_of(watched.progress(), 0.5 + 0.5 * done / count, 0.5 + 0.5 * (done + 1) / count));
+      if (!found) return found.error();
+      made->warnings.insert(made->warnings.end(), found->warnings.begin(), found->warnings.end());
+      made->lines->all.push_back({0, std::move(found->path)});
+    }
     keep_lines(*made);
     hand_out_answer(std::move(made), lines);
     return {};

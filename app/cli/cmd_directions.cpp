@@ -3,12 +3,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "app/cli/commands.h"
 #include "app/cli/vertex_columns.h"
+#include "app/picture/direction_picture.h"
 #include "app/session/model.h"
 #include "app/session/progress.h"
 #include "app/session/report.h"
@@ -18,7 +20,6 @@
 #include "geotherm/directions.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
-#include "solver/mesh/connectivity.h"
 
 namespace geotherm::app {
 namespace {
@@ -115,39 +116,16 @@ std::vector<VertexColumn> map_columns(const LogMap& map) {
   return columns;
 }
 
-/// Where the map is torn, its coordinates jump by far more than an edge is long: lines drawn across
-/// would show nothing.
-void leave_out_tears(const TriangleMesh& mesh, std::vector<double>& x, std::vector<double>& y) {
-  constexpr double kTorn = 3;
-  std::vector<char> torn(x.size(), 0);
-  for (const Face& face : mesh.faces()) {
-    for (int k = 0; k < 3; ++k) {
-      const Index i = face[k], j = face[next_corner(k)];
-      const double edge = (mesh.positions()[i] - mesh.positions()[j]).norm();
-      if (std::hypot(x[i] - x[j], y[i] - y[j]) > kTorn * edge) torn[i] = torn[j] = 1;
-    }
-  }
-  for (std::size_t v = 0; v < x.size(); ++v) {
-    if (torn[v] != 0) x[v] = y[v] = kNone;
-  }
-}
-
 /// The squares of the map: lines of its two coordinates.
 Result<std::vector<Isoline>> map_grid(const TriangleMesh& mesh, const LogMap& map) {
   constexpr double kSquares = 12;  // from the point to the farthest vertex
-  auto columns = map_columns(map);
-  std::vector<double>&x = columns[2].values, &y = columns[3].values;
+  const auto columns = map_columns(map);
   double most = 0;
   for (const double d : map.distances) most = std::isfinite(d) ? std::max(most, d) : most;
-  leave_out_tears(mesh, x, y);
   std::vector<double> levels;
   for (double k = -kSquares; k <= kSquares; ++k) levels.push_back(k * most / kSquares);
-  auto lines = find_isolines(mesh, x, levels);
-  auto more = find_isolines(mesh, y, levels);
-  if (!lines) return lines;
-  if (!more) return more;
-  lines->insert(lines->end(), more->begin(), more->end());
-  return lines;
+  const std::array<double, 2> axes = {0, std::numbers::pi / 2};
+  return map_lines(mesh, columns[2].values, columns[3].values, axes, levels);
 }
 
 Result<double> number_of(const std::string& text, const char* option, const char* what) {
@@ -172,11 +150,16 @@ void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
                      "of every vertex",
                      true);
   add_line_picture_options(command, arguments.settings);
+  add_max_distance_option(command, arguments.max_distance);
+  add_setting_options(command, arguments.settings, {"method"});
   add_quiet_option(command, arguments.quiet);
   command.footer(
       "Paths are exact on the faces, and so are directions; behind a vertex that bends a path they "
-      "are those of its first piece. A picture shows squares of the map.\n"
+      "are those of its first piece. --method wavefront and wavefront-fine are near exact, and "
+      "fast "
+      "on large models. A picture shows squares of the map.\n"
       "Examples:\n"
+      "  geotherm logmap gargoyle -s 17 --method wavefront --max-distance 0.5 -o map.svg\n"
       "  geotherm logmap bunny -s 17 -o map.npy --json -\n"
       "  geotherm logmap bunny -s 17 -o map.svg");
 }
@@ -186,6 +169,10 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!asked) return asked.error();
   const auto source = single_point(arguments.source, "--source");
   if (!source) return source.error();
+  const auto largest = max_distance_in(arguments.max_distance);
+  if (!largest) return largest.error();
+  LogMapOptions options{MethodKind::kExact, *largest, {}};
+  if (arguments.settings.has("method")) options.method = asked->options.method;
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
@@ -194,7 +181,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!work) return work.error();
   const TriangleMesh& mesh = *work->model.mesh;
   const Stopwatch watch;
-  const auto map = work->directions->log_map(work->point, part_of(progress, 0.2, 1));
+  const auto map = work->directions->log_map(work->point, options, part_of(progress, 0.2, 1));
   if (!map) return about_model(work->model.name, map.error());
   const double map_ms = watch.milliseconds();
   const auto reached =
@@ -222,6 +209,7 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   if (!arguments.json.empty()) {
     Json json = work_json(*work, "log_map", map_ms);
     json["reached"] = reached;
+    json["method"] = to_text(options.method);
     json["log_map"] = {{"distances", map->distances}, {"directions", map->directions}};
     const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();

@@ -125,8 +125,9 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--field", arguments.field,
-                  "draws these values of vertices, an array with one axis in .npy, in place of "
-                  "distances; no sources are needed")
+                  "draws these values of vertices in place of distances, an array in .npy with one "
+                  "axis; vectors (V x 3, or as transport writes them) as arrows; a log map as "
+                  "logmap writes it as polar grid; no sources are needed")
       ->type_name("FILE");
   command.add_option("--fps", arguments.fps, "pictures a second of a film, 1 to 120, default 25")
       ->type_name("N");
@@ -146,6 +147,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render sleeve bunny -s 17 --title Shapes -o two.png\n"
       "  geotherm render bunny -s 17 --turntable 72 -o turn.mp4\n"
       "  geotherm render bunny --field values.npy --bar-label curvature -o field.png\n"
+      "  geotherm transport bunny --vector 17:1:0 -o v.npy && geotherm render bunny --field v.npy "
+      "-o arrows.png\n"
       "  geotherm render bunny -s 0 -o bunny.html\n"
       "  geotherm render terrain -s boundary --turntable 36 --background dark -o turn.png\n"
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");

@@ -10,6 +10,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/many_work.h"
+#include "app/cli/sample_report.h"
 #include "app/session/answer.h"
 #include "app/session/machine.h"
 #include "app/session/model.h"
@@ -28,137 +29,6 @@
 #include "solver/mesh/output_file.h"
 
 namespace geotherm::app {
-
-/// All there is to say about samples.
-struct SampleFigures {
-  Model model;
-  MeshReport mesh;
-  std::shared_ptr<const DistanceMethod> method;
-  MethodOptions options;
-  FarthestPoints points;
-  double sampling_ms = 0;
-  double peak_rss_mb = 0;
-  std::vector<Warning> warnings;
-  std::optional<SampleCheck> error = {};     ///< of some samples; none: not to be checked
-  std::optional<SampleCheck> replaced = {};  ///< of the poor method that this one stands for
-};
-
-Json sample_json(const SampleFigures& figures);
-
-/// What `sample` shows to people: the figures and the first samples.
-std::string sample_table(const SampleFigures& figures);
-
-/// `sample,vertex,x,y,z,distance,radius`, one sample a line.
-std::string samples_csv(const SampleFigures& figures);
-
-/// The numbers of a line of that but for the first, as a row of a .npy array.
-std::vector<double> sample_row(const SampleFigures& figures, std::size_t sample);
-inline constexpr std::size_t kSampleColumns = 6;
-
-namespace {
-
-constexpr std::size_t kMaxShown = 20;
-
-/// How many vertices each sample is the nearest of.
-std::vector<Index> cell_sizes(const FarthestPoints& points) {
-  std::vector<Index> sizes(points.samples.size(), 0);
-  for (const Index sample : points.nearest) {
-    if (sample != kNoIndex) ++sizes[sample];
-  }
-  return sizes;
-}
-
-Json position_json(const Vec3& p) { return Json::array({p[0], p[1], p[2]}); }
-
-}  // namespace
-
-Json sample_json(const SampleFigures& f) {
-  const std::vector<Index> cells = cell_sizes(f.points);
-  Json samples = Json::array();
-  for (std::size_t i = 0; i < f.points.samples.size(); ++i) {
-    const FarthestSample& sample = f.points.samples[i];
-    samples.push_back({{"vertex", sample.vertex},
-                       {"position", position_json(f.model.mesh->positions()[sample.vertex])},
-                       {"distance", sample.distance},
-                       {"distance_back", sample.back},
-                       {"radius", sample.radius},
-                       {"cell", cells[i]}});
-  }
-  Json json = {{"model", model_json(f.model, f.mesh)},
-               {"options", options_json(*f.method, f.options, f.points.first)},
-               {"count", f.points.samples.size()},
-               {"radius", f.points.radius()},
-               {"separation", f.points.separation()},
-               {"unreached", std::ranges::count(f.points.distances, kUnreached)},
-               {"samples", std::move(samples)},
-               {"timing_ms",
-                {{"load", f.model.load_ms},
-                 {"setup", f.method->timing().setup},
-                 {"sampling", f.sampling_ms},
-                 {"query", f.points.query_ms}}},
-               {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
-               {"warnings", told(f.warnings)}};
-  if (f.error) json["error"] = error_json(*f.error);
-  if (f.replaced) json["replaced"] = error_json(*f.replaced);
-  return json;
-}
-
-std::string sample_table(const SampleFigures& f) {
-  const FarthestPoints& points = f.points;
-  TextTable figures({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
-  const std::string count =
-      counted(static_cast<std::int64_t>(points.samples.size()), "sample", "samples");
-  figures.add_row(
-      {"model", one_line(f.model.name) + ", " + counted(f.mesh.vertices, "vertex", "vertices")});
-  figures.add_row({"radius", std::isfinite(points.radius())
-                                 ? significant(points.radius()) +
-                                       ": every vertex of a face lies that near to one of " + count
-                                 : "infinite: " + count + " for " +
-                                       counted(f.mesh.components, "component", "components")});
-  if (std::isfinite(points.separation())) {
-    figures.add_row({"separation", significant(points.separation()) +
-                                       " between two samples at least, in either direction"});
-  }
-  figures.add_row({"method", to_text(f.method->kind()) +
-                                 (f.method->heat() ? ", " + points.first.backend : std::string()) +
-                                 ", " +
-                                 counted(thread_count(f.options.threads), "thread", "threads")});
-  figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
-  figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +
-                                   milliseconds(points.query_ms) + " ms each"});
-  if (f.error) figures.add_row({"error", told(accuracy_line(*f.error))});
-  constexpr auto kRight = TextTable::Align::kRight;
-  TextTable list({{"sample", kRight}, {"vertex", kRight}, {"radius", kRight}, {"cell", kRight}});
-  const std::vector<Index> cells = cell_sizes(points);
-  const std::size_t shown = std::min(points.samples.size(), kMaxShown);
-  for (std::size_t i = 0; i < shown; ++i) {
-    list.add_row({std::to_string(i), std::to_string(points.samples[i].vertex),
-                  significant(points.samples[i].radius), grouped(cells[i])});
-  }
-  std::string text = figures.text() + '\n' + list.text();
-  if (shown < points.samples.size()) {
-    text += "and " + grouped(static_cast<std::int64_t>(points.samples.size() - shown)) +
-            " more; --samples FILE.csv holds all\n";
-  }
-  return text;
-}
-
-std::vector<double> sample_row(const SampleFigures& f, std::size_t sample) {
-  const FarthestSample& s = f.points.samples[sample];
-  const Vec3& p = f.model.mesh->positions()[s.vertex];
-  return {static_cast<double>(s.vertex), p[0], p[1], p[2], s.distance, s.radius};
-}
-
-std::string samples_csv(const SampleFigures& f) {
-  std::string text = "sample,vertex,x,y,z,distance,radius\n";
-  for (std::size_t i = 0; i < f.points.samples.size(); ++i) {
-    text += std::to_string(i) + ',' + std::to_string(f.points.samples[i].vertex);
-    const std::vector<double> row = sample_row(f, i);
-    for (std::size_t c = 1; c < row.size(); ++c) text += ',' + number_text(row[c]);
-    text += '\n';
-  }
-  return text;
-}
 
 namespace {
 
@@ -200,6 +70,7 @@ struct SampleTask {
   MethodOptions options;
   CheckSettings check;
   Index count = 0, first = kNoIndex;
+  int relax = 0;  ///< steps
 };
 
 Result<FarthestPoints> take_samples(const DistanceMethod& method, const TriangleMesh& mesh,
@@ -237,10 +108,33 @@ Result<void> check_samples(const SampleTask& task, ModelSolver& solver, const Re
   return {};
 }
 
+/// Moves the samples, by near-exact distances where those of the method know no nearest sample.
+Result<void> relax(const SampleTask& task, ModelSolver& solver, const Progress& progress,
+                   SampleFigures& figures) {
+  auto method = figures.method;
+  if (method->heat() != nullptr) {
+    auto ready = solver.prepare(better_options(figures.options, MethodKind::kWavefront),
+                                part_of(progress, 0, 0.1));
+    if (!ready) return ready.error();
+    method = ready->method;
+  }
+  std::vector<SurfacePoint> points;
+  for (const FarthestSample& sample : figures.points.samples) {
+    points.push_back(SurfacePoint::at_vertex(sample.vertex));
+  }
+  const Stopwatch watch;
+  auto relaxed = relax_points(*method, figures.model.mesh, points, task.relax,
+                              part_of(progress, 0.1, 1), figures.options.threads);
+  if (!relaxed) return about_model(figures.model.name, relaxed.error());
+  figures.relaxing_ms = watch.milliseconds();
+  figures.relaxed = *std::move(relaxed);
+  return {};
+}
+
 /// Samples a loaded model.
 Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
                              const Progress& progress, const Announce& announce) {
-  constexpr double kSampled = 0.9;
+  const double sampled = task.relax > 0 ? 0.4 : 0.9, checked = task.relax > 0 ? 0.5 : 1;
   // What cannot be asked for is said before the set-up.
   if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
     return about(one_line(model.name), fits.error());
@@ -251,7 +145,7 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   const Stopwatch watch;
   const bool checks = task.check.against != Check::kOff;
   auto points = take_samples(*ready->method, *model.mesh, task,
-                             part_of(progress, kSetupShare, checks ? kSampled : 1.0), announce);
+                             part_of(progress, kSetupShare, checks ? sampled : checked), announce);
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
   const double peak = peak_rss_mb();  // of the work, not of its check
@@ -260,7 +154,11 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
                         *std::move(points), sampling_ms, peak,          {}};
   if (checks) {
     const auto done =
-        check_samples(task, solver, *ready, part_of(progress, kSampled, 1.0), announce, figures);
+        check_samples(task, solver, *ready, part_of(progress, sampled, checked), announce, figures);
+    if (!done) return done.error();
+  }
+  if (task.relax > 0) {
+    auto done = relax(task, solver, part_of(progress, checked, 1), figures);
     if (!done) return done.error();
   }
   const auto add_warnings = [&figures](const std::vector<Warning>& more) {
@@ -277,12 +175,11 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
 
 Result<void> write_labels(const std::string& path, const SampleFigures& figures,
                           std::string& standard_output) {
-  const FarthestPoints& points = figures.points;
   if (is_json(path)) return write_file(path, report_text(sample_json(figures)));
   if (path != "-") {
-    return write_distances(path, *figures.model.mesh, points.distances, points.nearest);
+    return write_distances(path, *figures.model.mesh, figures.distances(), figures.nearest());
   }
-  standard_output = io::csv_bytes(points.distances, points.nearest);
+  standard_output = io::csv_bytes(figures.distances(), figures.nearest());
   return {};
 }
 
@@ -294,7 +191,7 @@ Result<void> write_samples(const std::string& path, const SampleFigures& figures
   }
   if (io::file_extension(path) == ".csv") return write_file(path, samples_csv(figures));
   const std::size_t count = figures.points.samples.size();
-  auto file = NpyRows::open(path, count, kSampleColumns, NpyType::kFloat64);
+  auto file = NpyRows::open(path, count, sample_row(figures, 0).size(), NpyType::kFloat64);
   if (!file) return file.error();
   for (std::size_t i = 0; i < count; ++i) {
     if (auto written = file->append(sample_row(figures, i)); !written) return written;
@@ -312,6 +209,12 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
                   "the vertex to begin with; default: the one farthest from the first vertex")
       ->type_name("V");
   command
+      .add_option(
+          "--relax", arguments.relax,
+          "Lloyd's iteration: so many times, or until nothing is gained, every sample moves "
+          "to the mean of the part of the surface that is nearest to it")
+      ->type_name("N");
+  command
       .add_option("-o,--output", arguments.outputs,
                   "distance to the nearest sample and its number, for every vertex: .csv .npy .ply "
                   ".vtp, or - for CSV on standard output; .json is the report; may be repeated")
@@ -322,7 +225,8 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
   command
       .add_option("--samples", arguments.samples,
                   "the samples in their order: vertex, position, distance to those before, radius "
-                  "covered with it; .csv .npy, or - for CSV on standard output")
+                  "covered with it (relaxed: face, weights, position); .csv .npy, or - for CSV on "
+                  "standard output")
       ->type_name("FILE");
   command.add_option("--json", arguments.json, "every figure as JSON; - is standard output")
       ->type_name("FILE");
@@ -334,6 +238,7 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
       "them reaches come first.\n"
       "Examples:\n"
       "  geotherm sample bunny -n 100 -o cells.ply --samples samples.csv\n"
+      "  geotherm sample bunny -n 100 --relax 30 -o cells.ply --samples centres.csv\n"
       "  geotherm sample bunny -n 5 --first 0 --method wavefront --json -");
 }
 
@@ -350,6 +255,12 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
     if (!vertex) return vertex.error();
     first = *vertex;
   }
+  int relax = 0;
+  if (!arguments.relax.empty()) {
+    const auto steps = number_in_option(arguments.relax, "--relax", 1, "number of steps");
+    if (!steps) return steps.error();
+    relax = *steps;
+  }
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
   Outputs outputs;
@@ -358,7 +269,7 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   if (!model) return model.error();
   if (auto surface = refuse_space(*model, "samples are"); !surface) return surface.error();
   const auto figures = sample(*std::move(model), arguments.settings,
-                              {options, *check, *count, first}, progress, announce);
+                              {options, *check, *count, first, relax}, progress, announce);
   if (!figures) return figures.error();
 
   CommandOutput out{"", figures->warnings, {}};

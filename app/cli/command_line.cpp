@@ -166,6 +166,7 @@ struct AllArguments {
   PathArguments path;
   LogMapArguments log_map;
   TraceArguments trace;
+  CentreArguments centre;
   SpreadArguments transport, extend;
   SignedArguments signed_;
   IsolinesArguments isolines;
@@ -225,6 +226,8 @@ std::vector<Subcommand> subcommands(AllArguments& a, CLI::App& root, Drawing& dr
        options(add_log_map_options, a.log_map), with_bar(a.log_map, run_log_map)},
       {"trace", "Straightest lines from a point in given directions.",
        options(add_trace_options, a.trace), with_bar(a.trace, run_trace)},
+      {"centre", "Where the distances to given points are least: their mean or median.",
+       options(add_centre_options, a.centre), with_bar(a.centre, run_centre)},
       {"transport", "Tangent vectors carried over the surface without turning.",
        options(add_transport_options, a.transport), with_bar(a.transport, run_transport)},
       {"extend", "Values of some vertices carried to all.", options(add_extend_options, a.extend),

@@ -180,6 +180,7 @@ struct SampleArguments {
   SettingArguments settings;
   std::string count;
   std::string first;                 ///< a vertex id; empty: chosen by the program
+  std::string relax;                 ///< steps of Lloyd's iteration; empty: none
   std::vector<std::string> outputs;  ///< distances and labels of every vertex
   std::string samples;               ///< where the list of samples goes
   std::string json;
@@ -238,6 +239,7 @@ struct LogMapArguments {
   std::string model;
   SettingArguments settings;
   std::string source;
+  std::string max_distance;  ///< empty: all of the surface
   std::vector<std::string> outputs;
   std::string json;
   bool quiet = false;
@@ -259,6 +261,19 @@ struct TraceArguments {
 
 void add_trace_options(CLI::App& command, TraceArguments& arguments);
 Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress& progress = {});
+
+struct CentreArguments {
+  std::string model;
+  SettingArguments settings;
+  std::vector<std::string> of;
+  std::string points, weights;  ///< a file, and numbers or a file; empty: none
+  bool median = false;
+  LineFileArguments files;
+  bool quiet = false;
+};
+
+void add_centre_options(CLI::App& command, CentreArguments& arguments);
+Result<CommandOutput> run_centre(const CentreArguments& arguments, const Progress& progress = {});
 
 /// Of `transport` and `extend`.
 struct SpreadArguments {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/picture/cut_picture.h"
+#include "app/picture/direction_picture.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/target_paths.h"
 #include "app/session/explored.h"
@@ -23,7 +24,17 @@ namespace {
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
-/// Values of vertices that a file holds, in place of distances.
+/// Column k of a table.
+std::vector<double> column_of(const io::NpyTable& table, std::size_t k) {
+  std::vector<double> out;
+  for (std::size_t i = k; i < table.values.size(); i += table.columns) {
+    out.push_back(table.values[i]);
+  }
+  return out;
+}
+
+/// Values, vectors (x, y, z and what else `transport` has written) or a log map (that of `logmap`:
+/// distance, direction, x, y) of vertices that a file holds, in place of distances.
 Result<void> draw_field(const std::string& path, const Model& model,
                         const PictureSettings& settings, PictureData& data,
                         PictureFigures& figures) {
@@ -31,18 +42,36 @@ Result<void> draw_field(const std::string& path, const Model& model,
   auto file = io::FileBytes::read(path);
   if (!file) return about("--field", file.error());
   const std::string name = io::printable(path);
-  const auto values = io::guarded_read(
-      name, "values", file->bytes().size(),
-      [&]() -> Result<std::vector<double>> { return io::read_npy_values(file->bytes()); });
-  if (!values) return about("--field", values.error());
+  const auto table =
+      io::guarded_read(name, "values", file->bytes().size(),
+                       [&]() -> Result<io::NpyTable> { return io::read_npy_table(file->bytes()); });
+  if (!table) return about("--field", table.error());
   const auto vertices = static_cast<std::size_t>(model.mesh->vertex_count());
-  if (values->size() != vertices) {
-    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(values->size()) +
+  const std::size_t rows = table->values.size() / std::max<std::size_t>(table->columns, 1);
+  if (rows != vertices) {
+    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(rows) +
                                            " values and " + one_line(model.name) + " " +
                                            grouped(vertices) + " vertices; give one a vertex"};
   }
   figures.field = path;
-  add_field(data, *values);
+  if (table->columns == 4) {
+    return add_log_map(data, *model.mesh, column_of(*table, 0), column_of(*table, 2),
+                       column_of(*table, 3));
+  }
+  if (table->columns == 3 || table->columns == 5) {
+    std::vector<Vec3> vectors;
+    for (std::size_t i = 0; i < table->values.size(); i += table->columns) {
+      vectors.emplace_back(table->values[i], table->values[i + 1], table->values[i + 2]);
+    }
+    add_vectors(data, *model.mesh, vectors);
+    return {};
+  }
+  if (table->columns != 1) {
+    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(table->columns) +
+                                           " columns; give 1 (values), 3 or 5 (vectors) or 4 (a "
+                                           "log map)"};
+  }
+  add_field(data, table->values);
   if (settings.colour_scale == ColourScale::kDiverging && !data.is_signed) {
     return Error{ErrorCode::kBadInput, "--colour-scale diverging: the values of " + name +
                                            " do not have both signs; choose linear"};

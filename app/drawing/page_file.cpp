@@ -64,7 +64,7 @@ std::vector<View> views_of(const PictureData& data, View asked) {
   };
   add(View::kContours, !data.values.empty() && !data.is_signed);
   add(View::kRegions, !data.nearest.empty());
-  add(View::kHeatGradient, !data.heat_directions.empty());
+  add(View::kHeatGradient, !data.heat_directions.empty() && !data.is_field);
   add(View::kGradientError, !data.distance_gradients.empty());
   for (const View view : {View::kExactError, View::kEikonalError, View::kLostGradients,
                           View::kTriangleQuality, View::kNonDelaunay}) {

@@ -273,9 +273,9 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   scene.light = light_of(settings.light);
   scene.background = background_of(settings.background);
   scene.surface = surface_of(data, settings, scale);
-  scene.arrows.primary =
-      settings.view == View::kHeatGradient || settings.view == View::kGradientError;
   scene.arrows.secondary = settings.view == View::kGradientError;
+  const bool field = data.is_field && !data.heat_directions.empty();
+  scene.arrows.primary = field || scene.arrows.secondary || settings.view == View::kHeatGradient;
   scene.markers.visible = settings.markers && needs_sources(settings.view);
   scene.markers.radius = settings.view == View::kSources ? kLargeMarker : kMarker;
   if (settings.view == View::kSources) scene.markers.colour = kSourceRed;

@@ -204,7 +204,11 @@ class Resolver {
     }
     v = mesh_.standing_for(v);
     if (!used_[v]) {
-      return misplaced("vertex " + std::to_string(v) + " belongs to no " + cell_word(space_) +
+      // Faces that a mask leaves out are one corner three times.
+      const bool masked = std::ranges::any_of(
+          mesh_.faces(), [](const Face& f) { return f[0] == f[1] && f[1] == f[2]; });
+      return misplaced("vertex " + std::to_string(v) + (masked ? " is masked out, or" : "") +
+                           " belongs to no " + cell_word(space_) +
                            ", so that no distance starts there",
                        "choose another");
     }

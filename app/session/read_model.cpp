@@ -103,9 +103,10 @@ ModelDomain find_domain(const ModelInput& input) {
 Result<void> check_reading(const ModelReading& reading, ModelDomain domain, ModelDomain holds) {
   if (reading.grid != GridValues::kAuto && domain != ModelDomain::kGrid &&
       holds != ModelDomain::kGrid) {
-    return Error{ErrorCode::kBadInput,
-                 "what values mean is asked of grids, and the model is read as " + to_text(domain),
-                 {"leave ", SettingHint{"grid"}, " out"}};
+    return Error{
+        ErrorCode::kBadInput,
+        "what values mean is asked of grids, and the model is read as " + geotherm::to_text(domain),
+        {"leave ", SettingHint{"grid"}, " out"}};
   }
   return {};
 }

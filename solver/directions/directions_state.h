@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "solver/directions/tangent_fans.h"
 #include "solver/path/path_surface.h"
 #include "solver/polyhedral/propagation.h"
+#include "solver/polyhedral/wave_tables.h"
 #include "solver/polyhedral/window_mesh.h"
 
 namespace geotherm {
@@ -38,6 +40,9 @@ struct Directions::State {
   std::shared_ptr<const WaveSurface> surface;
   WindowMesh windows;
   TangentFans fans;
+  mutable std::once_flag tables_made;
+  mutable std::unique_ptr<const WaveTables>
+      tables;  ///< of waves, made when they are first asked for
 
   /// The point as a vertex or in a clean face. Errors: not on the mesh, a vertex without frame.
   Result<SurfacePoint> point(const SurfacePoint& point) const;

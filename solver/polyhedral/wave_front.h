@@ -81,6 +81,8 @@ class WaveFront {
 
   /// After run(), by rank, in units of the intrinsic mesh; kUnreached where no source can be.
   std::span<const double> distances() const { return distance_; }
+  /// Of edges, `samples` each, in their direction.
+  std::span<const double> sample_distances() const { return sample_; }
   /// Whether the next run need not clear the values first.
   bool is_clean() const { return clean_; }
   /// Groups of the nearest sources, when labels were asked for.

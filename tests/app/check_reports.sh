@@ -41,6 +41,8 @@ report streamline path bunny --from 0 --to 99 --field distance
 report isolines isolines bunny -s 0 --count 5 -o lines.csv
 report log_map logmap bunny -s 17
 report trace trace bunny --from 17 --fan 3 --length 1
+report centre centre bunny --of 17,900,1500 --weights 1,2,3
+report relaxed sample bunny -n 5 --relax 3 --no-check
 report transport transport bunny --vector 17:1:0
 report extend extend bunny --value 17:1 --value 99:2
 report signed signed bunny --through 17 --through 900 --through 1500 --closed

@@ -32,6 +32,24 @@ TEST_F(Program, LogMapSaysWhereVerticesAreSeen) {
   }
 }
 
+TEST_F(Program, LogMapByWavesEndsWhereItIsTold) {
+  const Json exact = json({"logmap", "bunny", "-s", "17", "--json", "-"});
+  const Json near = json({"logmap", "bunny", "-s", "17", "--method", "wavefront-fine",
+                          "--max-distance", "0.5", "--json", "-"});
+  EXPECT_EQ(near["method"], "wavefront-fine");
+  EXPECT_LT(near["reached"], exact["reached"]);
+  for (std::size_t v = 0; v < exact["log_map"]["distances"].size(); ++v) {
+    const double d = exact["log_map"]["distances"][v];
+    if (d > 0.5) {
+      EXPECT_TRUE(near["log_map"]["distances"][v].is_null()) << v;
+    } else if (d < 0.499) {
+      EXPECT_NEAR(near["log_map"]["distances"][v].get<double>(), d, 1e-3) << v;
+    }
+  }
+  expect_refused({"logmap", "bunny", "-s", "17", "--method", "heat"}, "heat");
+  expect_refused({"logmap", "bunny", "-s", "17", "--max-distance", "0"}, "--max-distance");
+}
+
 TEST_F(Program, LogMapWritesEveryFormat) {
   folder.write("square.obj", kFlatSquare);
   const ProgramRun table = run({"logmap", "square.obj", "-s", "4", "-o", "m.csv", "-o", "m.npy",
@@ -103,6 +121,66 @@ TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
   expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "luck"}, "luck");
   expect_refused({"signed", "square.obj", "--curves", "square.obj"}, "line 2 is no point");
   expect_refused({"signed", "square.obj"}, "--through");
+}
+
+TEST_F(Program, CentreOfTheCornersIsTheMiddle) {
+  folder.write("square.obj", kFlatSquare);
+  folder.write("points.txt", "2  # by the file\nxyz:0:2:0\n");
+  folder.write("weights.txt", "1 1\n1 1\n");
+  const Json mean = json({"centre", "square.obj", "--of", "0,1", "--points", "points.txt",
+                          "--weights", "weights.txt", "--json", "-"});
+  EXPECT_EQ(mean["kind"], "mean");
+  ASSERT_EQ(mean["centres"].size(), 1U);
+  const Json& centre = mean["centres"][0];
+  EXPECT_NEAR(centre["position"][0].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(centre["position"][1].get<double>(), 1, 1e-9);
+  EXPECT_NEAR(centre["energy"].get<double>(), 2, 1e-9);
+  EXPECT_EQ(centre["converged"], true);
+  EXPECT_EQ(mean["of"].size(), 4U);
+  // The corner with most of the weight is the median, and a quarter of the way from it the mean.
+  const std::vector<std::string> two = {"centre",    "square.obj", "--of",   "0,2",
+                                        "--weights", "3,1",        "--json", "-"};
+  EXPECT_NEAR(json(two)["centres"][0]["position"][0].get<double>(), 0.5, 1e-9);
+  auto median = two;
+  median.insert(median.end(), {"--median", "-o", "ways.csv", "-o", "ways.svg"});
+  EXPECT_EQ(json(median)["centres"][0]["point"], 0);
+  EXPECT_NE(bytes_of(folder.path("ways.csv")).find("\n0,0,0,0,0,"), std::string::npos);
+  const ProgramRun table = run({"centre", "square.obj", "--of", "0,2"});
+  EXPECT_NE(table.out.find("mean"), std::string::npos) << table.out;
+}
+
+TEST_F(Program, CentresThatCannotBeAreOneLine) {
+  folder.write("square.obj", kFlatSquare);
+  expect_refused({"centre", "square.obj"}, "--of");
+  expect_refused({"centre", "square.obj", "--of", "99"}, "99");
+  expect_refused({"centre", "square.obj", "--of", "boundary"}, "--of: point 0");
+  expect_refused({"centre", "square.obj", "--of", "0,1", "--weights", "1"},
+                 "1 weights for 2 points");
+  expect_refused({"centre", "square.obj", "--of", "0,1", "--weights", "1,x"}, "'x'");
+  expect_refused({"centre", "square.obj", "--of", "0,1", "--method", "heat"}, "heat");
+  expect_refused({"sample", "square.obj", "-n", "2", "--relax", "0"}, "--relax");
+}
+
+TEST_F(Program, RelaxedSamplesHaveTheEnergyOfEachStep) {
+  const Json report = json({"sample", "bunny", "-n", "12", "--relax", "6", "--no-check", "-o",
+                            "cells.csv", "--samples", "s.csv", "--json", "-"});
+  const Json& relaxation = report["relaxation"];
+  const auto energies = relaxation["energies"].get<std::vector<double>>();
+  ASSERT_EQ(energies.size(), 7U);
+  for (std::size_t i = 1; i < energies.size(); ++i) EXPECT_LT(energies[i], energies[i - 1]);
+  EXPECT_EQ(relaxation["points"].size(), 12U);
+  const std::string samples = bytes_of(folder.path("s.csv"));
+  EXPECT_TRUE(samples.starts_with("sample,face,b0,b1,b2,x,y,z\n0,")) << samples;
+  // Every vertex has the distance to the nearest of the moved ones.
+  double sum = 0;
+  for (const Json& point : relaxation["points"]) sum += point["cell"].get<double>();
+  EXPECT_EQ(sum, report["model"]["vertices"].get<double>());
+}
+
+TEST_F(Program, SourcesThatAreMaskedOutAreSaidToBe) {
+  folder.write("square.obj", kFlatSquare);
+  folder.write("mask.txt", "0 0 1 0 0\n");
+  expect_refused({"solve", "square.obj", "-s", "2", "--mask", "mask.txt"}, "masked out");
 }
 
 TEST_F(Program, DirectionsThatCannotBeAreOneLine) {

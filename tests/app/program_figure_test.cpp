@@ -201,6 +201,35 @@ TEST_F(ProgramFigure, OfValuesInAFileIsThatOfTheSameDistances) {
   EXPECT_LT(others, a.size() / 100);
 }
 
+/// How many of the numbers of two pictures differ.
+double share_of_others(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) others += std::abs(a[i] - b[i]) > 16 ? 1 : 0;
+  return static_cast<double>(others) / static_cast<double>(a.size());
+}
+
+TEST_F(ProgramFigure, OfVectorsHasArrowsAndOfLogMapsLines) {
+  const std::vector<std::string> plain = {"--no-caption", "--no-markers", "--no-bar", "--size",
+                                          "500x400"};
+  const auto of = [&](std::vector<std::string> words) {
+    words.insert(words.end(), plain.begin(), plain.end());
+    return picture(words).pixels;
+  };
+  run({"transport", "bunny", "--vector", "17:1:0", "-o", "v.npy"});
+  run({"transport", "bunny", "--vector", "17:0:1", "-o", "w.npy"});
+  const auto along = of({"bunny", "--field", "v.npy"}), across = of({"bunny", "--field", "w.npy"});
+  const double turned = share_of_others(along, across);
+  EXPECT_GT(turned, 0.01);  // arrows
+  EXPECT_LT(turned, 0.3);
+  run({"logmap", "bunny", "-s", "17", "-o", "map.npy"});
+  run({"solve", "bunny", "-s", "17", "--method", "exact", "-o", "d.npy"});
+  const double rays =
+      share_of_others(of({"bunny", "--field", "map.npy"}), of({"bunny", "--field", "d.npy"}));
+  EXPECT_GT(rays, 0.002);  // lines
+  EXPECT_LT(rays, 0.2);
+}
+
 TEST_F(ProgramFigure, OfValuesBelowZeroHasZeroInTheMiddle) {
   const std::string header =
       "{'descr': '<f4', 'fortran_order': False, 'shape': (4,), }" + std::string(60, ' ');

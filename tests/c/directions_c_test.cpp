@@ -39,7 +39,7 @@ class CDirections : public testing::Test {
 };
 
 TEST_F(CDirections, LogMapIsWhereVerticesAre) {
-  ASSERT_EQ(geotherm_log_map(model, &point, nullptr, &answer), GEOTHERM_OK);
+  ASSERT_EQ(geotherm_log_map(model, &point, nullptr, INFINITY, nullptr, &answer), GEOTHERM_OK);
   const double* const distances = array("distances", 5, 1);
   const double* const directions = array("directions", 5, 1);
   const double* const frame = array("frame", 1, 9);
@@ -97,9 +97,59 @@ TEST_F(CDirections, SignedDistanceHasTheSideOfALoop) {
   EXPECT_STREQ(rule, "sides");
 }
 
+TEST_F(CDirections, MeansAndMediansOfTheCornersAreTheMiddle) {
+  geotherm_source corners[4];
+  for (int v = 0; v < 4; ++v) corners[v] = {GEOTHERM_VERTEX, v, {}, 0};
+  const geotherm_sources points = {corners, 4, nullptr, 0, nullptr};
+  for (const char* kind : {"mean", "median"}) {
+    ASSERT_EQ(geotherm_centres(model, &points, nullptr, kind, nullptr, nullptr, &answer),
+              GEOTHERM_OK);
+    const double* const place = array("points", 1, 3);
+    EXPECT_NEAR(std::hypot(place[0] - 1, place[1] - 1), 0, 1e-9);
+    EXPECT_NEAR(array("energies", 1, 1)[0], kind[3] == 'n' ? 2 : std::sqrt(2), 1e-9);
+    for (int v = 0; v < 4; ++v) EXPECT_NEAR(array("distances", 1, 4)[v], std::sqrt(2), 1e-9);
+    geotherm_free(answer);
+  }
+  double weight[] = {3, 1, 0, 0};
+  const geotherm_array weights = {weight, GEOTHERM_FLOAT64, 4, 1, 0, 0};
+  ASSERT_EQ(geotherm_centres(model, &points, &weights, nullptr, "exact", nullptr, &answer),
+            GEOTHERM_OK);
+  EXPECT_NEAR(array("points", 1, 3)[0], 0.5, 1e-9);
+  EXPECT_NEAR(array("points", 1, 3)[1], 0, 1e-9);
+}
+
+TEST_F(CDirections, RelaxingOnePointLeadsToTheMiddle) {
+  geotherm_solver* solver = nullptr;
+  ASSERT_EQ(geotherm_solver_new(model, nullptr, nullptr, &solver), GEOTHERM_OK);
+  const geotherm_source corner = {GEOTHERM_VERTEX, 0, {}, 0};
+  const geotherm_sources begin = {&corner, 1, nullptr, 0, nullptr};
+  ASSERT_EQ(geotherm_relax(solver, &begin, 1, nullptr, &answer), GEOTHERM_OK);
+  EXPECT_NEAR(array("points", 1, 3)[0], 1, 1e-9);
+  EXPECT_NEAR(array("points", 1, 3)[1], 1, 1e-9);
+  EXPECT_NEAR(array("energies", 2, 1)[0], 40.0 / 3, 1e-9);
+  EXPECT_NEAR(array("energies", 2, 1)[1], 16.0 / 3, 1e-9);
+  EXPECT_NEAR(array("moves", 1, 1)[0], std::sqrt(2), 1e-9);
+  geotherm_free(answer);
+
+  const geotherm_source ends[] = {{GEOTHERM_VERTEX, 2, {}, 0}, {GEOTHERM_XYZ, 0, {1, 0.5, 0}, 0}};
+  const geotherm_sources to = {ends, 2, nullptr, 0, nullptr};
+  ASSERT_EQ(geotherm_paths(solver, &point, &to, nullptr, &answer), GEOTHERM_OK);
+  EXPECT_NEAR(array("lengths", 2, 1)[0], std::sqrt(2), 1e-9);
+  EXPECT_NEAR(array("lengths", 2, 1)[1], 0.5, 1e-9);
+  geotherm_free(solver);
+}
+
 TEST_F(CDirections, WhatIsNullIsAnError) {
-  EXPECT_EQ(geotherm_log_map(nullptr, &point, nullptr, &answer), GEOTHERM_BAD_INPUT);
-  EXPECT_EQ(geotherm_log_map(model, &point, nullptr, nullptr), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_log_map(nullptr, &point, nullptr, 1, nullptr, &answer), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_log_map(model, &point, nullptr, 1, nullptr, nullptr), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_log_map(model, &point, nullptr, 0, nullptr, &answer), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_log_map(model, &point, "heat", 1, nullptr, &answer), GEOTHERM_NOT_AVAILABLE);
+  EXPECT_EQ(geotherm_centres(model, nullptr, nullptr, nullptr, nullptr, nullptr, &answer),
+            GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_centres(model, &point, nullptr, "middle", nullptr, nullptr, &answer),
+            GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_relax(nullptr, &point, 1, nullptr, &answer), GEOTHERM_BAD_INPUT);
+  EXPECT_EQ(geotherm_paths(nullptr, &point, &point, nullptr, &answer), GEOTHERM_BAD_INPUT);
   EXPECT_EQ(geotherm_trace(model, nullptr, 0, 1, nullptr, &answer), GEOTHERM_BAD_INPUT);
   EXPECT_EQ(geotherm_transport(nullptr, nullptr, nullptr, nullptr, nullptr, nullptr),
             GEOTHERM_BAD_INPUT);

@@ -25,11 +25,13 @@ MethodOptions with_method(MethodKind kind) {
 constexpr double kPi = std::numbers::pi;
 /// What exact answers may be off by, as a share of the size.
 constexpr double kExact = 1e-9;
+/// What waves may be off by on average.
+constexpr double kWaves = 1e-3;
 
-LogMap log_map(const MeshPtr& mesh, const SurfacePoint& point) {
+LogMap log_map(const MeshPtr& mesh, const SurfacePoint& point, const LogMapOptions& options = {}) {
   const auto directions = Directions::build(mesh);
   EXPECT_TRUE(directions) << directions.error().message;
-  auto map = (*directions)->log_map(point);
+  auto map = (*directions)->log_map(point, options);
   EXPECT_TRUE(map) << map.error().message;
   return *std::move(map);
 }
@@ -42,6 +44,24 @@ void expect_plane(const MeshPtr& mesh, const SurfacePoint& point) {
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     const Vec3 found = map.frame.vector(map.directions[v], map.distances[v]);
     EXPECT_NEAR((middle + found - mesh->positions()[v]).norm(), 0, kExact) << v;
+  }
+}
+
+/// Waves from all kinds of points, far beyond where windows go along with them.
+TEST(LogMap, ByWavesOfThePlaneIsNearThePlane) {
+  const MeshPtr mesh = finish(jittered_plane(120, 0.2, 9));
+  for (const MethodKind method : {MethodKind::kWavefront, MethodKind::kWavefrontFine}) {
+    for (const SurfacePoint& point :
+         {SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(grid_vertex(120, 15, 3)),
+          SurfacePoint::in_face(77, {0.2, 0.5, 0.3}), SurfacePoint::in_face(78, {0.25, 0.75, 0})}) {
+      const LogMap map = log_map(mesh, point, {method, kUnreached, {}});
+      double sum = 0;
+      for (Index v = 0; v < mesh->vertex_count(); ++v) {
+        const Vec3 found = map.frame.vector(map.directions[v], map.distances[v]);
+        sum += (position_at(*mesh, point) + found - mesh->positions()[v]).norm();
+      }
+      EXPECT_LT(sum / mesh->vertex_count(), kWaves) << to_text(method);
+    }
   }
 }
 
@@ -178,9 +198,9 @@ TEST(LogMap, BesideTheTipOfAConeIsExact) { expect_cone_beside_tip(cone(6, 0.8, 0
 TEST(LogMap, BehindASaddleStartsTowardsIt) { expect_cone_beside_tip(cone(6, 0, 0.9)); }
 
 /// Vertices in a sphere of level `level` in the map of `source`, against the sphere's own.
-double mean_error_on_sphere(int level, Index source) {
+double mean_error_on_sphere(int level, Index source, MethodKind method = MethodKind::kExact) {
   const MeshPtr mesh = finish(sphere(level));
-  const LogMap map = log_map(mesh, SurfacePoint::at_vertex(source));
+  const LogMap map = log_map(mesh, SurfacePoint::at_vertex(source), {method, kUnreached, {}});
   const Vec3 pole = mesh->positions()[source];
   double sum = 0;
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
@@ -199,6 +219,47 @@ TEST(LogMap, OfSpheresConvergesToTheirs) {
   EXPECT_LT(fine, coarse / 2);
   EXPECT_LT(finest, fine / 2);
   EXPECT_LT(finest, 0.01);
+}
+
+TEST(LogMap, ByWavesOfASphereIsAsNear) {
+  for (const MethodKind method : {MethodKind::kWavefront, MethodKind::kWavefrontFine}) {
+    EXPECT_LT(mean_error_on_sphere(6, 20, method), 0.005);
+  }
+}
+
+TEST(LogMap, EndsAtItsReach) {
+  const MeshPtr mesh = finish(sphere(4));
+  const SurfacePoint source = SurfacePoint::at_vertex(20);
+  for (const MethodKind method : {MethodKind::kExact, MethodKind::kWavefront}) {
+    const LogMap whole = log_map(mesh, source, {method, kUnreached, {}});
+    const LogMap near = log_map(mesh, source, {method, 0.5, {}});
+    const LogMap one = log_map(mesh, source, {method, kUnreached, {77, 500}});
+    int inside = 0;
+    for (Index v = 0; v < mesh->vertex_count(); ++v) {
+      const bool in = whole.distances[v] <= 0.5;
+      inside += in;
+      EXPECT_EQ(near.distances[v], in ? whole.distances[v] : kUnreached);
+      EXPECT_EQ(std::isfinite(near.directions[v]), in);
+      if (in) {
+        EXPECT_EQ(near.directions[v], whole.directions[v]);
+      }
+      EXPECT_EQ(std::isfinite(one.distances[v]), v == 77 || v == 500);
+    }
+    EXPECT_GT(inside, 50);
+    EXPECT_EQ(one.distances[500], whole.distances[500]);
+    EXPECT_EQ(one.directions[77], whole.directions[77]);
+  }
+}
+
+TEST(LogMap, RefusesMethodsWithoutDirections) {
+  const auto directions = Directions::build(finish(sphere(1)));
+  ASSERT_TRUE(directions);
+  const auto map =
+      (*directions)->log_map(SurfacePoint::at_vertex(0), {MethodKind::kHeat, kUnreached, {}});
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().code, ErrorCode::kNotAvailable);
+  EXPECT_FALSE(
+      (*directions)->log_map(SurfacePoint::at_vertex(0), {MethodKind::kExact, kUnreached, {9999}}));
 }
 
 TEST(LogMap, PassesTheSeamOfAMoebiusStrip) {
@@ -252,6 +313,14 @@ TEST_P(LogMapOnBroken, MeshesIsFiniteOrOneSentence) {
       }
       const auto distances = (*exact)->solve(SourceSet::of_vertices({v}));
       ASSERT_TRUE(distances) << broken.recipe;
+      const auto waves =
+          (*directions)
+              ->log_map(SurfacePoint::at_vertex(v), {MethodKind::kWavefront, kUnreached, {}});
+      EXPECT_TRUE(waves || waves.error().message.find('\n') == std::string::npos);
+      for (std::size_t w = 0; waves && w < waves->distances.size(); ++w) {
+        EXPECT_EQ(std::isfinite(waves->distances[w]), std::isfinite(waves->directions[w]))
+            << broken.recipe;
+      }
       double size = 0;
       for (const double d : distances->distances)
         size = std::isfinite(d) ? std::max(size, d) : size;

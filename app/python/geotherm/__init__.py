@@ -11,7 +11,8 @@ Lengths are in the model's own units; vertices and faces are numbered from 0; a 
 infinite where no source can be reached. What cannot be done is an Error.
 """
 
-from geotherm._answers import Line, Lines, Result, Samples, isolines
+from geotherm._answers import Line, Lines, Relaxed, Result, Samples, isolines
+from geotherm._centres import Centres, centres
 from geotherm._directions import (
     LogMap,
     Vectors,
@@ -35,6 +36,7 @@ def __getattr__(name: str) -> str:
 
 
 __all__ = [
+    "Centres",
     "Error",
     "Grid",
     "InputError",
@@ -45,11 +47,13 @@ __all__ = [
     "Model",
     "PointCloud",
     "Polygons",
+    "Relaxed",
     "Result",
     "Samples",
     "Solver",
     "TetMesh",
     "Vectors",
+    "centres",
     "extend",
     "farthest_points",
     "features",

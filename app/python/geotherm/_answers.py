@@ -228,6 +228,36 @@ class Samples:
         return f"<geotherm.Samples: {len(self)}, radius {self.radius[-1]:g}>"
 
 
+class Relaxed:
+    """Points moved to the means of their cells.
+
+    Attributes:
+        points: (K, 3), model units.
+        faces: (K,) int32, and weights: (K, 3): the points in these.
+        distances: (V,): to the nearest of them.
+        nearest: (V,) int32: its number, -1 where there is none.
+        energies: before the first step and after each: the sum of area times distance^2; they fall.
+        moves: of each step, how far the points went at most.
+        settled: whether the last step gained nothing, so that the iteration ended.
+    """
+
+    def __init__(self, handle: Handle) -> None:
+        self.points = view(handle, "points")
+        self.faces = view(handle, "faces")
+        self.weights = view(handle, "weights")
+        self.distances = view(handle, "distances")
+        self.nearest = view(handle, "nearest_source")
+        self.energies = view(handle, "energies")
+        self.moves = view(handle, "moves")
+        self.settled = bool(view(handle, "settled")[0])
+
+    def __len__(self) -> int:
+        return len(self.faces)
+
+    def __repr__(self) -> str:
+        return f"<geotherm.Relaxed: {len(self)}, energy {self.energies[-1]:g}>"
+
+
 def isolines(
     model: Model,
     values: Any,

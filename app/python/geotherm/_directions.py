@@ -54,12 +54,21 @@ class Vectors:
         self.frames: AnyArray = view(handle, "frames").reshape(-1, 3, 3)
 
 
-def log_map(model: Model, point: Any, *, progress: Progress = None) -> LogMap:
-    """The logarithmic map about a point, exact on the faces.
+def log_map(
+    model: Model,
+    point: Any,
+    *,
+    method: str = "exact",
+    max_distance: float = np.inf,
+    progress: Progress = None,
+) -> LogMap:
+    """The logarithmic map about a point.
 
     Args:
         model: a mesh.
         point: a vertex, (face, weights), or a place [x, y, z].
+        method: "exact" (on the faces), or "wavefront", "wavefront-fine": near exact, and fast.
+        max_distance: what is farther is infinite.
 
     >>> here = geotherm.log_map(mesh, 17)
     >>> here.coordinates.shape, float(here.distances[17])
@@ -67,7 +76,15 @@ def log_map(model: Model, point: Any, *, progress: Progress = None) -> LogMap:
     """
     taken = Taken([point], "point", sets=True)
     with Watch(progress) as watch:
-        return LogMap(create("log_map", model._handle.value, taken.pointer, watch.pointer))
+        handle = create(
+            "log_map",
+            model._handle.value,
+            taken.pointer,
+            text_bytes(method, "method"),
+            float(max_distance),
+            watch.pointer,
+        )
+    return LogMap(handle)
 
 
 def trace(

@@ -133,7 +133,12 @@ _SIGNATURES: dict[str, tuple[Any, ...]] = {
     "path": (c_void_p, POINTER(Sources), c_char_p, c_int, c_void_p, _Handles),
     "isolines": (c_void_p, POINTER(Array), POINTER(Array), _Handles),
     "samples": (c_void_p, c_int64, c_int64, c_void_p, _Handles),
-    "log_map": (c_void_p, POINTER(Sources), c_void_p, _Handles),
+    "log_map": (c_void_p, POINTER(Sources), c_char_p, c_double, c_void_p, _Handles),
+    "centres": (
+        c_void_p, POINTER(Sources), c_void_p, c_char_p, c_char_p, c_void_p, _Handles
+    ),
+    "relax": (c_void_p, POINTER(Sources), c_int64, c_void_p, _Handles),
+    "paths": (c_void_p, POINTER(Sources), POINTER(Sources), c_void_p, _Handles),
     "trace": (c_void_p, POINTER(Sources), c_double, c_double, c_void_p, _Handles),
     "transport": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),
     "extend": (c_void_p, c_void_p, POINTER(Array), POINTER(Array), c_void_p, _Handles),

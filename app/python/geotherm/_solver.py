@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from geotherm._answers import Line, Lines, Result, Samples
+from geotherm._answers import Line, Lines, Relaxed, Result, Samples
 from geotherm._arrays import AnyArray, described, given, output
 from geotherm._library import (
     Handle,
@@ -272,6 +272,37 @@ class Solver:
                 watch.pointer,
             )
         return Lines(handle, values=False)[0]
+
+    def paths(self, start: Any, ends: Any, *, progress: Progress = None) -> Lines:
+        """The shortest paths from one point to each of others, in their order; the distances from it
+        are computed once.
+
+        >>> len(solver.paths(17, [99, 300, 900]))
+        3
+        """
+        begin, end = Taken([start], "start", sets=True), Taken(ends, "ends", sets=True)
+        with Watch(progress) as watch:
+            handle = create(
+                "paths", self._handle.value, begin.pointer, end.pointer, watch.pointer
+            )
+        return Lines(handle, values=False)
+
+    def relax(self, points: Any, steps: int, *, progress: Progress = None) -> Relaxed:
+        """Lloyd's iteration: each point moves to the mean of the vertices nearest to it, `steps` times
+        or until nothing is gained. By this solver's distances, in place of heat by wavefront's.
+
+        Args:
+            points: a list of vertices, (face, weights), places.
+
+        >>> relaxed = solver.relax(solver.farthest_points(10).vertices, 5)
+        >>> bool(relaxed.energies[-1] < relaxed.energies[0])
+        True
+        """
+        taken = Taken(points, "points", sets=True)
+        with Watch(progress) as watch:
+            return Relaxed(
+                create("relax", self._handle.value, taken.pointer, int(steps), watch.pointer)
+            )
 
     def farthest_points(
         self, count: int, *, first: int | None = None, progress: Progress = None

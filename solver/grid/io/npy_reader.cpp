@@ -78,14 +78,19 @@ RawGrid read_npy(std::string_view bytes) {
   return grid;
 }
 
-std::vector<double> read_npy_values(std::string_view bytes) {
+NpyTable read_npy_table(std::string_view bytes) {
   const NpyHeader header = read_npy_header(bytes);
-  if (header.shape.size() != 1) {
+  const std::size_t axes = header.shape.size();
+  if (axes != 1 && axes != 2) {
     fail_at_byte(bytes, bytes.data() + header.shape_place,
-                 "the array has " + counted_text(header.shape.size(), "dimension", "dimensions") +
-                     "; values of vertices have 1");
+                 "the array has " + std::to_string(axes) +
+                     " dimensions; values of vertices have 1, vectors 2");
   }
-  return numbers_behind(bytes, header, count_samples({header.shape.front(), 1, 1}));
+  const std::array<std::int64_t, 3> size = {axes == 2 ? header.shape[1] : 1, header.shape[0], 1};
+  NpyTable out{numbers_behind(bytes, header, count_samples(size)),
+               static_cast<std::size_t>(size[0])};
+  if (header.fortran && axes == 2) out.values = in_c_order(out.values, size);
+  return out;
 }
 
 }  // namespace geotherm::io

@@ -42,8 +42,12 @@ std::vector<double> decode_samples(std::string_view bytes, std::size_t count, Vt
 RawGrid::Values values_of(VtkType type);
 
 RawGrid read_npy(std::string_view bytes);
-/// The numbers of an array with one axis.
-std::vector<double> read_npy_values(std::string_view bytes);
+/// An array with one axis, or the rows of one with two, one after the other.
+struct NpyTable {
+  std::vector<double> values;
+  std::size_t columns = 1;
+};
+NpyTable read_npy_table(std::string_view bytes);
 RawGrid read_png(std::string_view bytes);
 RawGrid read_vti(std::string_view bytes);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geotherm/distance_method.h"
 #include "geotherm/error.h"
 #include "geotherm/mesh.h"
 #include "geotherm/names.h"
@@ -14,7 +15,7 @@
 #include "geotherm/progress.h"
 
 // Directions on a triangle mesh: tangent planes, logarithmic maps, straightest lines, vectors and
-// values carried over the surface, and on which side of a curve it is.
+// values carried over the surface, on which side of a curve it is, and centres of points.
 namespace geotherm {
 
 /// The axes in which directions at a point are said. A direction is an angle in radians from e1
@@ -43,6 +44,15 @@ struct LogMap {
   std::vector<double> distances;   ///< V, model units; kUnreached where no path leads
   std::vector<double> directions;  ///< V, radians, -pi to pi, on a border 0 to its angle, as the
                                    ///< path leaves the point; NaN where there is no path
+};
+
+/// How a log map is carried along, and how far.
+struct LogMapOptions {
+  /// kExact, by windows; kWavefront and kWavefrontFine are near exact and many times as fast.
+  MethodKind method = MethodKind::kExact;
+  double max_distance = kUnreached;  ///< > 0, model units; what is farther is kUnreached
+  /// In [0, V): the map ends when all of these have their place, and is theirs alone; empty: all.
+  std::vector<Index> targets = {};
 };
 
 /// Why a straightest line ends.
@@ -96,10 +106,13 @@ class Directions {
   /// Errors: kBadInput (a point that is not on the mesh, a vertex whose faces are no single fan).
   Result<TangentFrame> frame_at(const SurfacePoint& point) const;
 
-  /// The logarithmic map about a point, carried along by exact windows: exact on polyhedra. Paths
-  /// that bend round a vertex have the direction of their first piece. Errors: those of frame_at(),
-  /// a point on an edge with three faces or more, those of exact distances. Cost: an exact query.
-  Result<LogMap> log_map(const SurfacePoint& point, const Progress& progress = {}) const;
+  /// The logarithmic map about a point. Carried along by exact windows it is exact on polyhedra, by
+  /// waves near exact (docs/directions.md says how near). Paths that bend round a vertex have the
+  /// direction of their first piece. Errors: those of frame_at(), a point on an edge with three
+  /// faces or more, another method, an empty reach, those of the method. Cost: a query of the
+  /// method, by waves as much again; windows within max_distance or as far as the targets.
+  Result<LogMap> log_map(const SurfacePoint& point, const LogMapOptions& options = {},
+                         const Progress& progress = {}) const;
 
   /// The straightest line (Polthier, Schmies 1998) from a point in a direction: straight across
   /// edges, and with the same angle on both sides at vertices. `length` in model units. It may pass
@@ -192,5 +205,82 @@ Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>
                                        SideRule rule = SideRule::kAuto,
                                        const SpreadOptions& options = {},
                                        const Progress& progress = {});
+
+/// What a centre is of.
+enum class CentreKind {
+  kMean,    ///< sum of w d^2 is least (Frechet 1948, Karcher 1977)
+  kMedian,  ///< sum of w d is least (Fletcher, Venkatasubramanian, Joshi 2009)
+};
+inline NamedValues<CentreKind> named_values(CentreKind) {
+  return {"there is no centre '*'", {{CentreKind::kMean, "mean"}, {CentreKind::kMedian, "median"}}};
+}
+
+/// How a centre is looked for.
+struct CentreOptions {
+  CentreKind kind = CentreKind::kMean;     ///< of two
+  MethodKind method = MethodKind::kExact;  ///< of the log maps (LogMapOptions)
+  int max_steps = 100;                     ///< of each descent, >= 1
+  int threads = 0;                         ///< of the first search; 0: all cores
+};
+
+/// A point where the energy is least, round it at least.
+struct Centre {
+  SurfacePoint point;      ///< where it is
+  double energy = 0;       ///< mean of w d^2 (model units squared), or of w d
+  double residual = 0;     ///< length of the step that was left to do, model units
+  bool converged = false;  ///< the residual is 1e-5 of the mean distance or less (waves: 5e-3)
+  std::vector<double> distances;  ///< K: to the points
+  /// Where the descent began and after each step; they fall. With exact maps on more than 20,000
+  /// faces it begins where one by waves has ended.
+  std::vector<double> energies;
+};
+
+/// All centres that were found.
+struct Centres {
+  std::vector<Centre> found;      ///< the first has the least energy; in its order
+  std::vector<Warning> warnings;  ///< one sentence each: several minima, descents that stalled
+};
+
+/// Frechet means or medians of points with weights: where the energy, the sum of w d^2 or w d over
+/// the sum of w, is least. Near-exact distances from every point show at which vertices it is low;
+/// from the lowest of these, eight at most, it descends: in the tangent plane of a log map the mean
+/// or the median is found (Weiszfeld 1937; at the points themselves as in Vardi, Zhang 2000), and a
+/// straightest line leads there, half as far and so on until the energy falls. Further minima whose
+/// energy is at most 2 % more are found, too. At tips, on the border and at creases of the
+/// distances a descent can stall; then it has not converged.
+///
+/// `points`: K, on one component. `weights`: K, >= 0, some above; none: all 1. Errors: kBadInput
+/// (no point, other numbers of weights, points in several components, an option out of range),
+/// those of log_map(). Cost: K wavefront queries and a log map for each step.
+Result<Centres> find_centres(const std::shared_ptr<const TriangleMesh>& mesh,
+                             std::span<const SurfacePoint> points,
+                             std::span<const double> weights = {},
+                             const CentreOptions& options = {}, const Progress& progress = {});
+
+/// Points moved to the middle of their cells.
+struct RelaxedPoints {
+  std::vector<SurfacePoint> points;  ///< K
+  std::vector<double> distances;     ///< V: to the nearest of them; kUnreached where none can be
+  std::vector<Index> nearest;        ///< V: its number, kNoIndex where none can be
+  /// Before the first step and after each that was made: the sum over vertices of d^2 times a third
+  /// of the area of their faces, model units^4. It falls with every one.
+  std::vector<double> energies;
+  std::vector<double> moves;  ///< of each step: how far the points went, the farthest, model units
+  bool settled = false;       ///< ended because no step lowers the energy
+};
+
+/// Lloyd's iteration (Lloyd 1957; on surfaces: Peyre, Cohen 2006): each point moves to the mean of
+/// the vertices that are nearest to it, by a log map of its cell and a straightest line, `steps`
+/// times or until the energy does not fall, towards a geodesic centroidal Voronoi tessellation. A
+/// step that would raise the energy is halved. Points on edges with three faces, or at vertices of
+/// several fans, stay.
+///
+/// `method`: on `mesh`, one that says the nearest source (all but heat). Errors: kBadInput (no
+/// point, negative steps), kNotAvailable (the heat method), those of queries. Cost: a query a step,
+/// and exact ones in the cells.
+Result<RelaxedPoints> relax_points(const DistanceMethod& method,
+                                   const std::shared_ptr<const TriangleMesh>& mesh,
+                                   std::span<const SurfacePoint> points, int steps,
+                                   const Progress& progress = {}, int threads = 0);
 
 }  // namespace geotherm

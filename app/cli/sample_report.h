@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/cli/many_work.h"
+#include "app/session/model.h"
+#include "app/session/report.h"
+#include "geotherm/directions.h"
+#include "geotherm/many.h"
+
+// What `sample` has to say.
+namespace geotherm::app {
+
+/// All there is to say about samples.
+struct SampleFigures {
+  Model model;
+  MeshReport mesh;
+  std::shared_ptr<const DistanceMethod> method;
+  MethodOptions options;
+  FarthestPoints points;
+  double sampling_ms = 0;
+  double peak_rss_mb = 0;
+  std::vector<Warning> warnings;
+  std::optional<SampleCheck> error = {};      ///< of some samples; none: not to be checked
+  std::optional<SampleCheck> replaced = {};   ///< of the poor method that this one stands for
+  std::optional<RelaxedPoints> relaxed = {};  ///< from the samples on
+  double relaxing_ms = 0;
+
+  /// Of every vertex, to the samples where they are in the end.
+  const std::vector<double>& distances() const {
+    return relaxed ? relaxed->distances : points.distances;
+  }
+  const std::vector<Index>& nearest() const { return relaxed ? relaxed->nearest : points.nearest; }
+};
+
+Json sample_json(const SampleFigures& figures);
+
+/// What `sample` shows to people: the figures and the first samples.
+std::string sample_table(const SampleFigures& figures);
+
+/// `sample,vertex,x,y,z,distance,radius`, one sample a line; `sample,face,b0,b1,b2,x,y,z` where
+/// they were relaxed.
+std::string samples_csv(const SampleFigures& figures);
+
+/// The numbers of a line of that but for the first, as a row of a .npy array.
+std::vector<double> sample_row(const SampleFigures& figures, std::size_t sample);
+
+}  // namespace geotherm::app

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "solver/directions/wave_directions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solver/directions/directions_state.h"
+
+#define GEOTHERM_KERNEL_NAMESPACE direction_waves
+#include "solver/polyhedral/wave_fit.inl"
+
+namespace geotherm {
+namespace {
+
+using direction_waves::Fit;
+using direction_waves::fit_wave;
+using Point2 = Eigen::Vector2d;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Neighbours on an edge whose directions differ by more than so many times what their distance
+/// explains, and so many radians, are of paths that pass something on two sides.
+constexpr double kTorn = 3, kTornAngle = 0.05;
+
+/// Vertices by rank, then the samples of the edges.
+class DirectionPass {
+ public:
+  DirectionPass(const WaveSurface& surface, const WaveTables& tables, const WaveFront& front,
+                int samples, const WaveStart& start)
+      : surface_(surface),
+        tables_(tables),
+        front_(front),
+        samples_(samples),
+        start_(start),
+        count_(static_cast<std::size_t>(tables.vertex_count())),
+        direction_(count_ + static_cast<std::size_t>(samples) *
+                                static_cast<std::size_t>(tables.edge_count()),
+                   kNone) {}
+
+  std::vector<double> run() {
+    for (std::size_t rank = 0; rank < count_; ++rank) {
+      direction_[rank] = start_.known[static_cast<std::size_t>(tables_.vertex_of_rank[rank])];
+    }
+    for (const WaveStart::Face& face : start_.faces) seed(face);
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::size_t node = 0; node < direction_.size(); ++node) {
+      const double d = value(node);
+      if (d < kUnreached && std::isnan(direction_[node])) {
+        order.emplace_back(d, static_cast<std::uint32_t>(node));
+      }
+    }
+    std::ranges::sort(order);
+    for (const auto& [d, node] : order) {
+      if (node < count_) {
+        set_vertex(node);
+      } else {
+        set_sample(node);
+      }
+    }
+    std::vector<double> out(tables_.rank_of_vertex.size(), kNone);
+    for (std::size_t v = 0; v < out.size(); ++v) {
+      const Index rank = tables_.rank_of_vertex[v];
+      if (rank != kNoIndex) out[v] = direction_[static_cast<std::size_t>(rank)];
+    }
+    return out;
+  }
+
+ private:
+  /// The best way to a node so far.
+  struct Way {
+    double value = kUnreached, direction = kNone;
+  };
+
+  double value(std::size_t node) const {
+    return node < count_ ? front_.distances()[node] : front_.sample_distances()[node - count_];
+  }
+
+  /// The nodes of side k of a face, from its first corner to its last.
+  void nodes_of(const WaveFace& face, int k, std::array<std::size_t, 5>& out) const {
+    out[0] = static_cast<std::size_t>(face.vertex[k]);
+    const bool reversed = (face.reversed >> k & 1U) != 0;
+    for (int i = 0; i < samples_; ++i) {
+      const int own = reversed ? samples_ - 1 - i : i;
+      out[static_cast<std::size_t>(i) + 1] =
+          count_ + static_cast<std::size_t>(samples_) * static_cast<std::size_t>(face.edge[k]) +
+          static_cast<std::size_t>(own);
+    }
+    out[static_cast<std::size_t>(samples_) + 1] =
+        static_cast<std::size_t>(face.vertex[next_corner(k)]);
+  }
+
+  /// What lies in a face at the source is seen straight, unless something is nearer.
+  void seed(const WaveStart::Face& at) {
+    constexpr double kSame = 1 - 1e-9;
+    const WaveFace& face = tables_.faces[tables_.rank_of_face[at.face]];
+    const auto corners =
+        corners_of(surface_.base.intrinsic.lengths[static_cast<std::size_t>(at.face)]);
+    for (int k = 0; k < 3; ++k) {
+      std::array<std::size_t, 5> nodes{};
+      nodes_of(face, k, nodes);
+      for (int i = 0; i <= samples_ + 1; ++i) {
+        const double share = static_cast<double>(i) / (samples_ + 1);
+        const Point2 place = corners[k] + share * (corners[next_corner(k)] - corners[k]);
+        const Point2 way = place - at.from;
+        const std::size_t node = nodes[static_cast<std::size_t>(i)];
+        if (value(node) < kSame * way.norm()) continue;
+        const double angle =
+            std::atan2(at.along.x() * way.y() - at.along.y() * way.x(), at.along.dot(way));
+        direction_[node] = at.turn.mirrored ? at.turn.turn - angle : at.turn.turn + angle;
+      }
+    }
+    mirrored_ = at.turn.mirrored;  // all alike where the surface is oriented
+  }
+
+  void set_vertex(std::size_t node) {
+    Way best;
+    for (const SideCode code : tables_.corners_at(static_cast<Index>(node))) {
+      const int opposite = next_corner(corner_of_code(code));
+      cross(tables_.faces[face_of_code(code)], opposite, 1, 0, best);
+    }
+    direction_[node] = best.direction;
+  }
+
+  void set_sample(std::size_t node) {
+    const std::size_t number = node - count_;
+    const auto edge = number / static_cast<std::size_t>(samples_);
+    const int i = static_cast<int>(number % static_cast<std::size_t>(samples_));
+    const double share = (i + 1.0) / (samples_ + 1);
+    Way best;
+    const auto through = [&](SideCode code) {
+      const WaveFace& face = tables_.faces[face_of_code(code)];
+      const int k = corner_of_code(code);
+      const bool reversed = (face.reversed >> k & 1U) != 0;
+      const double from_first = reversed ? 1 - share : share;
+      // Side k + 1 ends at the corner opposite of side k, side k + 2 at its first.
+      cross(face, next_corner(k), 1 - from_first, -1, best);
+      cross(face, previous_corner(k), from_first, 1, best);
+    };
+    const auto& sides = tables_.sides[edge];
+    through(sides[0]);
+    if (sides[1] >= 0) {
+      through(sides[1]);
+    } else if (sides[1] != kNoSideCode) {
+      const SideCode* list = &tables_.more[static_cast<std::size_t>(-2 - sides[1])];
+      for (SideCode j = 1; j <= list[0]; ++j) through(list[j]);
+    }
+    direction_[node] = best.direction;
+  }
+
+  /// The ways through side k of a face to a target: `rise` of the way from the side to the corner
+  /// opposite, starting at the side's first end (`end` -1), its last (1), or anywhere (rise 1).
+  void cross(const WaveFace& face, int k, double rise, int end, Way& best) const {
+    const double length = face.length[k], half = length / 2;
+    const double to_b = face.length[next_corner(k)], to_a = face.length[previous_corner(k)];
+    const double cx = (to_a - to_b) * (to_a + to_b) / (2 * length);
+    const double x = rise * cx + (1 - rise) * end * half, y = rise * face.twice_area / length;
+    std::array<std::size_t, 5> nodes{};
+    nodes_of(face, k, nodes);
+    const std::size_t last = static_cast<std::size_t>(samples_) + 1;
+    std::array<double, 5> values{};
+    for (std::size_t i = 0; i <= last; ++i) values[i] = value(nodes[i]);
+    const auto place = [&](std::size_t i) {
+      return -half + length * static_cast<double>(i) / static_cast<double>(last);
+    };
+    for (std::size_t i = 0; i <= last; i += 2) {
+      const double bent = values[i] + std::hypot(x - place(i), y);
+      if (bent < best.value && !std::isnan(direction_[nodes[i]])) {
+        best = {bent, direction_[nodes[i]]};
+      }
+    }
+    const double step = length / static_cast<double>(last);
+    for (std::size_t i = 0; i + 2 <= last; i += 2) {
+      const Fit fit = fit_wave(place(i + 1), step, values[i], values[i + 1], values[i + 2]);
+      if (fit.kind != Fit::Kind::kWave) continue;
+      along(fit, x - fit.centre, y, {nodes[i], nodes[i + 1], nodes[i + 2]}, best);
+    }
+  }
+
+  /// The way of a fitted wave to (x, y), from the middle of the three nodes that it was fitted to.
+  void along(const Fit& fit, double x, double y, const std::array<std::size_t, 3>& nodes,
+             Way& best) const {
+    const double q = fit.k * (x * x + y * y) + 2 * (fit.uy * y - fit.ux * x);
+    const double square = 1 + fit.k * q;
+    const double gx = fit.k * x - fit.ux, gy = fit.k * y + fit.uy;
+    if (!(square > 0) || !(gy > 0)) return;
+    const double arrives = fit.middle + q / (1 + std::sqrt(square));
+    const double at = x - y * gx / gy;
+    if (!(std::abs(at) <= fit.half * (1 + direction_waves::kRayTolerance))) return;
+    if (!(arrives < best.value)) return;
+    const double found = between(fit, at, nodes);
+    if (!std::isnan(found)) best = {arrives, found};
+  }
+
+  /// The direction of the line through the edge at `at`, from those of the nodes beside it.
+  double between(const Fit& fit, double at, const std::array<std::size_t, 3>& nodes) const {
+    const std::size_t left = at < 0 ? 0 : 1;
+    const double from = left == 0 ? -fit.half : 0, to = from + fit.half;
+    const double a = direction_[nodes[left]], b = direction_[nodes[left + 1]];
+    const double turn_a = turn(fit, from, at), turn_b = turn(fit, to, at);
+    const double sign = mirrored_ ? -1 : 1;
+    const bool nearer_a = at - from < to - at;
+    if (std::isnan(a) || std::isnan(b))
+      return std::isnan(a) ? b + sign * turn_b : a + sign * turn_a;
+    double difference = b - a;
+    if (start_.period > 0) difference = std::remainder(difference, start_.period);
+    const double whole = turn_a - turn_b;
+    const double explained = std::abs(whole) + fit.half / std::max(fit.middle, fit.half);
+    if (std::abs(difference) > kTorn * explained + kTornAngle) {
+      return nearer_a ? a + sign * turn_a : b + sign * turn_b;
+    }
+    const double share = whole != 0 ? turn_a / whole : (at - from) / (to - from);
+    return a + std::clamp(share, 0.0, 1.0) * difference;
+  }
+
+  /// How far the line through `to` is turned against that through `from`, seen from where the wave
+  /// comes from, below the edge.
+  static double turn(const Fit& fit, double from, double to) {
+    if (!(fit.k > 0)) return 0;
+    const double x = fit.ux / fit.k, y = fit.uy / fit.k;
+    return std::atan2(from - x, y) - std::atan2(to - x, y);
+  }
+
+  const WaveSurface& surface_;
+  const WaveTables& tables_;
+  const WaveFront& front_;
+  int samples_;
+  const WaveStart& start_;
+  std::size_t count_;
+  std::vector<double> direction_;
+  bool mirrored_ = false;
+};
+
+}  // namespace
+
+std::vector<double> wave_directions(const WaveSurface& surface, const WaveTables& tables,
+                                    const WaveFront& front, int samples, const WaveStart& start) {
+  return DirectionPass(surface, tables, front, samples, start).run();
+}
+
+}  // namespace geotherm
