@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/picture/picture_text.h"
 #include "bench/bench_mesh.h"

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/drawing/figure_shapes.h"
+#include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/drawing/scene_files.h"
 #include "app/picture/cut_picture.h"

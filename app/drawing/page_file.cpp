@@ -9,6 +9,7 @@
 
 #include "app/drawing/packed_arrays.h"
 #include "app/drawing/page_shaders.h"
+#include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/drawing/scene_files.h"
 #include "app/drawing/scene_mesh.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/session/explored.h"
 #include "engine/renderer.h"

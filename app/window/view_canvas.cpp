@@ -4,7 +4,7 @@
 #include <imgui.h>
 
 #include "app/cli/picture_report.h"
-#include "app/drawing/picture_scene.h"
+#include "app/drawing/picture_camera.h"
 #include "engine/scene/colours.h"
 
 namespace geotherm::app {

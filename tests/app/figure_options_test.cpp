@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/picture/picture_text.h"
 #include "app/picture/png_file.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/drawing/picture_scene.h"
+#include "app/drawing/picture_camera.h"
 
 #include <gtest/gtest.h>
 
