@@ -79,7 +79,7 @@ constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp", ".vtu
 constexpr std::string_view kSessions[] = {kSessionExtension};
 constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};
 constexpr std::string_view kMeshes[] = {".obj", ".ply", ".off", ".stl"};
-constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd"};
+constexpr std::string_view kSequences[] = {".npy", ".pc2", ".mdd", ".glb", ".gltf"};
 constexpr std::string_view kFigures[] = {".json"};
 
 }  // namespace

@@ -133,8 +133,8 @@ void add_sequence_option(CLI::App& command, std::string& frames) {
   command
       .add_option("--sequence", frames,
                   "the surface moves: where its vertices are, frame after frame, in numbered "
-                  "meshes (frame_%04d.obj) or in one .npy (frames x vertices x 3), .pc2 or .mdd; "
-                  "faces and sources are the model's")
+                  "meshes (frame_%04d.obj), in one .npy (frames x vertices x 3), .pc2 or .mdd, or "
+                  "in an animated .glb; faces and sources are the model's")
       ->type_name("FRAMES")
       ->group("Sequences");
 }

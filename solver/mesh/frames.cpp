@@ -201,6 +201,20 @@ struct Frames::Array final : Source {
 
 namespace {
 
+/// The frames of a scene for a mesh. Errors: those of Frames::open().
+Result<io::MovingScene> scene_for(const io::InputFile& file, const std::string& path,
+                                  const TriangleMesh& mesh) {
+  auto scene =
+      io::guarded_read(io::printable(path), "mesh", file.size(),
+                       [&]() -> Result<io::MovingScene> { return io::read_moving_scene(file); });
+  if (!scene) return scene.error();
+  if (auto same = check_faces(scene->mesh, mesh); !same) {
+    return Error{same.error().code, io::printable(path) + ": " + same.error().message,
+                 same.error().hint};
+  }
+  return scene;
+}
+
 /// The header of an array for a mesh. Errors: those of Frames::open().
 Result<io::FrameArray> array_for(const io::InputFile& file, const std::string& path,
                                  const TriangleMesh& mesh) try {
@@ -223,11 +237,19 @@ Result<Frames> Frames::open(const std::string& path, std::shared_ptr<const Trian
     return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),
                                                 *std::move(file), *array));
   }
+  if (!is_numbered(path) && io::is_moving_scene(io::model_extension(path))) {
+    auto file = io::InputFile::open(path);
+    if (!file) return file.error();
+    auto scene = scene_for(*file, path, *mesh);
+    if (!scene) return scene.error();
+    return Frames(std::make_shared<const Array>(std::move(mesh), io::printable(path),
+                                                std::move(scene->file), scene->frames));
+  }
   if (!is_numbered(path)) {
     return Error{ErrorCode::kBadInput,
                  io::printable(path) + ": is no sequence of frames",
-                 {"give numbered meshes, such as frame_%04d.obj, or positions as .npy, .pc2 or "
-                  ".mdd"}};
+                 {"give numbered meshes, such as frame_%04d.obj, positions as .npy, .pc2 or .mdd, "
+                  "or an animated .glb"}};
   }
   auto numbered = NumberedPath::parse(path);
   if (!numbered) return numbered.error();

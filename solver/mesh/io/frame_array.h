@@ -10,6 +10,7 @@
 
 #include "geotherm/types.h"
 #include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/raw_mesh.h"
 
 namespace geotherm::io {
 
@@ -35,5 +36,22 @@ FrameArray read_frame_array(const InputFile& file, std::string_view extension);
 /// The positions of frame k, 0 <= k < frames. Throws ReadFailure and std::bad_alloc. Cost: the
 /// bytes of one frame.
 std::vector<Vec3> read_frame(const InputFile& file, const FrameArray& array, std::int64_t k);
+
+/// A scene that moves: the mesh as it stands, and where its vertices are at each of kSceneFrameRate
+/// frames a second of its first animation, in a file that is there for as long as it is open.
+struct MovingScene {
+  RawMesh mesh;
+  InputFile file;
+  FrameArray frames;
+};
+
+/// Whether files of this extension may be one.
+inline bool is_moving_scene(std::string_view extension) {
+  return extension == ".glb" || extension == ".gltf";
+}
+
+/// Precondition: is_moving_scene() of its extension. Throws ReadFailure and std::bad_alloc. Cost:
+/// that of reading it and of placing its vertices in all frames.
+MovingScene read_moving_scene(const InputFile& file);
 
 }  // namespace geotherm::io

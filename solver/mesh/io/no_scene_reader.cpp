@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In place of scene_reader.cpp where the library is built without Assimp.
+#include "solver/mesh/io/frame_array.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_mesh.h"
 
@@ -15,5 +16,10 @@ RawMesh read_scene(std::string_view /*bytes*/, std::string_view format,
 }
 
 RawMesh read_scene(const InputFile& file) { return read_scene({}, file.extension().substr(1), {}); }
+
+MovingScene read_moving_scene(const InputFile& file) {
+  read_scene(file);
+  throw ReadFailure{"the scene has no animation"};  // not reached
+}
 
 }  // namespace geotherm::io

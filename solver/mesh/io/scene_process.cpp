@@ -10,9 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <span>
@@ -23,6 +26,7 @@
 
 #include "solver/core/memory.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/frame_array.h"
 #include "solver/mesh/io/input_file.h"
 #include "solver/mesh/io/raw_mesh.h"
 #include "solver/mesh/io/scene_reader.h"
@@ -36,11 +40,12 @@ enum class Outcome : std::uint64_t { kMesh = 1, kFailure, kNoMemory };
 struct SceneHeader {
   Outcome outcome = Outcome::kNoMemory;
   std::uint64_t positions = 0, faces = 0, polygons = 0, text = 0;
-  std::int64_t up_axis = -1;
+  std::int64_t up_axis = -1, frames = 0;
 };
 
-std::chrono::seconds longest_time(std::size_t bytes) {
-  return std::chrono::seconds(10 + 2 * (bytes >> 20));
+/// Frames are many times the work of the scene as it stands.
+std::chrono::seconds longest_time(std::size_t bytes, bool frames) {
+  return std::chrono::seconds((frames ? 30 : 1) * (10 + 2 * (bytes >> 20)));
 }
 
 /// What the process may take beyond what it has: scenes that are packed become much larger.
@@ -87,7 +92,7 @@ bool receive(int pipe, void* data, std::size_t size, std::chrono::steady_clock::
 
 /// The work of the process, which ends with it.
 [[noreturn]] void read_and_send(int pipe, std::string_view bytes, std::string_view format,
-                                const std::string& folder) {
+                                const std::string& folder, SceneFrames* frames) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   const rlimit memory{most_memory(bytes.size()), most_memory(bytes.size())};
@@ -100,10 +105,11 @@ bool receive(int pipe, void* data, std::size_t size, std::chrono::steady_clock::
   RawMesh raw;
   std::string text;
   try {
-    raw = read_scene_here(bytes, format, folder);
+    raw = read_scene_here(bytes, format, folder, frames);
     for (const std::string& note : raw.notes) text += note + '\n';
-    header = {Outcome::kMesh,      raw.positions.size(), raw.faces.size(),
-              raw.polygons.size(), text.size(),          raw.up_axis.value_or(-1)};
+    header = {
+        Outcome::kMesh, raw.positions.size(),     raw.faces.size(),          raw.polygons.size(),
+        text.size(),    raw.up_axis.value_or(-1), frames ? frames->count : 0};
   } catch (const ReadFailure& failure) {
     text = failure.message;
     header.outcome = Outcome::kFailure;
@@ -120,14 +126,15 @@ bool receive(int pipe, void* data, std::size_t size, std::chrono::steady_clock::
 
 class SceneProcess {
  public:
-  SceneProcess(std::string_view bytes, std::string_view format, const std::string& folder)
-      : end_(std::chrono::steady_clock::now() + longest_time(bytes.size())),
-        seconds_(longest_time(bytes.size()).count()) {
+  /// `frames`: null: none are wanted; its `count` is filled by mesh().
+  SceneProcess(std::string_view bytes, std::string_view format, const std::string& folder,
+               SceneFrames* frames = nullptr)
+      : frames_(frames), seconds_(longest_time(bytes.size(), frames != nullptr)) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start();
     pipe_ = ends[0];
     child_ = ::fork();
-    if (child_ == 0) read_and_send(ends[1], bytes, format, folder);
+    if (child_ == 0) read_and_send(ends[1], bytes, format, folder, frames);
     ::close(ends[1]);
     if (child_ < 0) fail_to_start();
   }
@@ -156,6 +163,7 @@ class SceneProcess {
       raw.notes.push_back(text.substr(at, end - at));
     }
     if (header.up_axis >= 0) raw.up_axis = static_cast<int>(header.up_axis);
+    if (frames_ != nullptr) frames_->count = header.frames;
     return raw;
   }
 
@@ -168,7 +176,7 @@ class SceneProcess {
   void take(void* data, std::size_t size) {
     if (receive(pipe_, data, size, end_)) return;
     if (std::chrono::steady_clock::now() >= end_) {
-      throw ReadFailure{"Assimp was not done with it after " + std::to_string(seconds_) +
+      throw ReadFailure{"Assimp was not done with it after " + std::to_string(seconds_.count()) +
                             " s: it is damaged or too large",
                         0,
                         {},
@@ -186,8 +194,9 @@ class SceneProcess {
     while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
 
-  std::chrono::steady_clock::time_point end_;
-  std::int64_t seconds_;
+  SceneFrames* frames_;
+  std::chrono::seconds seconds_;
+  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + seconds_;
   int pipe_ = -1;
   pid_t child_ = -1;
 };
@@ -198,13 +207,60 @@ RawMesh read_scene(std::string_view bytes, std::string_view format, const std::s
   return SceneProcess(bytes, format, folder).mesh();
 }
 
+namespace {
+
+/// Of the files that a scene names, with its slash; empty: nowhere.
+std::string folder_of(const InputFile& file) {
+  if (file.is_stream()) return "";
+  const std::size_t slash = file.path().rfind('/');
+  return slash == std::string::npos ? "./" : file.path().substr(0, slash + 1);
+}
+
+/// A file for as long as it is open, in the folder for temporary files.
+class PassingFile {
+ public:
+  PassingFile() : path_(std::filesystem::temp_directory_path() / "geotherm-frames-XXXXXX") {
+    descriptor_ = ::mkostemp(path_.data(), O_CLOEXEC);
+    if (descriptor_ < 0) {
+      throw ReadFailure{"no file can be made for its frames in " + printable(path_) + ": " +
+                            std::generic_category().message(errno),
+                        0,
+                        {},
+                        {"set TMPDIR to a folder with room"}};
+    }
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  ~PassingFile() {
+    ::close(descriptor_);
+    ::unlink(path_.c_str());
+  }
+
+  int descriptor() const { return descriptor_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace
+
 RawMesh read_scene(const InputFile& file) {
-  const std::string& path = file.path();
-  const std::size_t slash = path.rfind('/');
-  const std::string folder = file.is_stream()     ? ""
-                             : slash == path.npos ? "./"
-                                                  : path.substr(0, slash + 1);
-  return read_scene(FileBytes(file).bytes(), file.extension().substr(1), folder);
+  return read_scene(FileBytes(file).bytes(), file.extension().substr(1), folder_of(file));
+}
+
+MovingScene read_moving_scene(const InputFile& file) {
+  const PassingFile passing;
+  SceneFrames frames{passing.descriptor()};
+  const FileBytes bytes(file);
+  RawMesh mesh =
+      SceneProcess(bytes.bytes(), file.extension().substr(1), folder_of(file), &frames).mesh();
+  auto written = InputFile::open_as_is(passing.path());
+  if (!written) throw ReadFailure{written.error().message, 0, {}, written.error().hint};
+  const auto vertices = static_cast<std::int64_t>(mesh.positions.size());
+  return {
+      std::move(mesh), *std::move(written), {frames.count, vertices, true, std::endian::native, 0}};
 }
 
 }  // namespace geotherm::io

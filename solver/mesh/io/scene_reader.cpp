@@ -7,12 +7,14 @@
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -20,10 +22,12 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "solver/core/text.h"
 #include "solver/mesh/io/input_file.h"
+#include "solver/mesh/io/scene_motion.h"
 #include "solver/mesh/io/vertex_welder.h"
 
 namespace geotherm::io {
@@ -100,49 +104,84 @@ class FolderFiles : public Assimp::IOSystem {
   throw ReadFailure{"Assimp cannot read it: " + text};
 }
 
-using Matrix = Eigen::Matrix4d;
-
-Matrix matrix_of(const aiMatrix4x4& from) {
-  Matrix out;
-  for (unsigned r = 0; r < 4; ++r) {
-    for (unsigned c = 0; c < 4; ++c) out(r, c) = static_cast<double>(from[r][c]);
-  }
-  return out;
-}
-
 /// All meshes of a scene where its nodes place them.
 class SceneMesh {
  public:
-  explicit SceneMesh(const aiScene& scene) : scene_(scene), welder_(corner_guess(scene)) {}
+  /// `moves`: write_frames() will follow.
+  SceneMesh(const aiScene& scene, bool keeps_root, bool moves)
+      : scene_(scene), motion_(scene, keeps_root), moves_(moves), welder_(corner_guess(scene)) {}
 
-  RawMesh read(bool keeps_root) {
-    if (scene_.mRootNode == nullptr) throw ReadFailure{"the scene is empty"};
-    struct Placed {
-      const aiNode* node;
-      Matrix transform;
-    };
-    const Matrix root = matrix_of(scene_.mRootNode->mTransformation);
-    std::vector<Placed> left = {{scene_.mRootNode, keeps_root ? root : Matrix::Identity()}};
+  RawMesh read() {
+    std::vector<const aiNode*> left = {scene_.mRootNode};
     while (!left.empty()) {  // no recursion: nodes may be nested as deep as a file likes
-      const Placed at = left.back();
+      const aiNode& node = *left.back();
       left.pop_back();
-      for (unsigned m = 0; m < at.node->mNumMeshes; ++m) add(at.node->mMeshes[m], at.transform);
-      for (unsigned c = at.node->mNumChildren; c > 0; --c) {
-        const aiNode* const child = at.node->mChildren[c - 1];
-        left.push_back({child, at.transform * matrix_of(child->mTransformation)});
-      }
+      for (unsigned m = 0; m < node.mNumMeshes; ++m) add(node.mMeshes[m], node);
+      for (unsigned c = node.mNumChildren; c > 0; --c) left.push_back(node.mChildren[c - 1]);
     }
     return finished();
   }
 
+  /// Returns how many were written. Precondition: read() has returned `vertices` vertices.
+  std::int64_t write_frames(int descriptor, std::size_t vertices) {
+    constexpr double kMostFrames = 1e5;
+    const double last = std::floor(motion_.seconds() * kSceneFrameRate + 1e-6);
+    if (!(last < kMostFrames)) {
+      throw ReadFailure{"its animation has more than 100000 frames, at " +
+                        std::to_string(kSceneFrameRate) + " a second"};
+    }
+    if (!(motion_.seconds() > 0)) throw ReadFailure{"the scene has no animation"};
+    std::vector<Vec3> frame(vertices), placed;
+    const auto count = static_cast<std::int64_t>(last) + 1;
+    for (std::int64_t k = 0; k < count; ++k) {
+      motion_.set_time(static_cast<double>(k) / kSceneFrameRate);
+      for (auto place = places_.rbegin(); place != places_.rend(); ++place) {
+        motion_.place(*place->mesh, *place->node, placed);
+        // Backwards, so that of several vertices in one place at rest the first one counts.
+        for (std::size_t v = placed.size(); v-- > 0;) {
+          frame[static_cast<std::size_t>(place->numbers[v])] = placed[v];
+        }
+      }
+      if (!std::ranges::all_of(frame, [](const Vec3& p) { return p.allFinite(); })) {
+        throw ReadFailure{"a coordinate of frame " + std::to_string(k) + " is not finite"};
+      }
+      write_all(descriptor, frame.data(), frame.size() * sizeof(Vec3));
+    }
+    return count;
+  }
+
  private:
+  /// A mesh that a node places, and the numbers that its vertices have.
+  struct Place {
+    const aiMesh* mesh;
+    const aiNode* node;
+    std::vector<Index> numbers;
+  };
+
+  static void write_all(int descriptor, const void* data, std::size_t size) {
+    const char* from = static_cast<const char*>(data);
+    while (size > 0) {
+      const ssize_t written = ::write(descriptor, from, size);
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) {
+        throw ReadFailure{"its frames cannot be written to the folder for temporary files: " +
+                              std::generic_category().message(errno),
+                          0,
+                          {},
+                          {"set TMPDIR to a folder with room"}};
+      }
+      from += written;
+      size -= static_cast<std::size_t>(written);
+    }
+  }
+
   static std::size_t corner_guess(const aiScene& scene) {
     std::size_t vertices = 0;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) vertices += scene.mMeshes[m]->mNumVertices;
     return std::min<std::size_t>(vertices, 1U << 26);
   }
 
-  void add(unsigned number, const Matrix& transform) {
+  void add(unsigned number, const aiNode& node) {
     if (number >= scene_.mNumMeshes) throw ReadFailure{"a node has a mesh that is not there"};
     const aiMesh& mesh = *scene_.mMeshes[number];
     ++placed_;
@@ -152,7 +191,7 @@ class SceneMesh {
       throw ReadFailure{"the meshes, as often as they are placed, have more than " +
                         std::to_string(kMost) + " vertices or faces"};
     }
-    place(mesh, transform);
+    place(mesh, motion_.transform(node));
     FanBuilder fan(raw_.faces);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
@@ -169,10 +208,11 @@ class SceneMesh {
       }
       fan.end(raw_.polygons);
     }
+    if (moves_) places_.push_back({&mesh, &node, numbers_});
   }
 
   /// The numbers of the vertices of one mesh; of those in no face none is needed.
-  void place(const aiMesh& mesh, const Matrix& transform) {
+  void place(const aiMesh& mesh, const Eigen::Matrix4d& transform) {
     numbers_.resize(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
       const aiVector3D& from = mesh.mVertices[v];
@@ -210,9 +250,12 @@ class SceneMesh {
   }
 
   const aiScene& scene_;
+  SceneMotion motion_;
+  bool moves_;
   VertexWelder welder_;
   RawMesh raw_;
   std::vector<Index> numbers_;
+  std::vector<Place> places_;
   std::size_t placed_ = 0, vertices_ = 0, others_ = 0;
 };
 
@@ -227,8 +270,8 @@ int collada_up_axis(std::string_view text, int otherwise) {
 
 }  // namespace
 
-RawMesh read_scene_here(std::string_view bytes, std::string_view format,
-                        const std::string& folder) {
+RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder,
+                        SceneFrames* frames) {
   const auto* const known = std::ranges::find(kSceneFormats, format, &SceneFormat::name);
   const std::string name = folder + "model." + std::string(format);
   FolderFiles files(name, bytes, folder);
@@ -245,7 +288,12 @@ RawMesh read_scene_here(std::string_view bytes, std::string_view format,
   }
   const std::unique_ptr<const aiScene> scene(importer->ReadFile(&all, name, &files));
   if (!scene) fail_in_assimp(*importer);
-  RawMesh raw = SceneMesh(*scene).read(known->keeps_root);
+  if (scene->mRootNode == nullptr) throw ReadFailure{"the scene is empty"};
+  SceneMesh mesh(*scene, known->keeps_root, frames != nullptr);
+  RawMesh raw = mesh.read();
+  if (frames != nullptr) {
+    frames->count = mesh.write_frames(frames->descriptor, raw.positions.size());
+  }
   raw.up_axis = format == "dae" ? collada_up_axis(bytes, known->up_axis) : known->up_axis;
   return raw;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -8,8 +9,20 @@
 
 namespace geotherm::io {
 
+/// Where the frames of a scene that moves are written: one after the other, the positions of the
+/// vertices of its RawMesh as doubles.
+struct SceneFrames {
+  int descriptor = -1;
+  std::int64_t count = 0;  ///< that were written
+};
+
 /// What Assimp reads, in this process. `folder`: with its slash, where files that the model names
-/// are; empty: nowhere. Throws ReadFailure and std::bad_alloc; what is damaged may end the process.
-RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder);
+/// are; empty: nowhere. `frames`: null: none are wanted. Throws ReadFailure and std::bad_alloc;
+/// what is damaged may end the process.
+RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder,
+                        SceneFrames* frames = nullptr);
+
+/// Frames of a scene are so many a second.
+inline constexpr int kSceneFrameRate = 24;
 
 }  // namespace geotherm::io
