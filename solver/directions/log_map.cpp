@@ -74,9 +74,9 @@ Start start_of(const Directions::State& state, const SurfacePoint& clean,
   for (const auto& piece : seeds.pieces) {
     Turn turn = state.face_turn(clean.face);
     if (piece.face != clean.face) {
-      // The point is on the side opposite to the corner without weight.
+      // The point is on the side opposite to the corner whose weight is none or next to it.
       const int k = next_corner(
-          static_cast<int>(std::ranges::find(clean.weights, 0.0) - clean.weights.begin()));
+          static_cast<int>(std::ranges::min_element(clean.weights) - clean.weights.begin()));
       turn = turn_across(state.paths, turn, clean.face, k, state.layout(clean.face), piece.face,
                          state.layout(piece.face));
     }

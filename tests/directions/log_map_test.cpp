@@ -87,6 +87,7 @@ TEST(LogMap, OfThePlaneIsThePlaneFromAnEdge) {
     expect_plane(mesh, SurfacePoint::in_face(face, {0.25, 0, 0.75}));
     expect_plane(mesh, SurfacePoint::in_face(face, {0.25, 0.75, 0}));
     expect_plane(mesh, SurfacePoint::in_face(face, {0, 0.4, 0.6}));
+    expect_plane(mesh, SurfacePoint::in_face(face, {1e-16, 0.4, 0.6}));  // as if it were 0
   }
 }
 
