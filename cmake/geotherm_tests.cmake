@@ -32,7 +32,9 @@ if(GEOTHERM_SANITIZE)
 endif()
 
 # geotherm_discover_tests(TARGET [ENVIRONMENT VARIABLE=VALUE...]): every TEST of the executable becomes
-# a test of ctest; where there are shards, a few processes share them out.
+# a test of ctest, and so does every suite of parameterised tests, but for slow ones, which are
+# tests each: most of these take less than a process takes to start. Where there are shards, a few
+# processes share all tests out.
 function(geotherm_discover_tests target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" ENVIRONMENT)
   if(GEOTHERM_TEST_SHARDS)
@@ -45,17 +47,33 @@ function(geotherm_discover_tests target)
     endforeach()
     return()
   endif()
-  set(filter)
+  set(environment ${GEOTHERM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
   if(GEOTHERM_TEST_FILTER)
-    set(filter TEST_FILTER "${GEOTHERM_TEST_FILTER}")
+    geotherm_discover_single(${target} ${target}_chosen "${GEOTHERM_TEST_FILTER}" "${environment}")
+    return()
   endif()
-  gtest_discover_tests(${target} TEST_PREFIX "${GEOTHERM_TEST_PREFIX}" ${filter}
-    NO_PRETTY_VALUES TEST_LIST ${target}_names DISCOVERY_TIMEOUT 60
+  geotherm_discover_single(${target} ${target}_plain "-*/*" "${environment}")
+  geotherm_discover_single(${target} ${target}_slow "*/*Slow*:*Slow*/*" "${environment}")
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake")
+  if(NOT EXISTS "${file}")
+    file(WRITE "${file}" "")  # until the program is built; its single tests say that it is not
+  endif()
+  add_custom_command(TARGET ${target} POST_BUILD BYPRODUCTS "${file}" VERBATIM
+    COMMAND "${CMAKE_COMMAND}" -D "PROGRAM=$<TARGET_FILE:${target}>" -D "FILE=${file}"
+            -D "LABEL=${GEOTHERM_TEST_LABEL}" -D "ENVIRONMENT=${environment}"
+            -D "FILTER=*/*-*Slow*" -P "${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
+endfunction()
+
+# The tests of an executable that a filter names, each of them a test of ctest; `list`: a variable of
+# ctest that holds their names.
+function(geotherm_discover_single target list filter environment)
+  gtest_discover_tests(${target} TEST_PREFIX "${GEOTHERM_TEST_PREFIX}" TEST_FILTER "${filter}"
+    NO_PRETTY_VALUES TEST_LIST ${list} DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 LABELS ${GEOTHERM_TEST_LABEL})
   # gtest_discover_tests cannot pass on a property that is a list: it is set when ctest starts.
-  set(environment ${GEOTHERM_TEST_ENVIRONMENT} ${arg_ENVIRONMENT})
-  set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_environment.cmake")
-  file(WRITE "${file}" "if(${target}_names)\n  set_tests_properties(\${${target}_names} PROPERTIES "
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${list}_environment.cmake")
+  file(WRITE "${file}" "if(${list})\n  set_tests_properties(\${${list}} PROPERTIES "
                        "ENVIRONMENT \"${environment}\")\nendif()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
 endfunction()

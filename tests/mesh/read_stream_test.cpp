@@ -43,15 +43,25 @@ TEST_P(StreamFormat, GivesTheMeshOfTheFile) {
   EXPECT_TRUE(std::ranges::equal(file->mesh.faces(), expected->mesh.faces()));
 }
 
-TEST_P(StreamFormat, IsRecognisedByItsFirstBytes) {
+class StreamOfNoName : public testing::TestWithParam<Sample> {};
+
+TEST_P(StreamOfNoName, IsRecognisedByItsFirstBytes) {
   const Sample& sample = GetParam();
-  if (sample.name == "off_without_its_keyword") GTEST_SKIP() << "numbers may be anything";
   const auto file = read_from_pipe(sample.bytes, "");
   ASSERT_TRUE(file) << sentence(file.error());
   EXPECT_EQ(file->mesh.face_count(), 6);
 }
 
+/// All but numbers alone, which may be anything.
+std::vector<Sample> recognised_samples() {
+  std::vector<Sample> samples = pyramid_samples();
+  std::erase_if(samples, [](const Sample& s) { return s.name == "off_without_its_keyword"; });
+  return samples;
+}
+
 INSTANTIATE_TEST_SUITE_P(Samples, StreamFormat, testing::ValuesIn(pyramid_samples()),
+                         [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Samples, StreamOfNoName, testing::ValuesIn(recognised_samples()),
                          [](const auto& test) { return test.param.name; });
 
 TEST(Stream, IsReadToItsEndHoweverLong) {
