@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <future>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "app/cli/many_work.h"
@@ -13,7 +14,6 @@
 #include "app/session/model_solver.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
-#include "geotherm/build_method.h"
 #include "solver/core/memory.h"
 #include "solver/core/stopwatch.h"
 
@@ -63,40 +63,37 @@ class FrameSolver {
     Model model = sequence_.model;
     model.mesh = std::move(mesh);
     model.name = sequence_.frames.name(k);
-    ModelSolver solver(std::move(model));
-    auto answer = solver.solve(sequence_.options, sequence_.sources,
-                               {sequence_.query, sequence_.check}, progress);
+    solver_.emplace(std::move(model));
+    auto answer = solver_->solve(sequence_.options, sequence_.sources,
+                                 {sequence_.query, sequence_.check}, progress);
     if (!answer) return answer.error();
-    figures_.setup_ms += answer->setup_ms;
-    figures_.query_ms += answer->result.timing.query;
+    count_times(*answer);
     figures_.warnings = answer->warnings;
     figures_.answer = *std::move(answer);
     return {};
   }
 
+  /// By the method that answered in the first frame, which alone is checked.
   Result<void> solve_next(std::int64_t k, std::shared_ptr<const TriangleMesh> mesh,
                           const Progress& progress) {
-    constexpr double kSetupPart = 0.9;
-    Answer& answer = *figures_.answer;
-    const std::string name = sequence_.frames.name(k);
-    Stopwatch watch;
-    auto method = build_method_moved(mesh, answer.options, answer.method.get(),
-                                     part_of(progress, 0.0, kSetupPart));
-    if (!method) return about_model(name, method.error());
-    figures_.setup_ms += watch.lap();
-    auto result = (*method)->solve(sequence_.sources.set, sequence_.query,
-                                   part_of(progress, kSetupPart, 1.0));
-    if (!result) return about_model(name, result.error());
-    figures_.query_ms += watch.lap();
-    note(name, (*method)->warnings());
-    note(name, result->warnings);
-    answer.model.name = name;
-    answer.model.mesh = std::move(mesh);
-    answer.method = *std::move(method);
-    answer.setup = answer.method->timing();
-    answer.result = *std::move(result);
-    answer.distance = summarize(answer.result.distances);
+    Answer& first = *figures_.answer;
+    Model model = first.model;
+    model.mesh = std::move(mesh);
+    model.name = sequence_.frames.name(k);
+    solver_->move(std::move(model));
+    auto answer = solver_->solve(first.options, sequence_.sources, {sequence_.query}, progress);
+    if (!answer) return answer.error();
+    count_times(*answer);
+    note(answer->model.name, answer->warnings);
+    answer->error = first.error;
+    answer->warnings = std::move(first.warnings);
+    first = *std::move(answer);
     return {};
+  }
+
+  void count_times(const Answer& answer) {
+    figures_.setup_ms += answer.setup_ms;
+    figures_.query_ms += answer.result.timing.query;
   }
 
   /// Adds what was not said of the first frame.
@@ -113,6 +110,7 @@ class FrameSolver {
 
   const Sequence& sequence_;
   SequenceFigures& figures_;
+  std::optional<ModelSolver> solver_;
   std::size_t noted_ = 0;
 };
 

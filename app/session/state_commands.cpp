@@ -57,9 +57,8 @@ std::vector<Command> commands_to(const ViewerState& state) {
 
 UndoRule undo_rule(const Command& command) {
   if (const auto* set = std::get_if<command::Set>(&command)) {
-    for (const char* camera : {"azimuth", "elevation", "zoom", "pan", "centre", "fit"}) {
-      if (set->name == camera) return {};
-    }
+    const Setting* const setting = find_setting(set->name);
+    if (setting != nullptr && setting->group == SettingGroup::kCamera) return {};
     const bool slider =
         set->name == "time-factor" || set->name == "slice-at" || set->name == "peel";
     return {true, slider};

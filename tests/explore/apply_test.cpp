@@ -239,6 +239,10 @@ TEST(UndoRule, LeavesCameraAndFilesAlone) {
        {"backend cg", "view flat", "source set 1", "keep", "show a", "bar off"}) {
     EXPECT_TRUE(undo_rule(*parse_command(line)).undoable) << line;
   }
+  for (const Setting& setting : settings()) {
+    const command::Set set{std::string(setting.name), "1"};
+    EXPECT_EQ(undo_rule(set).undoable, setting.group != SettingGroup::kCamera) << setting.name;
+  }
 }
 
 }  // namespace
