@@ -199,7 +199,8 @@ Answers better_answers(const Model& model, const CompareTask& task, MethodKind k
     auto better = solve_reference(**method, first, part_of(progress, 0.2, 1.0));
     return better ? std::move(better->distances) : Answers();
   }
-  auto better = solve_reference(model.mesh, kind, first, 0, nullptr, progress);
+  const int threads = task.solvers.empty() ? 0 : task.solvers.front().threads;
+  auto better = solve_reference(model.mesh, kind, first, threads, nullptr, progress);
   return better ? std::move(better->distances) : Answers();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <regex>
 #include <sstream>
 
 #include "tests/rules/source_rules.h"
@@ -29,16 +30,16 @@ std::vector<Violation> check_snippets(const SourceFile& page, std::span<const So
     }
   }
   std::vector<Violation> found;
+  std::vector<std::string> left;  // the examples that hold the block so far
   std::string paragraph;
   int first = 0;  // its line
   const auto end_paragraph = [&] {
-    const auto holds = [&](const std::string& text) {
-      return text.find("\n" + paragraph) != std::string::npos;
-    };
-    if (!paragraph.empty() && std::none_of(examples.begin(), examples.end(), holds)) {
-      found.push_back({page.path, first, "is in no file of docs/examples"});
-    }
+    if (paragraph.empty()) return;
+    std::erase_if(left, [&](const std::string& text) {
+      return text.find("\n" + paragraph) == std::string::npos;
+    });
     paragraph.clear();
+    if (left.empty()) found.push_back({page.path, first, "is in no one file of docs/examples"});
   };
   std::istringstream stream(page.text);
   bool inside = false;
@@ -47,10 +48,29 @@ std::vector<Violation> check_snippets(const SourceFile& page, std::span<const So
     ++number;
     const bool fence = line.starts_with("```");
     if (fence || line.empty()) end_paragraph();
-    if (fence) inside = !inside && (line == "```cpp" || line == "```c");
-    if (!inside || fence || line.empty()) continue;
+    if (fence) {
+      inside = !inside && (line.starts_with("```cpp") || line == "```c" || line == "```c++");
+      left = examples;
+    }
+    if (!inside || fence || line.empty() || left.empty()) continue;
     if (paragraph.empty()) first = number;
     paragraph += trimmed(line);
+  }
+  return found;
+}
+
+std::vector<Violation> check_paths(const SourceFile& page, const std::filesystem::path& root) {
+  static const std::regex kPath(
+      "`((app|assets|bench|cmake|docs|engine|scripts|shaders|solver|tests|ui)/[a-z0-9_./-]+)`");
+  std::vector<Violation> found;
+  std::istringstream stream(page.text);
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
+    ++number;
+    for (std::sregex_iterator at(line.begin(), line.end(), kPath), end; at != end; ++at) {
+      if (std::filesystem::exists(root / at->str(1))) continue;
+      found.push_back({page.path, number, at->str(1) + " does not exist"});
+    }
   }
   return found;
 }

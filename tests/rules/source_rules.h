@@ -40,9 +40,13 @@ std::vector<Violation> check_backend_conditions(const SourceFile& file);
 /// line, but for the table of settings: hints name settings.
 std::vector<Violation> check_option_names(const SourceFile& file);
 
-/// Every paragraph of a ```cpp block of the page stands, but for its indentation, in one of the
+/// All paragraphs of a ```cpp block of the page stand, but for their indentation, in one of the
 /// examples among `files`, which are compiled and run.
 std::vector<Violation> check_snippets(const SourceFile& page, std::span<const SourceFile> files);
+
+/// Every path in backticks that begins with a folder of the tree exists below `root`; one with
+/// capitals stands for others.
+std::vector<Violation> check_paths(const SourceFile& page, const std::filesystem::path& root);
 
 /// README.md and the pages of docs/.
 std::vector<SourceFile> read_pages(const std::filesystem::path& root);

@@ -186,6 +186,7 @@ TEST(Rules, AnOptionInAStringOutsideTheCommandLineIsFound) {
 
 TEST(Rules, ASnippetThatIsInNoExampleIsFound) {
   const std::vector<SourceFile> files = {{"docs/examples/a.cpp", "int main() {\n  f(1);\n}\n"},
+                                         {"docs/examples/b.cpp", "h(3);\n"},
                                          {"solver/a.cpp", "g(2);\n"}};
   const auto lines_found = [&](const std::string& page) {
     std::vector<int> lines;
@@ -197,6 +198,15 @@ TEST(Rules, ASnippetThatIsInNoExampleIsFound) {
   EXPECT_EQ(lines_found("```cpp\nf(1);\n```\n```\nany(3);\n```\n"), std::vector<int>{});
   EXPECT_EQ(lines_found("```cpp\nf(1);\n\ng(2);\n```\n"), std::vector{4});
   EXPECT_EQ(lines_found("```cpp\nf(1\n```\n"), std::vector{2});
+  EXPECT_EQ(lines_found("```cpp\nf(1);\n\nh(3);\n```\n"), std::vector{4}) << "of two examples";
+}
+
+TEST(Rules, APathOfAPageThatIsNoneIsFound) {
+  const auto found =
+      check_paths({"docs/a.md", "`solver/`, `solver/no.cpp`\n`docs/testing.md` `any/no.cpp`\n"},
+                  GEOTHERM_SOURCE_DIR);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].what, "solver/no.cpp does not exist");
 }
 
 class RulesTree : public testing::Test {
@@ -250,6 +260,14 @@ TEST_F(RulesTree, EverySnippetIsPartOfAnExample) {
   std::string text;
   for (const SourceFile& page : read_pages(GEOTHERM_SOURCE_DIR)) {
     text += text_of(check_snippets(page, files()));
+  }
+  EXPECT_EQ(text, "");
+}
+
+TEST_F(RulesTree, EveryPathInAPageExists) {
+  std::string text;
+  for (const SourceFile& page : read_pages(GEOTHERM_SOURCE_DIR)) {
+    text += text_of(check_paths(page, GEOTHERM_SOURCE_DIR));
   }
   EXPECT_EQ(text, "");
 }
