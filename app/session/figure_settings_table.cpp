@@ -63,17 +63,18 @@ Setting length(Setting setting) {
 
 std::vector<Setting> figure_settings_table() {
   return {
-      words<&PictureSettings::title>({.name = "title", .help = "over the picture"}, off),
+      words<&PictureSettings::title>({.name = "title", .help = "words over the picture"}, off),
       words<&PictureSettings::bar_label>(
-          {.name = "bar-label", .help = "over the colour bar, in place of what its values are"},
+          {.name = "bar-label",
+           .help = "words over the colour bar, in place of what its values are"},
           by_itself),
       words<&PictureSettings::units>(
-          {.name = "units", .help = "of the values, behind the words over the colour bar"},
+          {.name = "units", .help = "units of the values, behind the words over the colour bar"},
           by_itself),
       {.name = "number-format",
        .group = kFigure,
        .value_name = "STYLE:N",
-       .help = "of the numbers at the colour bar",
+       .help = "format of the numbers at the colour bar",
        .forms = "auto (default), fixed:N, scientific:N or significant:N with N digits",
        .get = [](const ViewerState& s) { return number_format_text(s.picture.number_format); },
        .set =
@@ -86,12 +87,12 @@ std::vector<Setting> figure_settings_table() {
            }},
       length<&PictureSettings::text_size>(
           {.name = "text-size",
-           .help = "of letters",
+           .help = "size of letters",
            .detail =
                "auto: 1/44 of the picture's shorter side; 8pt where the size is one on paper."}),
       length<&PictureSettings::line_width>(
           {.name = "line-width",
-           .help = "of isolines; edges and paths keep their proportions",
+           .help = "width of isolines; edges and paths keep their proportions",
            .detail = "auto: it suits the picture; 0.5pt where the size is one on paper."}),
       {.name = "dpi",
        .group = kFigure,
@@ -108,7 +109,7 @@ std::vector<Setting> figure_settings_table() {
           {.name = "colour-scale",
            .group = kFigure,
            .value_name = "NAME",
-           .help = "from values to colours",
+           .help = "how values become colours",
            .detail = "log: equal ratios are equally far apart, between round numbers above 0; "
                      "diverging: of differences, 0 in the middle and round ends."}),
       {.name = "bands",

@@ -201,7 +201,7 @@ std::vector<Setting> method_settings() {
           {.name = "boundary",
            .of_heat = true,
            .value_name = "RULE",
-           .help = "the condition on u along the border",
+           .help = "the condition on u along the boundary",
            .detail =
                "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
                "both; auto takes average in volumes, neumann elsewhere."}),
@@ -255,7 +255,7 @@ std::vector<Setting> method_settings() {
       {.name = "threads",
        .kind = kNumber,
        .value_name = "N",
-       .help = "that work at once; 0: one a core",
+       .help = "threads that work at once; 0: one a core",
        .get = [](const State& s) { return std::to_string(s.options.threads); },
        .set = [](State& s, const Text& t) { return store(parse_threads(t), s.options.threads); }},
       {.name = "refine",
@@ -306,7 +306,7 @@ std::vector<Setting> method_settings() {
       {.name = "format",
        .group = kModel,
        .value_name = "NAME",
-       .help = "of the model, whatever its name",
+       .help = "format of the model, whatever its name",
        .get =
            [](const State& s) {
              return s.reading.format.empty() ? Text("auto") : s.reading.format;

@@ -83,7 +83,7 @@ std::vector<Setting> picture_settings_table() {
       {.name = "size",
        .group = kPicture,
        .value_name = "WxH",
-       .help = "of the picture, in pixels, up to 8192x8192, or in cm, mm, in or pt, such as "
+       .help = "size of the picture, in pixels, up to 8192x8192, or in cm, mm, in or pt, such as "
                "8cmx6cm",
        .get = [](const State& s) { return size_text(s.picture); },
        .set = set_size},
@@ -91,7 +91,7 @@ std::vector<Setting> picture_settings_table() {
        .group = kPicture,
        .kind = kNumber,
        .value_name = "N",
-       .help = "a pixel",
+       .help = "samples a pixel",
        .detail = "4: smooth edges; 1: faster.",
        .get = [](const State& s) { return std::to_string(s.picture.samples); },
        .set = [](State& s, const Text& t) { return store(parse_samples(t), s.picture.samples); },
@@ -117,15 +117,17 @@ std::vector<Setting> picture_settings_table() {
       {.name = "spacing",
        .group = kPicture,
        .value_name = "D",
-       .help = "between isolines in model units; 0: none; auto: a round number",
+       .help = "distance between isolines in model units; 0: none; auto: a round number",
        .get =
            [](const State& s) {
              return s.picture.line_spacing ? number_text(*s.picture.line_spacing) : Text("auto");
            },
        .set = [](State& s,
                  const Text& t) { return store(parse_spacing(t), s.picture.line_spacing); }},
-      choice<&PictureSettings::light>(
-          {.name = "light", .group = kPicture, .value_name = "NAME", .help = "on the surface"}),
+      choice<&PictureSettings::light>({.name = "light",
+                                       .group = kPicture,
+                                       .value_name = "NAME",
+                                       .help = "light on the surface"}),
       choice<&PictureSettings::shading>(
           {.name = "shading",
            .group = kPicture,
@@ -134,7 +136,7 @@ std::vector<Setting> picture_settings_table() {
       choice<&PictureSettings::background>({.name = "background",
                                             .group = kPicture,
                                             .value_name = "NAME",
-                                            .help = "of the picture"}),
+                                            .help = "background of the picture"}),
       picture_switch<&PictureSettings::bar>("bar", "--no-bar", "off", "the colour bar"),
       picture_switch<&PictureSettings::caption>("caption", "--no-caption", "off",
                                                 "the line about model, t and backend"),
@@ -175,7 +177,7 @@ std::vector<Setting> picture_settings_table() {
        .group = kCamera,
        .kind = kNumber,
        .value_name = "DEGREES",
-       .help = "of the eye about the vertical axis",
+       .help = "where the eye is about the vertical axis",
        .get = [](const State& s) { return number_text(s.picture.camera.azimuth); },
        .set = [](State& s,
                  const Text& t) { return store(parse_azimuth(t), s.picture.camera.azimuth); }},
@@ -183,7 +185,7 @@ std::vector<Setting> picture_settings_table() {
        .group = kCamera,
        .kind = kNumber,
        .value_name = "DEGREES",
-       .help = "of the eye, -90 to 90",
+       .help = "how high the eye is, -90 to 90",
        .get = [](const State& s) { return number_text(s.picture.camera.elevation); },
        .set = [](State& s,
                  const Text& t) { return store(parse_elevation(t), s.picture.camera.elevation); }},
@@ -191,7 +193,7 @@ std::vector<Setting> picture_settings_table() {
        .group = kCamera,
        .kind = kNumber,
        .value_name = "DEGREES",
-       .help = "of the picture about its middle, counter-clockwise",
+       .help = "turns the picture about its middle, counter-clockwise",
        .get = [](const State& s) { return number_text(s.picture.camera.roll); },
        .set = [](State& s, const Text& t) { return store(parse_roll(t), s.picture.camera.roll); }},
       choice<&CameraSettings::up>({.name = "up",
@@ -235,7 +237,7 @@ std::vector<Setting> picture_settings_table() {
       {.name = "projection",
        .group = kCamera,
        .value_name = "NAME",
-       .help = "of space onto the picture",
+       .help = "projection of space onto the picture",
        .get =
            [](const State& s) {
              return Text(s.picture.camera.orthographic ? "orthographic" : "perspective");
