@@ -64,7 +64,7 @@ geotherm_status geotherm_centres(const geotherm_model* model, const geotherm_sou
                                  const char* method, const geotherm_watch* watch,
                                  geotherm_answer** centres) {
   return guarded([&]() -> Result<void> {
-    const auto object = object_of<const app::Model>(model, "model");
+    const auto object = object_of<const HeldModel>(model, "model");
     if (!object) return object.error();
     if (auto there = require(centres, "centres"); !there) return there;
     if (auto surface = app::refuse_space(**object, "centres are"); !surface) return surface;

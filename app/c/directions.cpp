@@ -21,7 +21,7 @@ struct DirectedPoint {
 
 Result<DirectedPoint> directed_point(const geotherm_model* model, const geotherm_sources* point,
                                      const void* out, const char* what, const Progress& progress) {
-  const auto object = object_of<const Model>(model, "model");
+  const auto object = object_of<const HeldModel>(model, "model");
   if (!object) return object.error();
   if (auto there = require(out, "the answer"); !there) return there.error();
   if (auto surface = app::refuse_space(**object, what); !surface) return surface.error();
@@ -30,7 +30,7 @@ Result<DirectedPoint> directed_point(const geotherm_model* model, const geotherm
   if (points->size() != 1) {
     return bad_argument("point has " + std::to_string(points->size()) + " points", {"give one"});
   }
-  auto directions = Directions::build((*object)->mesh, progress);
+  auto directions = (*object)->directions(progress);
   if (!directions) return directions.error();
   return DirectedPoint{*object, points->front(), *std::move(directions)};
 }
@@ -56,8 +56,8 @@ Result<std::vector<SurfacePath>> curves_of(const geotherm_sources* sources, bool
   const auto sets = many_sets(sources, model);
   if (!sets) return sets.error();
   if (sources->starts == nullptr) {
-    return bad_argument("curves has no starts, so that each has one point",
-                        {"say in starts where each begins"});
+    return bad_argument("each of the curves has one point, and a curve needs two or more",
+                        {"give all points of each"});
   }
   MethodOptions options;
   options.method = MethodKind::kWavefront;
@@ -90,7 +90,7 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
                                const geotherm_array* vertices, const geotherm_array* numbers,
                                std::int64_t columns, const char* name, const void* out,
                                const Progress& progress) {
-  const auto object = object_of<const Model>(model, "model");
+  const auto object = object_of<const HeldModel>(model, "model");
   if (!object) return object.error();
   for (const auto& [pointer, called] : {std::pair<const void*, const char*>{vertices, "vertices"},
                                         {numbers, name},
@@ -111,12 +111,40 @@ Result<SpreadCall> spread_call(const geotherm_model* model, const geotherm_optio
                         std::to_string(std::ssize(*values) / columns) + " rows for " +
                         std::to_string(at->size()) + " vertices");
   }
-  auto heat = VectorHeat::build((*object)->mesh, *spread, part_of(progress, 0, 0.7));
+  auto heat = (*object)->vector_heat(*spread, part_of(progress, 0, 0.7));
   if (!heat) return heat.error();
   return SpreadCall{*object, *std::move(at), *std::move(values), *std::move(heat)};
 }
 
 }  // namespace
+
+// Nothing is locked while it is made: the caller's progress may ask the same model.
+Result<std::shared_ptr<const Directions>> HeldModel::directions(const Progress& progress) const {
+  {
+    const std::lock_guard lock(lock_);
+    if (directions_) return directions_;
+  }
+  auto made = Directions::build(mesh, progress);
+  if (!made) return made;
+  const std::lock_guard lock(lock_);
+  directions_ = *made;
+  return made;
+}
+
+Result<std::shared_ptr<const VectorHeat>> HeldModel::vector_heat(const SpreadOptions& options,
+                                                                 const Progress& progress) const {
+  {
+    const std::lock_guard lock(lock_);
+    if (heat_ && heat_options_ == options) return heat_;
+  }
+  auto made = VectorHeat::build(mesh, options, progress);
+  if (!made) return made;
+  const std::lock_guard lock(lock_);
+  heat_ = *made;
+  heat_options_ = options;
+  return made;
+}
+
 }  // namespace geotherm::c
 
 using namespace geotherm;     // NOLINT: the functions below are C
@@ -223,7 +251,7 @@ geotherm_status geotherm_signed_distance(const geotherm_model* model,
                                          const char* rule, const geotherm_watch* watch,
                                          geotherm_answer** answer) {
   return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Model>(model, "model");
+    const auto object = object_of<const HeldModel>(model, "model");
     if (!object) return object.error();
     if (auto there = require(answer, "answer"); !there) return there;
     if (auto surface = app::refuse_space(**object, "signed distances are"); !surface)

@@ -22,6 +22,7 @@
 #include "app/session/model_solver.h"
 #include "app/session/report.h"
 #include "app/session/state.h"
+#include "geotherm/directions.h"
 #include "geotherm/error.h"
 #include "geotherm/many.h"
 #include "geotherm/path.h"
@@ -38,13 +39,32 @@ struct Options {
   ViewerState state = app::initial_state();
 };
 
+/// What geotherm_model is: a model, and what directions there need, which is made when it is first
+/// asked for and kept. For several threads.
+class HeldModel : public app::Model {
+ public:
+  explicit HeldModel(app::Model model) : app::Model(std::move(model)) {}
+
+  /// Errors: those of Directions::build().
+  Result<std::shared_ptr<const Directions>> directions(const Progress& progress) const;
+  /// The last options' is kept. Errors: those of VectorHeat::build().
+  Result<std::shared_ptr<const VectorHeat>> vector_heat(const SpreadOptions& options,
+                                                        const Progress& progress) const;
+
+ private:
+  mutable std::mutex lock_;
+  mutable std::shared_ptr<const Directions> directions_;
+  mutable SpreadOptions heat_options_;
+  mutable std::shared_ptr<const VectorHeat> heat_;
+};
+
 struct Solver {
   Solver(app::ModelSolver with, app::ReadyMethod by, const ViewerState& asked)
       : solver(std::move(with)), ready(std::move(by)), options(asked.options), check(asked.check) {}
 
   mutable std::mutex lock;          ///< of what follows up to `ready`
   mutable app::ModelSolver solver;  ///< for answers with all there is to say
-  mutable std::shared_ptr<const PathFinder> geodesics;
+  mutable std::shared_ptr<const PathFinder> geodesics, exact_paths;
   const app::ReadyMethod ready;  ///< for distances alone, on any number of threads
   const MethodOptions options;
   const app::Check check;
@@ -77,7 +97,7 @@ struct Answer {
   mutable std::vector<std::unique_ptr<const NamedArray>> arrays;  ///< some are made when asked for
 };
 
-using Object = std::variant<std::shared_ptr<Options>, std::shared_ptr<const app::Model>,
+using Object = std::variant<std::shared_ptr<Options>, std::shared_ptr<const HeldModel>,
                             std::shared_ptr<const Solver>, std::shared_ptr<const Answer>>;
 
 /// A handle for an object. Handles are numbers that are never used twice.

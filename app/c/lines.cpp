@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "app/c/handles.h"
 #include "app/session/wording.h"
@@ -18,17 +20,31 @@ Result<PathField> field_of(const char* text) {
   return text == nullptr ? Result<PathField>(PathField::kGeodesic) : parse<PathField>(text);
 }
 
+bool is_near_exact(const Solver& solver) {
+  const MethodKind kind = solver.options.method;
+  return kind != MethodKind::kHeat && kind != MethodKind::kFastMarching;
+}
+
+/// Led by exact distances, whatever the solver's own are.
+Result<std::shared_ptr<const PathFinder>> exact_finder_of(const Solver& solver,
+                                                          const Progress& progress) {
+  if (solver.exact_paths) return solver.exact_paths;
+  const auto ready =
+      solver.solver.prepare(app::better_options(solver.options, MethodKind::kExact), progress);
+  if (!ready) return ready.error();
+  solver.exact_paths = std::make_shared<const PathFinder>(solver.model().mesh, ready->method);
+  return solver.exact_paths;
+}
+
 /// Streamlines follow the solver's own distances, geodesics are led by near-exact ones.
 Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathField field,
                                                     const Progress& progress) {
-  const MethodKind kind = solver.options.method;
-  const bool near_exact = kind != MethodKind::kHeat && kind != MethodKind::kFastMarching;
   if (field != PathField::kGeodesic) {
     return std::make_shared<const PathFinder>(solver.model().mesh, solver.ready.method);
   }
   if (solver.geodesics) return solver.geodesics;
   auto method = solver.ready.method;
-  if (!near_exact) {
+  if (!is_near_exact(solver)) {
     auto ready = solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront),
                                        progress);
     if (!ready) return ready.error();
@@ -36,6 +52,23 @@ Result<std::shared_ptr<const PathFinder>> finder_of(const Solver& solver, PathFi
   }
   solver.geodesics = std::make_shared<const PathFinder>(solver.model().mesh, std::move(method));
   return solver.geodesics;
+}
+
+/// The geodesics from one point to each of others.
+Result<std::vector<Isoline>> tree_of(const PathFinder& finder, const SurfacePoint& from,
+                                     std::span<const SurfacePoint> ends,
+                                     std::vector<Warning>& warnings, const Progress& progress) {
+  std::vector<Isoline> lines;
+  const auto count = static_cast<double>(ends.size());
+  for (const SurfacePoint& end : ends) {
+    const auto done = static_cast<double>(lines.size());
+    const std::array<SurfacePoint, 2> stops = {from, end};
+    auto found = finder.find(stops, {}, part_of(progress, done / count, (done + 1) / count));
+    if (!found) return found.error();
+    warnings.insert(warnings.end(), found->warnings.begin(), found->warnings.end());
+    lines.push_back({0, std::move(found->path)});
+  }
+  return lines;
 }
 
 }  // namespace
@@ -139,25 +172,24 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
                           {"give one, and one or more"});
     }
     const Watched watched(watch);
-    const auto prepared = [&] {
-      const std::lock_guard lock((*object)->lock);
-      return finder_of(**object, PathField::kGeodesic, part_of(watched.progress(), 0.0, 0.5));
-    };
-    const auto finder = prepared();
-    if (!finder) return finder.error();
     auto made = std::make_shared<Answer>();
-    made->lines = Lines{model.mesh, {}, false};
-    const auto count = static_cast<double>(ends->size());
-    for (std::size_t i = 0; i < ends->size(); ++i) {
-      const double done = static_cast<double>(i);
-      const std::array<SurfacePoint, 2> stops = {begin->front(), (*ends)[i]};
-      auto found = (*finder)->find(
-          stops, {},
-          part_of(watched.progress(), 0.5 + 0.5 * done / count, 0.5 + 0.5 * (done + 1) / count));
-      if (!found) return found.error();
-      made->warnings.insert(made->warnings.end(), found->warnings.begin(), found->warnings.end());
-      made->lines->all.push_back({0, std::move(found->path)});
-    }
+    const auto led_by = [&](bool exact) -> Result<std::vector<Isoline>> {
+      const auto prepared = [&] {
+        const std::lock_guard lock((*object)->lock);
+        const Progress part = part_of(watched.progress(), 0.0, 0.5);
+        return exact ? exact_finder_of(**object, part)
+                     : finder_of(**object, PathField::kGeodesic, part);
+      };
+      const auto finder = prepared();
+      if (!finder) return finder.error();
+      return tree_of(**finder, begin->front(), *ends, made->warnings,
+                     part_of(watched.progress(), 0.5, 1.0));
+    };
+    const bool exact = !is_near_exact(**object) && app::exact_leads_tree(ends->size(), model);
+    auto found = led_by(exact);
+    if (exact && !found && found.error().code == ErrorCode::kBudgetEnded) found = led_by(false);
+    if (!found) return found.error();
+    made->lines = Lines{model.mesh, *std::move(found), false};
     keep_lines(*made);
     hand_out_answer(std::move(made), lines);
     return {};
@@ -167,7 +199,7 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
 geotherm_status geotherm_isolines(const geotherm_model* model, const geotherm_array* values,
                                   const geotherm_array* levels, geotherm_answer** lines) {
   return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Model>(model, "model");
+    const auto object = object_of<const HeldModel>(model, "model");
     if (!object) return object.error();
     if (auto there = require(values, "values"); !there) return there;
     if (auto there = require(levels, "levels"); !there) return there;

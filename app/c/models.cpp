@@ -278,7 +278,7 @@ geotherm_status geotherm_model_read(const char* path, const geotherm_options* op
     const Watched watched(watch);
     auto read = app::load_model(path, reading_of(*asked), watched.progress());
     if (!read) return read.error();
-    hand_out(std::make_shared<const Model>(*std::move(read)), model);
+    hand_out(std::make_shared<const HeldModel>(*std::move(read)), model);
     return {};
   });
 }
@@ -300,7 +300,7 @@ geotherm_status geotherm_model_build(const geotherm_shape* shape, const geotherm
       if (!welded) return welded.error();
       built->mesh = std::make_shared<const TriangleMesh>(std::move(welded->mesh));
     }
-    hand_out(std::make_shared<const Model>(*std::move(built)), model);
+    hand_out(std::make_shared<const HeldModel>(*std::move(built)), model);
     return {};
   });
 }

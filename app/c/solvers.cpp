@@ -189,7 +189,7 @@ using namespace geotherm::c;  // NOLINT
 geotherm_status geotherm_solver_new(const geotherm_model* model, const geotherm_options* options,
                                     const geotherm_watch* watch, geotherm_solver** solver) {
   return guarded([&]() -> Result<void> {
-    const auto object = object_of<const Model>(model, "model");
+    const auto object = object_of<const HeldModel>(model, "model");
     if (!object) return object.error();
     if (auto there = require(solver, "solver"); !there) return there;
     const auto asked = state_of(options);
@@ -230,7 +230,7 @@ geotherm_status geotherm_solver_move(const geotherm_solver* solver, const geothe
     auto made = made_ready(std::move(copy), asked, watched.progress());
     if (!made) return made.error();
     hand_out(*std::move(made), moved);
-    if (model != nullptr) hand_out(std::make_shared<const Model>(std::move(next)), model);
+    if (model != nullptr) hand_out(std::make_shared<const HeldModel>(std::move(next)), model);
     return {};
   });
 }

@@ -205,7 +205,7 @@ geotherm_status geotherm_array_of(const void* handle, const char* name, geotherm
     if (auto there = require(name, "name"); !there) return there;
     if (auto there = require(array, "array"); !there) return there;
     Result<geotherm_array> found = no_such_kind("arrays");
-    if (const auto* const model = std::get_if<std::shared_ptr<const Model>>(&*object)) {
+    if (const auto* const model = std::get_if<std::shared_ptr<const HeldModel>>(&*object)) {
       found = array_in(**model, name);
     } else if (const auto* const answer = std::get_if<std::shared_ptr<const Answer>>(&*object)) {
       found = array_in(**answer, name);
@@ -243,7 +243,7 @@ geotherm_status geotherm_write(const void* handle, const char* path) {
     if (!object) return object.error();
     if (auto there = require(path, "path"); !there) return there;
     if (std::string_view(path) == "-") return bad_argument("path is -, which is no file");
-    if (const auto* const model = std::get_if<std::shared_ptr<const Model>>(&*object)) {
+    if (const auto* const model = std::get_if<std::shared_ptr<const HeldModel>>(&*object)) {
       return write(**model, path);
     }
     if (const auto* const answer = std::get_if<std::shared_ptr<const Answer>>(&*object)) {

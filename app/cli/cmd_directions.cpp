@@ -18,6 +18,7 @@
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/directions.h"
+#include "solver/core/memory.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 
@@ -271,10 +272,12 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
     out.push_back(*angle);
   }
   if (!arguments.fan.empty()) {
+    constexpr Index kMost = 1000000;
     const auto count = number_in<Index>(arguments.fan);
-    if (!count || *count < 1) {
+    if (!count || *count < 1 || *count > kMost) {
       return Error{ErrorCode::kBadInput, "--fan: '" + one_line(arguments.fan) +
-                                             "' is no number of lines; give 1 or more"};
+                                             "' is no number of lines; give 1 to " +
+                                             std::to_string(kMost)};
     }
     for (Index i = 0; i < *count; ++i) {
       out.push_back(frame.border ? frame.angle * (i + 0.5) / *count
@@ -283,6 +286,21 @@ Result<std::vector<double>> directions_of(const TraceArguments& arguments,
   }
   if (out.empty()) out.push_back(0);
   return out;
+}
+
+/// Whether so many lines like the first fit into memory.
+Result<void> check_lines_fit(const TracedLine& first, std::size_t count) {
+  constexpr double kPiece = sizeof(SurfacePoint) + sizeof(Index), kMegabyte = 1024 * 1024;
+  const double bytes =
+      static_cast<double>(count) *
+      (sizeof(TracedLine) + kPiece * static_cast<double>(first.path.points.size()));
+  const auto free = free_memory();
+  if (!free || bytes < static_cast<double>(*free)) return {};
+  return Error{ErrorCode::kOutOfMemory,
+               grouped(count) + " lines of some " + grouped(first.path.points.size()) +
+                   " points take " + grouped(std::llround(bytes / kMegabyte)) + " MB, and " +
+                   grouped(std::llround(static_cast<double>(*free) / kMegabyte)) +
+                   " MB are free; trace fewer or shorter ones"};
 }
 
 Json lines_json(const TriangleMesh& mesh, const std::vector<double>& directions,
@@ -332,6 +350,8 @@ Result<CommandOutput> run_trace(const TraceArguments& arguments, const Progress&
     auto line = work->directions->trace(work->point, direction, *length);
     if (!line) return about("--direction " + number_text(direction), line.error());
     lines.push_back(*std::move(line));
+    if (lines.size() > 1) continue;
+    if (auto room = check_lines_fit(lines.front(), directions->size()); !room) return room.error();
   }
   const double trace_ms = watch.milliseconds();
 

@@ -8,6 +8,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/path_report.h"
+#include "app/cli/vertex_columns.h"
 #include "app/session/model.h"
 #include "app/session/model_solver.h"
 #include "app/session/progress.h"
@@ -33,6 +34,7 @@ struct PathTask {
   PathOptions options;
   std::vector<std::vector<Source>> routes;  ///< the points of each path, in order
   bool tree = false;                        ///< the last source of each may be several vertices
+  bool named_method = false;                ///< else the method follows from the number of paths
 };
 
 Result<Source> point_of(const std::string& text, const std::string& option) {
@@ -105,7 +107,7 @@ Result<std::vector<std::vector<Source>>> pairs_of(const PathArguments& arguments
 Result<PathTask> task_of(const PathArguments& arguments) {
   auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
-  PathTask task{asked->reading, asked->picture, {}, {}, {}};
+  PathTask task{asked->reading, asked->picture, {}, {}, {}, false, false};
   const auto field = parse<PathField>(arguments.field);
   if (!field) return about("--field", field.error());
   task.options.field = *field;
@@ -113,7 +115,8 @@ Result<PathTask> task_of(const PathArguments& arguments) {
   task.options.hold_points = arguments.hold;
   const bool geodesic = task.options.field == PathField::kGeodesic;
   task.method = asked->options;
-  if (geodesic && !arguments.settings.has("method")) task.method.method = MethodKind::kWavefront;
+  task.named_method = arguments.settings.has("method");
+  if (geodesic && !task.named_method) task.method.method = MethodKind::kWavefront;
   if (task.options.field == PathField::kHeat && task.method.method != MethodKind::kHeat) {
     return Error{ErrorCode::kBadInput, "--field heat follows the heat u, which --method " +
                                            to_text(task.method.method) +
@@ -184,7 +187,40 @@ Result<void> check_way(const SurfacePoint& start, const ReadyMethod& ready, Mode
   return {};
 }
 
+/// So many paths from one point are the sooner there by exact distances, which say of most of them
+/// at once that they are the shortest; on more faces those take minutes.
+constexpr std::size_t kMinTree = 4;
+constexpr Index kMaxExactFaces = 500000;
+
 /// Paths that begin in one point follow each other, so that its distances are computed once.
+Result<void> find_routes(const std::vector<Route>& routes, Check check, const Progress& progress,
+                         PathFigures& figures) {
+  Stopwatch watch;
+  ModelSolver solver(figures.model);
+  const auto ready = solver.prepare(figures.method, part_of(progress, 0, 0.5));
+  if (!ready) return ready.error();
+  const auto& about_method = ready->method->warnings();
+  figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
+  const PathFinder finder(figures.model.mesh, ready->method);
+  figures.setup_ms = watch.milliseconds();
+  const Stopwatch finding;
+  const auto count = static_cast<double>(routes.size());
+  for (std::size_t i = 0; i < routes.size(); ++i) {
+    const double begin = static_cast<double>(i) / count, end = static_cast<double>(i + 1) / count;
+    auto found = finder.find(routes[i].stops, figures.options,
+                             part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
+    if (!found) {
+      // The points are on the mesh: that no way leads there is a failure of the work.
+      return about_model(figures.model.name, about(routes[i].where, found.error()));
+    }
+    figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
+    figures.paths.push_back({routes[i].stops, std::move(found->path)});
+  }
+  figures.path_ms = finding.milliseconds();
+  const SurfacePoint start = figures.paths.front().stops.front();
+  return check_way(start, *ready, solver, check, progress, figures);
+}
+
 Result<void> find_paths(const PathTask& task, Check check, const Progress& progress,
                         PathFigures& figures) {
   std::vector<Route> routes;
@@ -197,30 +233,18 @@ Result<void> find_paths(const PathTask& task, Check check, const Progress& progr
                                            std::to_string(routes.size()) +
                                            " were given; name the points between with --via"};
   }
-  Stopwatch watch;
-  ModelSolver solver(figures.model);
-  const auto ready = solver.prepare(task.method, part_of(progress, 0, 0.5));
-  if (!ready) return ready.error();
-  const auto& about_method = ready->method->warnings();
-  figures.warnings.insert(figures.warnings.end(), about_method.begin(), about_method.end());
-  const PathFinder finder(figures.model.mesh, ready->method);
-  figures.setup_ms = watch.milliseconds();
-  const Stopwatch finding;
-  const auto count = static_cast<double>(routes.size());
-  for (std::size_t i = 0; i < routes.size(); ++i) {
-    const double begin = static_cast<double>(i) / count, end = static_cast<double>(i + 1) / count;
-    auto found = finder.find(routes[i].stops, task.options,
-                             part_of(progress, 0.5 + 0.5 * begin, 0.5 + 0.5 * end));
-    if (!found) {
-      // The points are on the mesh: that no way leads there is a failure of the work.
-      return about_model(figures.model.name, about(routes[i].where, found.error()));
-    }
-    figures.warnings.insert(figures.warnings.end(), found->warnings.begin(), found->warnings.end());
-    figures.paths.push_back({std::move(routes[i].stops), std::move(found->path)});
+  const bool geodesics = task.options.field == PathField::kGeodesic;
+  if (geodesics && !task.named_method && task.tree &&
+      exact_leads_tree(routes.size(), figures.model)) {
+    figures.method.method = MethodKind::kExact;
+    const std::vector<Warning> before = figures.warnings;
+    auto done = find_routes(routes, check, progress, figures);
+    if (done || done.error().code != ErrorCode::kBudgetEnded) return done;
+    figures.method = task.method;
+    figures.warnings = before;
+    figures.paths.clear();
   }
-  figures.path_ms = finding.milliseconds();
-  const SurfacePoint start = figures.paths.front().stops.front();
-  return check_way(start, *ready, solver, check, progress, figures);
+  return find_routes(routes, check, progress, figures);
 }
 
 LinePicture picture_of_paths(const PathFigures& figures) {
@@ -237,6 +261,18 @@ LinePicture picture_of_paths(const PathFigures& figures) {
   picture.title = figures.model.name + ", " + to_text(figures.options.field) + ", length " +
                   significant(figures.paths.front().path.length);
   return picture;
+}
+
+/// A table as CSV, or the lengths alone as an array in .npy.
+Result<void> write_lengths(const std::string& path, const PathFigures& figures, Outputs& outputs,
+                           std::string& standard_output) {
+  if (io::file_extension(path) != ".npy") {
+    return outputs.write_text(path, lengths_csv(figures), standard_output);
+  }
+  std::vector<double> lengths;
+  for (const FoundLine& line : figures.paths) lengths.push_back(line.path.length);
+  return write_columns(path, *figures.model.mesh, {{"length", std::move(lengths)}}, outputs,
+                       standard_output);
 }
 
 }  // namespace
@@ -282,15 +318,16 @@ void add_path_options(CLI::App& command, PathArguments& arguments) {
   add_line_file_options(command, arguments.files, arguments.settings, "the path");
   command
       .add_option("--lengths", arguments.lengths,
-                  "where a table of the lengths goes, as CSV: from, to, points between, length; - "
-                  "is standard output")
+                  "where the lengths go: .csv (from, to, points between, length), .npy (lengths "
+                  "alone), or - for CSV on standard output")
       ->type_name("FILE");
   add_no_check_option(command, arguments.check);
   add_quiet_option(command, arguments.quiet);
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
-      "The method finds the distances that lead the way: wavefront for a geodesic, heat for the "
-      "other fields, unless --method names one.\n"
+      "The method finds the distances that lead the way: wavefront for a geodesic (exact for four "
+      "and more from one point on up to 500,000 faces), heat for the other fields, unless --method "
+      "names one.\n"
       "Examples:\n"
       "  geotherm path bunny --from 0 --to 1200 -o path.obj --json -\n"
       "  geotherm path model.obj --from 17 --to xyz:0:1:0 --to face:12:0.2:0.3:0.5 -o paths.csv\n"
@@ -310,6 +347,12 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (!expected) return expected.error();
   if (!arguments.lengths.empty()) {
     if (auto table = outputs.expect(arguments.lengths, "--lengths"); !table) return table.error();
+    const std::string ending = io::file_extension(arguments.lengths);
+    if (arguments.lengths != "-" && ending != ".csv" && ending != ".npy") {
+      return Error{ErrorCode::kNotAvailable, "--lengths: " + one_line(arguments.lengths) +
+                                                 ": unknown extension '" + one_line(ending) +
+                                                 "'; there are .csv .npy"};
+    }
   }
   auto model = load_model(arguments.model, task->reading, progress);
   if (!model) return model.error();
@@ -319,7 +362,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
   if (auto found = find_paths(*task, check->against, progress, figures); !found) {
     return found.error();
   }
-  note_unused_settings(arguments.settings, task->method, figures.warnings);
+  note_unused_settings(arguments.settings, figures.method, figures.warnings);
 
   CommandOutput out{"", figures.warnings, {}};
   const auto written = write_line_files(arguments.files, picture_of_paths(figures), task->picture,
@@ -331,7 +374,7 @@ Result<CommandOutput> run_path(const PathArguments& arguments, const Progress& p
     if (!json) return json.error();
   }
   if (!arguments.lengths.empty()) {
-    const auto table = outputs.write_text(arguments.lengths, lengths_csv(figures), out.text);
+    const auto table = write_lengths(arguments.lengths, figures, outputs, out.text);
     if (!table) return table.error();
   }
   if (!outputs.uses_stdout()) out.text = path_table(figures);

@@ -107,24 +107,28 @@ Result<std::vector<SurfacePath>> asked_curves(const SignedArguments& arguments, 
   return curves;
 }
 
-/// Level sets at ten distances, and the curves themselves.
+/// Level sets at some twenty distances, and the curves themselves.
 Result<void> write_levels(const std::string& path, const Model& model,
                           const std::vector<SurfacePath>& curves, const SignedDistance& found,
                           const PictureSettings& settings, const Progress& progress,
                           Outputs& outputs, CommandOutput& out) {
-  constexpr int kLevels = 10;
-  double most = 0;
-  for (const double d : found.distances)
-    most = std::isfinite(d) ? std::max(most, std::abs(d)) : most;
+  constexpr double kLevels = 20;
+  double least = 0, largest = 0;
+  for (const double d : found.distances) {
+    if (!std::isfinite(d)) continue;
+    least = std::min(least, d);
+    largest = std::max(largest, d);
+  }
+  const double step = (largest - least) / kLevels;
   std::vector<double> levels;
-  for (int k = -kLevels; k <= kLevels; ++k) {
-    if (k != 0) levels.push_back(k * most / kLevels);
+  for (double k = std::ceil(least / step); k * step <= largest; ++k) {
+    if (k != 0) levels.push_back(k * step);
   }
   const auto lines = find_isolines(*model.mesh, found.distances, levels);
   if (!lines) return lines.error();
-  LinePicture picture{model.mesh, {}, {}, most, model.name + ", signed distance"};
-  for (const Isoline& line : *lines) picture.lines.push_back({&line.path, std::abs(line.value)});
-  for (const SurfacePath& curve : curves) picture.lines.push_back({&curve, 0.0});
+  LinePicture picture{model.mesh, {}, {}, largest, model.name + ", signed distance", least};
+  for (const Isoline& line : *lines) picture.lines.push_back({&line.path, line.value});
+  for (const SurfacePath& curve : curves) picture.lines.push_back({&curve, {}});
   return write_line_files({{path}, ""}, picture, settings, progress, outputs, out);
 }
 
@@ -162,7 +166,7 @@ void add_signed_options(CLI::App& command, SignedArguments& arguments) {
       "Distances are negative to the left of the curves, so inside a loop that runs "
       "counterclockwise.\n"
       "Examples:\n"
-      "  geotherm signed bunny --through 17 --through 900 --through 1500 --closed -o signed.npy\n"
+      "  geotherm signed bunny --through 495 --through 905 --through 1878 --closed -o signed.npy\n"
       "  geotherm signed bunny --curves isolines.csv --rule heat -o signed.svg");
 }
 

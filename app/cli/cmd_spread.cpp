@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "app/cli/commands.h"
 #include "app/cli/vertex_columns.h"
@@ -18,6 +19,7 @@
 #include "geotherm/directions.h"
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
 namespace {
@@ -28,11 +30,43 @@ struct AtVertex {
   std::vector<double> numbers;
 };
 
-/// V:X or V:X:Y.
-Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const char* option,
+/// What is given, and where that is said.
+struct GivenText {
+  std::string text, where;
+};
+
+/// The lines of a file, whose numbers blanks or commas divide, as they would be typed.
+Result<void> add_lines(const std::string& path, const std::string& option,
+                       std::vector<GivenText>& out) {
+  const auto file = io::FileBytes::read(path);
+  if (!file) return about(option, file.error());
+  std::istringstream lines{std::string(file->bytes())};
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    line.erase(std::min(line.find('#'), line.size()));
+    std::ranges::replace(line, ',', ' ');
+    std::istringstream words(line);
+    std::string joined;
+    for (std::string word; words >> word;) joined += (joined.empty() ? "" : ":") + word;
+    if (!joined.empty()) out.push_back({joined, option + " line " + std::to_string(number)});
+  }
+  return {};
+}
+
+/// V:X or V:X:Y. `option`: of a single one; that of the file has an s behind it.
+Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const std::string& option,
                                        std::size_t numbers) {
+  std::vector<GivenText> texts;
+  for (const std::string& text : arguments.given) texts.push_back({text, option});
+  if (!arguments.file.empty()) {
+    if (auto added = add_lines(arguments.file, option + "s", texts); !added) return added.error();
+  }
+  if (texts.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "nothing was given; give some with " + option + ", or " + option + "s FILE"};
+  }
   std::vector<AtVertex> out;
-  for (const std::string& text : arguments.given) {
+  for (const auto& [text, where] : texts) {
     AtVertex& given = out.emplace_back();
     std::size_t from = 0, parts = 0;
     bool fine = true;
@@ -52,8 +86,9 @@ Result<std::vector<AtVertex>> given_in(const SpreadArguments& arguments, const c
     }
     if (fine && parts == numbers + 1) continue;
     return Error{ErrorCode::kBadInput,
-                 std::string(option) + ": '" + one_line(text) + "' is none; write " +
-                     (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE")};
+                 where + ": '" + one_line(text) + "' is none; write " +
+                     (numbers == 2 ? "VERTEX:X:Y, along e1 and e2 of the vertex" : "VERTEX:VALUE") +
+                     (where == option ? "" : ", or the numbers with blanks between")};
   }
   return out;
 }
@@ -163,6 +198,7 @@ Result<void> write_arrows(const std::string& path, const SpreadWork& work,
                           const PictureSettings& settings, const Progress& progress,
                           Outputs& outputs, CommandOutput& out) {
   LinePicture picture{work.model.mesh, {}, {}, 0, work.model.name + ", transported vectors"};
+  picture.shows_hidden = false;
   const auto lines = arrows(work);
   if (!lines) return lines.error();
   for (const SurfacePath& line : *lines) picture.lines.push_back({&line, 0.0});
@@ -173,11 +209,15 @@ void add_spread_options(CLI::App& command, SpreadArguments& arguments, const cha
                         const char* form, const char* help, const char* what, bool pictures) {
   add_model_option(command, arguments.model, arguments.settings)->required();
   command.add_option(option, arguments.given, help)
-      ->required()
       ->type_name(form)
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option(std::string(option) + "s", arguments.file,
+                  std::string("a file of them, one a line: ") + form +
+                      ", or the numbers with blanks or commas between")
+      ->type_name("FILE");
   add_column_options(command, arguments.outputs, arguments.json, what, pictures);
   if (pictures) add_line_picture_options(command, arguments.settings);
   add_quiet_option(command, arguments.quiet);
@@ -187,10 +227,13 @@ void add_spread_options(CLI::App& command, SpreadArguments& arguments, const cha
 }  // namespace
 
 void add_transport_options(CLI::App& command, SpreadArguments& arguments) {
-  add_spread_options(command, arguments, "--vector", "V:X:Y",
-                     "a vector at a vertex by its components along e1 and e2 there (geotherm trace "
-                     "says the frame); may be repeated",
-                     "the vectors, in space (vx, vy, vz) and in the frames (u, v),", true);
+  add_spread_options(
+      command, arguments, "--vector", "V:X:Y",
+      "a vector at a vertex by its components along e1 and e2 there, which the "
+      "outputs say of every vertex; may be repeated",
+      "the vectors, in space (vx, vy, vz) and in the frames (u, v), and e1 and e2 of "
+      "each vertex",
+      true);
   command.footer(
       "The vector heat method: each vertex gets the vector of the nearest of those given, carried "
       "along the shortest path. A picture has arrows on the surface.\n"
@@ -206,6 +249,7 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
   if (!given) return given.error();
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
+  outputs.protect(arguments.file, "the vectors");
   const auto expected = expect_columns(arguments.outputs, arguments.json, true, outputs);
   if (!expected) return expected.error();
   std::vector<TangentVector> vectors;
@@ -216,10 +260,18 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
       progress);
   if (!work) return work.error();
 
-  std::vector<VertexColumn> columns = {{"vx", {}}, {"vy", {}}, {"vz", {}}, {"u", {}}, {"v", {}}};
+  std::vector<VertexColumn> columns;
+  for (const char* name : {"vx", "vy", "vz", "u", "v", "e1x", "e1y", "e1z", "e2x", "e2y", "e2z"}) {
+    columns.push_back({name, {}});
+  }
   Index reached = 0;
   for (std::size_t v = 0; v < work->spread.vectors.size(); ++v) {
-    for (int k = 0; k < 3; ++k) columns[k].values.push_back(work->spread.vectors[v][k]);
+    const TangentFrame& frame = work->heat->frames()[v];
+    for (int k = 0; k < 3; ++k) {
+      columns[k].values.push_back(work->spread.vectors[v][k]);
+      columns[5 + k].values.push_back(frame.e1[k]);
+      columns[8 + k].values.push_back(frame.e2[k]);
+    }
     for (int k = 0; k < 2; ++k) columns[3 + k].values.push_back(work->spread.components[v][k]);
     reached += std::isfinite(work->spread.components[v][0]) ? 1 : 0;
   }
@@ -231,8 +283,15 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
     if (!written) return written.error();
   }
   if (!arguments.json.empty()) {
-    const auto written = outputs.write_text(
-        arguments.json, report_text(spread_json(*work, *given, reached)), out.text);
+    Json json = spread_json(*work, *given, reached);
+    json["components"] = work->spread.components;
+    json["vectors"] = json["frames"]["e1"] = json["frames"]["e2"] = Json::array();
+    for (const Vec3& v : work->spread.vectors) json["vectors"].push_back({v.x(), v.y(), v.z()});
+    for (const TangentFrame& frame : work->heat->frames()) {
+      json["frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
+      json["frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
+    }
+    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = spread_table(*work, "vectors", reached);
@@ -257,6 +316,7 @@ Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progres
   if (!given) return given.error();
   Outputs outputs;
   protect_inputs(arguments.model, {}, outputs);
+  outputs.protect(arguments.file, "the values");
   const auto expected = expect_columns(arguments.outputs, arguments.json, false, outputs);
   if (!expected) return expected.error();
   std::vector<Index> vertices;
@@ -282,8 +342,9 @@ Result<CommandOutput> run_extend(const SpreadArguments& arguments, const Progres
     if (!written) return written.error();
   }
   if (!arguments.json.empty()) {
-    const auto written = outputs.write_text(
-        arguments.json, report_text(spread_json(*work, *given, reached)), out.text);
+    Json json = spread_json(*work, *given, reached);
+    json["values"] = all;
+    const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();
   }
   if (!outputs.uses_stdout()) out.text = spread_table(*work, "values", reached);

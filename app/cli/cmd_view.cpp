@@ -175,6 +175,11 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
   command.add_flag("--validation", arguments.validation,
                    "what Vulkan's validation layer reports is an error");
   add_sequence_option(command, arguments.sequence);
+  command
+      .add_option("--field", arguments.field,
+                  "values, vectors or a log map of the vertices (.npy) in place of distances")
+      ->type_name("FILE");
+  add_max_distance_option(command, arguments.max_distance);
   add_quiet_option(command, arguments.quiet);
   add_picture_options(command, arguments.settings, arguments.picture);
   add_source_options(command, arguments.sources);
@@ -210,7 +215,14 @@ Result<std::vector<Command>> commands_of(const ViewArguments& arguments,
     state.sources = opened->sources;
   }
   if (!sources->empty()) state.sources = *sources;
+  const auto most = max_distance_in(arguments.max_distance);
+  if (!most) return most.error();
+  if (!arguments.field.empty() && arguments.model.empty()) {
+    return Error{ErrorCode::kBadInput, "--field: there is no model whose vertices have values"};
+  }
   state.timeline.sequence = arguments.sequence;
+  state.field = arguments.field;
+  state.max_distance = *most;
   return commands_to(state);
 }
 

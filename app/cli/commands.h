@@ -280,6 +280,7 @@ struct SpreadArguments {
   std::string model;
   SettingArguments settings;
   std::vector<std::string> given;  ///< V:X:Y of vectors, V:X of values
+  std::string file;                ///< of more of them, one a line
   std::vector<std::string> outputs;
   std::string json;
   bool quiet = false;
@@ -364,10 +365,12 @@ struct ViewArguments {
   SettingArguments settings;
   SourceArguments sources;
   PictureArguments picture;
-  std::string sequence;  ///< Frames::open()'s path; empty: the model alone
-  std::string script;    ///< commands to run, in the window or without
-  std::string replay;    ///< commands to run without a window and without writing files
-  std::string output;    ///< the picture at the end, without a window
+  std::string sequence;      ///< Frames::open()'s path; empty: the model alone
+  std::string field;         ///< shown in place of distances; empty: these
+  std::string max_distance;  ///< empty: all of the surface
+  std::string script;        ///< commands to run, in the window or without
+  std::string replay;        ///< commands to run without a window and without writing files
+  std::string output;        ///< the picture at the end, without a window
   bool headless = false;
   std::string scale;
   bool validation = false;

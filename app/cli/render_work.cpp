@@ -7,15 +7,14 @@
 #include <utility>
 
 #include "app/picture/cut_picture.h"
-#include "app/picture/direction_picture.h"
 #include "app/picture/picture_scale.h"
 #include "app/picture/target_paths.h"
 #include "app/session/explored.h"
 #include "app/session/model_solver.h"
+#include "app/session/vertex_field.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "solver/core/text.h"
-#include "solver/grid/io/raw_grid.h"
 #include "solver/mesh/io/input_file.h"
 
 namespace geotherm::app {
@@ -24,54 +23,17 @@ namespace {
 /// A mesh without any area has no distances but may be looked at all the same.
 bool has_area(const TriangleMesh& mesh) { return inspect_mesh(mesh).area > 0; }
 
-/// Column k of a table.
-std::vector<double> column_of(const io::NpyTable& table, std::size_t k) {
-  std::vector<double> out;
-  for (std::size_t i = k; i < table.values.size(); i += table.columns) {
-    out.push_back(table.values[i]);
-  }
-  return out;
-}
-
-/// Values, vectors (x, y, z and what else `transport` has written) or a log map (that of `logmap`:
-/// distance, direction, x, y) of vertices that a file holds, in place of distances.
+/// What a file holds of vertices, in place of distances.
 Result<void> draw_field(const std::string& path, const Model& model,
                         const PictureSettings& settings, PictureData& data,
                         PictureFigures& figures) {
-  if (auto surface = refuse_space(model, "values of vertices are drawn"); !surface) return surface;
-  auto file = io::FileBytes::read(path);
-  if (!file) return about("--field", file.error());
-  const std::string name = io::printable(path);
-  const auto table =
-      io::guarded_read(name, "values", file->bytes().size(),
-                       [&]() -> Result<io::NpyTable> { return io::read_npy_table(file->bytes()); });
-  if (!table) return about("--field", table.error());
-  const auto vertices = static_cast<std::size_t>(model.mesh->vertex_count());
-  const std::size_t rows = table->values.size() / std::max<std::size_t>(table->columns, 1);
-  if (rows != vertices) {
-    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(rows) +
-                                           " values and " + one_line(model.name) + " " +
-                                           grouped(vertices) + " vertices; give one a vertex"};
-  }
+  const auto field = read_vertex_field(path, model);
+  if (!field) return about("--field", field.error());
   figures.field = path;
-  if (table->columns == 4) {
-    return add_log_map(data, *model.mesh, column_of(*table, 0), column_of(*table, 2),
-                       column_of(*table, 3));
+  if (auto shown = show_field(data, *model.mesh, *field); !shown || field->columns > 1) {
+    return shown;
   }
-  if (table->columns == 3 || table->columns == 5) {
-    std::vector<Vec3> vectors;
-    for (std::size_t i = 0; i < table->values.size(); i += table->columns) {
-      vectors.emplace_back(table->values[i], table->values[i + 1], table->values[i + 2]);
-    }
-    add_vectors(data, *model.mesh, vectors);
-    return {};
-  }
-  if (table->columns != 1) {
-    return Error{ErrorCode::kBadInput, "--field: " + name + " has " + grouped(table->columns) +
-                                           " columns; give 1 (values), 3 or 5 (vectors) or 4 (a "
-                                           "log map)"};
-  }
-  add_field(data, table->values);
+  const std::string name = io::printable(path);
   if (settings.colour_scale == ColourScale::kDiverging && !data.is_signed) {
     return Error{ErrorCode::kBadInput, "--colour-scale diverging: the values of " + name +
                                            " do not have both signs; choose linear"};

@@ -60,6 +60,11 @@ Result<void> add_log_map(PictureData& data, const TriangleMesh& mesh,
   const auto rays = map_lines(mesh, std::move(x), std::move(y), angles, {&zero, 1});
   if (!rays) return rays.error();
   add_distances(data, distances);
+  const auto source = std::ranges::find(distances, 0.0);
+  if (source != distances.end()) {  // else it lies within a face
+    add_sources(data, mesh,
+                SourceSet::of_vertices({static_cast<Index>(source - distances.begin())}));
+  }
   for (const Isoline& ray : *rays) {
     add_line(data, positions_of(mesh, ray.path), "equal direction, every 15\u00b0");
   }

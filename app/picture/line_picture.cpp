@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -182,6 +183,10 @@ using Colour = std::array<double, 3>;
 constexpr Colour kNearToFar[] = {{200, 6, 24},  {196, 22, 96}, {158, 40, 150},
                                  {98, 62, 190}, {36, 70, 190}, {16, 36, 130}};
 
+/// On the two sides of 0, from it on: blue below, red above.
+constexpr Colour kBelowZero[] = {{88, 140, 220}, {36, 84, 190}, {14, 32, 110}};
+constexpr Colour kAboveZero[] = {{236, 130, 70}, {206, 48, 36}, {120, 6, 24}};
+
 struct Style {
   Colour background, dark_tone, light_tone, contour, text;
   double towards_white;  ///< of the lines
@@ -207,12 +212,12 @@ std::string text_of(const Colour& c) {
   return text;
 }
 
-Colour colour_at(double share, const Style& style) {
-  constexpr double kLast = std::size(kNearToFar) - 1;
-  const double at = std::clamp(share, 0.0, 1.0) * kLast;
-  const auto i = static_cast<std::size_t>(std::min(at, kLast - 1));
-  return between(between(kNearToFar[i], kNearToFar[i + 1], at - static_cast<double>(i)),
-                 {255, 255, 255}, style.towards_white);
+Colour colour_at(double share, std::span<const Colour> colours, const Style& style) {
+  const auto last = static_cast<double>(colours.size() - 1);
+  const double at = std::clamp(share, 0.0, 1.0) * last;
+  const auto i = static_cast<std::size_t>(std::min(at, last - 1));
+  return between(between(colours[i], colours[i + 1], at - static_cast<double>(i)), {255, 255, 255},
+                 style.towards_white);
 }
 
 /// The commands of a path; two decimals are a fiftieth of what the eye sees.
@@ -284,15 +289,26 @@ class SvgDrawing {
     const double width = (valued ? 1 : 2) * line_width();
     for (const Polyline& line : picture_.lines) {
       const auto points = positions_of(*picture_.mesh, *line.path);
-      const double share = valued ? line.value.value_or(0) / picture_.largest_value : 0;
-      if (!valued) draw_hidden(sight_.parts(points, false), colour_at(share, style_), width);
+      const Colour colour = valued && !line.value ? style_.text : colour_of(line.value.value_or(0));
+      if (!valued && picture_.shows_hidden) {
+        draw_hidden(sight_.parts(points, false), colour, width);
+      }
       const auto parts = sight_.parts(points, true);
       if (parts.empty()) continue;
       shows_lines_ = true;
       const std::string d = commands(parts, false);
       if (!valued) stroke(d, style_.background, 2 * width);  // a rim sets it off
-      stroke(d, colour_at(share, style_), width);
+      stroke(d, colour, (valued && !line.value ? 2 : 1) * width);
     }
+  }
+
+  Colour colour_of(double value) const {
+    const double least = picture_.least_value, largest = picture_.largest_value;
+    if (!(least < 0)) {
+      return colour_at(largest > 0 ? value / largest : 0, kNearToFar, style_);
+    }
+    return colour_at(std::abs(value) / std::max(-least, largest),
+                     value < 0 ? kBelowZero : kAboveZero, style_);
   }
 
   /// What the surface hides of a path: dashes, thinner and fainter.
@@ -325,24 +341,36 @@ class SvgDrawing {
             text_of(style_.text) + "\">" + escaped(one_line(text)) + "</text>\n";
   }
 
-  /// The colours of the distances, 0 at the bottom.
+  /// The colours of the distances, the least at the bottom.
   void draw_bar() {
+    const double least = picture_.least_value, range = picture_.largest_value - least;
     const double right = settings_.width - 24 * unit_, wide = 12 * unit_;
     const double bottom = 0.85 * settings_.height, top = 0.15 * settings_.height;
     svg_ += "<linearGradient id=\"distance\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">";
+    const auto stop = [&](double value, const Colour& colour) {
+      svg_ += "<stop offset=\"" + fixed((value - least) / range, 3) + "\" stop-color=\"" +
+              text_of(colour) + "\"/>";
+    };
     constexpr int kStops = 10;
+    const double most = std::max(-least, picture_.largest_value);
+    if (least < 0) {
+      stop(least, colour_of(least));
+      for (int i = kStops - 1; i > 0; --i) {
+        if (-i * most / kStops > least) stop(-i * most / kStops, colour_of(-i * most / kStops));
+      }
+      stop(0, colour_at(0, kBelowZero, style_));
+    }
     for (int i = 0; i <= kStops; ++i) {
-      const double share = i / static_cast<double>(kStops);
-      svg_ += "<stop offset=\"" + fixed(share, 2) + "\" stop-color=\"" +
-              text_of(colour_at(share, style_)) + "\"/>";
+      const double value = picture_.largest_value * i / kStops;
+      stop(value, colour_of(value));
     }
     svg_ += "</linearGradient>\n<rect x=\"" + fixed(right - wide, 1) + "\" y=\"" + fixed(top, 1) +
             "\" width=\"" + fixed(wide, 1) + "\" height=\"" + fixed(bottom - top, 1) +
             "\" fill=\"url(#distance)\"/>\n";
-    Ticks ticks = make_ticks(0, picture_.largest_value, 8);
+    Ticks ticks = make_ticks(least, picture_.largest_value, 8);
     format_labels(ticks, settings_.number_format);
     for (std::size_t i = 0; i < ticks.values.size(); ++i) {
-      const double y = bottom - (bottom - top) * ticks.values[i] / picture_.largest_value;
+      const double y = bottom - (bottom - top) * (ticks.values[i] - least) / range;
       write(right - wide - 6 * unit_, y + 0.35 * text_size(), ticks.labels[i], "end");
     }
     PictureData named;

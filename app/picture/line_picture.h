@@ -16,10 +16,12 @@ namespace geotherm::app {
 /// What is shown.
 struct LinePicture {
   std::shared_ptr<const TriangleMesh> mesh;
-  std::vector<Polyline> lines;
-  std::vector<Vec3> markers;  ///< model units: ends of paths, sources
-  double largest_value = 0;   ///< of the colour scale, which begins at 0; 0: one colour
+  std::vector<Polyline> lines;  ///< on a scale those without a value are black
+  std::vector<Vec3> markers;    ///< model units: ends of paths, sources
+  double largest_value = 0;     ///< of the colour scale; 0: one colour
   std::string title;
+  double least_value = 0;    ///< where the scale begins; below 0 both sides of 0 have own colours
+  bool shows_hidden = true;  ///< of lines in one colour: dashes where the surface hides them
 };
 
 struct LinePictureSvg {

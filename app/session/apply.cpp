@@ -52,6 +52,8 @@ class Applier {
     if (s_.sources.empty()) s_.sources = {kFirstSource};
     s_.picked.reset();
     s_.target.reset();
+    s_.field.clear();
+    s_.max_distance = kUnreached;
     // Lengths in units of the old model are reset.
     s_.picture.range_min = s_.picture.range_max = s_.picture.line_spacing = std::nullopt;
     return (*this)(command::Frame{});
@@ -288,6 +290,20 @@ class Applier {
                        "write one vertex, face:ID:b0:b1:b2 or xyz:x:y:z");
     }
     s_.target = c.point;
+    return {};
+  }
+
+  Result<void> operator()(const command::ShowField& c) {
+    if (s_.model.empty() && !c.path.empty()) {
+      return bad("there is no model whose vertices could have values",
+                 {"open one first: open MODEL"});
+    }
+    s_.field = c.path;
+    return {};
+  }
+
+  Result<void> operator()(const command::MaxDistance& c) {
+    s_.max_distance = c.most;
     return {};
   }
 

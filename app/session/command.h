@@ -176,6 +176,18 @@ struct Target {                     // target SPEC, target none
   bool operator==(const Target&) const = default;
 };
 
+/// Shows values, vectors or a log map of the vertices from a file in place of distances; empty: no
+/// longer.
+struct ShowField {  // field FILE, field none
+  std::string path;
+  bool operator==(const ShowField&) const = default;
+};
+/// Distances no farther than that are asked for.
+struct MaxDistance {         // max-distance R, max-distance none
+  double most = kUnreached;  ///< > 0, model units
+  bool operator==(const MaxDistance&) const = default;
+};
+
 /// Runs the present work through several backends.
 struct Compare {  // compare [all|NAME,NAME...]
   std::string backends = "all";
@@ -226,16 +238,18 @@ struct Quit {  // quit
 
 }  // namespace command
 
-using Command = std::variant<
-    command::Open, command::Reset, command::Run, command::Set, command::SetSources,
-    command::AddSources, command::MoveSource, command::RemoveSource, command::ExtendCurve,
-    command::ClearSources, command::MoreSources, command::FewerSources, command::ShuffleSources,
-    command::Sculpt, command::ExtendStroke, command::ShowSequence, command::ShowFrame,
-    command::Play, command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
-    command::Place, command::Frame, command::Rotate, command::Keep, command::Forget, command::Swap,
-    command::Show, command::Flip, command::Pick, command::Target, command::Compare,
-    command::SavePicture, command::SaveDistances, command::SaveMesh, command::SaveSession,
-    command::SaveLog, command::SaveFigures, command::Undo, command::Redo, command::Quit>;
+using Command =
+    std::variant<command::Open, command::Reset, command::Run, command::Set, command::SetSources,
+                 command::AddSources, command::MoveSource, command::RemoveSource,
+                 command::ExtendCurve, command::ClearSources, command::MoreSources,
+                 command::FewerSources, command::ShuffleSources, command::Sculpt,
+                 command::ExtendStroke, command::ShowSequence, command::ShowFrame, command::Play,
+                 command::Loop, command::Orbit, command::Zoom, command::Pan, command::Centre,
+                 command::Place, command::Frame, command::Rotate, command::Keep, command::Forget,
+                 command::Swap, command::Show, command::Flip, command::Pick, command::Target,
+                 command::ShowField, command::MaxDistance, command::Compare, command::SavePicture,
+                 command::SaveDistances, command::SaveMesh, command::SaveSession, command::SaveLog,
+                 command::SaveFigures, command::Undo, command::Redo, command::Quit>;
 
 /// One line without its end. parse_command(to_text(c)) == c for every command that can be parsed.
 std::string to_text(const Command& command);

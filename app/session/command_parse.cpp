@@ -186,6 +186,19 @@ Result<Command> read_target(WordReader& reader) {
   return Command(command::Target{*point});
 }
 
+Result<Command> read_field(WordReader& reader) {
+  const std::string& path = reader.next();
+  return Command(command::ShowField{path == "none" ? "" : path});
+}
+
+Result<Command> read_max_distance(WordReader& reader) {
+  if (reader.peek() == "none") return Command(command::MaxDistance{});
+  const auto most =
+      reader.number(std::numeric_limits<double>::min(), std::numeric_limits<double>::max());
+  if (!most) return most.error();
+  return Command(command::MaxDistance{*most});
+}
+
 Result<Command> read_compare(WordReader& reader) {
   return Command(reader.at_end() ? command::Compare{} : command::Compare{reader.next()});
 }
@@ -246,6 +259,8 @@ const Form kForms[] = {
     {"flip", "", 0, 0, plain<command::Flip>},
     {"pick", "face:ID:b0:b1:b2|none", 1, 1, read_pick},
     {"target", "POINT|none", 1, 1, read_target},
+    {"field", "FILE|none", 1, 1, read_field},
+    {"max-distance", "R|none", 1, 1, read_max_distance},
     {"compare", "[all|NAME,NAME...]", 0, 1, read_compare},
     {"save picture", "FILE [WxH] [panels]", 1, 3, read_save_picture},
     {"save distances", "FILE", 1, 1, with_text<command::SaveDistances>},

@@ -309,6 +309,12 @@ struct Printer {
   std::string operator()(const command::Pick& c) const {
     return "pick " + (c.point ? to_text(SourceSpec(*c.point)) : "none");
   }
+  std::string operator()(const command::ShowField& c) const {
+    return words("field", {c.path.empty() ? "none" : c.path});
+  }
+  std::string operator()(const command::MaxDistance& c) const {
+    return c.most < kUnreached ? numbers("max-distance", {c.most}) : "max-distance none";
+  }
   std::string operator()(const command::Target& c) const {
     return "target " + (c.point ? to_text(*c.point) : "none");
   }

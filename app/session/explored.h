@@ -12,6 +12,7 @@
 #include "app/session/answer.h"
 #include "app/session/model.h"
 #include "app/session/state.h"
+#include "app/session/vertex_field.h"
 #include "geotherm/heat_method.h"
 #include "solver/mesh/ray_tree.h"
 
@@ -51,9 +52,10 @@ struct Explored {
     double largest = 0;          ///< distance of A
   };
   std::shared_ptr<const Difference> difference;
-  std::vector<TargetPath> paths;        ///< to ViewerState::target
-  std::optional<Warning> path_failure;  ///< why there are none although there is a target
-  std::optional<Error> b_failure;       ///< why there is no B although settings are kept
+  std::shared_ptr<const VertexField> field;  ///< shown in place of answers; null: none
+  std::vector<TargetPath> paths;             ///< to ViewerState::target
+  std::optional<Warning> path_failure;       ///< why there are none although there is a target
+  std::optional<Error> b_failure;            ///< why there is no B although settings are kept
   bool checked = false;       ///< true if these answers were shown before, without their errors
   std::uint64_t version = 0;  ///< incremented with every change
 };

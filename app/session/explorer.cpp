@@ -290,16 +290,18 @@ Result<std::shared_ptr<const Answer>> Explorer::answer(const ExploreRequest& req
                                                        const MethodOptions& options,
                                                        const ResolvedSources& sources, bool is_b,
                                                        const Progress& progress) {
-  const QueryOptions query{
+  QueryOptions query{
       .quality = request.quality, .fields = request.fields, .nearest = request.nearest && !is_b};
-  auto answer = solver_->solve(options, sources, {query}, progress);
+  query.reach.max_distance = request.max_distance;
+  // What is cut cannot be held against all distances: it is checked before it is cut.
+  const bool bounded = request.max_distance < kUnreached, checks = is_thorough(request.check);
+  const CheckSettings check{.against = request.check, .quick = !request.quality};
+  Wanted wanted{query};
+  if (bounded && checks) wanted.check = check;
+  auto answer = solver_->solve(options, sources, wanted, progress);
   if (!answer) return answer.error();
-  if (is_thorough(request.check)) {
-    if (auto done = solver_->check(*answer, {.against = request.check, .quick = !request.quality},
-                                   progress);
-        !done) {
-      return done.error();
-    }
+  if (checks && !bounded) {
+    if (auto done = solver_->check(*answer, check, progress); !done) return done.error();
   }
   return std::make_shared<const Answer>(*std::move(answer));
 }
@@ -324,7 +326,7 @@ Result<void> Explorer::find_paths(const ExploreRequest& request, Explored& explo
 /// Hands the answers out as they are, and then holds them against better ones.
 Result<void> Explorer::check_afterwards(const ExploreRequest& request, Explored& explored,
                                         const Progress& progress, const Early& early) {
-  if (request.check != Check::kOn) return {};
+  if (request.check != Check::kOn || request.max_distance < kUnreached) return {};
   early(explored);
   explored.checked = true;
   for (auto* const answer : {&explored.a, &explored.b}) {
@@ -348,6 +350,12 @@ Result<Explored> Explorer::explore(const ExploreRequest& request, const Progress
   Explored explored;
   explored.model = model_;
   explored.sources = request.sources;
+  if (!request.field.empty()) {
+    auto field = read_vertex_field(request.field, model_->model);
+    if (!field) return field.error();
+    explored.field = std::make_shared<const VertexField>(*std::move(field));
+    return explored;
+  }
   if (request.sources.empty()) return explored;
   auto warnings = place_sources(request, explored);
   if (!warnings) return warnings.error();

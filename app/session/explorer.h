@@ -37,6 +37,8 @@ struct ExploreRequest {
   Check check = Check::kOff;
   bool nearest = false;              ///< DistanceResult::nearest_source of A
   std::optional<SourceSpec> target;  ///< Explored::paths
+  double max_distance = kUnreached;  ///< model units
+  std::string field;                 ///< a file of what is shown in place of distances; empty: none
 
   /// Whether both need the same model and factors.
   bool same_setup(const ExploreRequest& other) const {
@@ -47,7 +49,8 @@ struct ExploreRequest {
   bool covers(const ExploreRequest& other) const {
     return same_setup(other) && pose == other.pose && sources == other.sources &&
            fields >= other.fields && quality >= other.quality && nearest >= other.nearest &&
-           (check == other.check || other.check == Check::kOff) && target == other.target;
+           (check == other.check || other.check == Check::kOff) && target == other.target &&
+           max_distance == other.max_distance && field == other.field;
   }
 };
 

@@ -39,6 +39,14 @@ struct CheckedMethod {
   std::vector<Warning> warnings;
 };
 
+/// Whether exact distances are the best to lead so many geodesics from one point: of most they say
+/// at once that they are the shortest. On many faces they take minutes.
+inline bool exact_leads_tree(std::size_t paths, const Model& model) {
+  constexpr std::size_t kMinPaths = 4;
+  constexpr Index kMaxFaces = 500000;
+  return paths >= kMinPaths && model.mesh->face_count() <= kMaxFaces;
+}
+
 /// Answers questions about one model. Every command and the viewer ask here. It keeps what later
 /// questions can use: factors, the wave surface, the last reference. What is done beside it (rows
 /// in a stream, samples, paths, timed queries) asks the methods that prepare() returns. For one

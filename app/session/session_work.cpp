@@ -63,6 +63,8 @@ ExploreRequest Session::State::wanted() const {
   // What moves is not checked: it comes to rest first.
   if (dragging && request.check == Check::kOn) request.check = Check::kOff;
   request.target = state.target;
+  request.max_distance = state.max_distance;
+  request.field = state.field;
   request.nearest = view == View::kRegions;
   return request;
 }

@@ -44,6 +44,8 @@ struct ViewerState {
   Shown shown = Shown::kA;            ///< kA unless `kept`
   Check check = Check::kOn;           ///< the view exact-error means kAuto where it is off or on
   std::optional<SourceSpec> target;   ///< paths lead from this single point to the sources
+  double max_distance = kUnreached;   ///< distances beyond it are not asked for, model units
+  std::string field;                  ///< a file shown in place of distances; empty: none
   PictureSettings picture;            ///< width and height: of saved pictures
   std::optional<FacePoint> picked;    ///< the point whose figures are shown
   bool rotating = false;

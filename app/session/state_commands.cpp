@@ -47,6 +47,10 @@ std::vector<Command> commands_to(const ViewerState& state) {
       commands.emplace_back(command::SetSources{state.sources});
     }
   }
+  if (state.max_distance < kUnreached) {
+    commands.emplace_back(command::MaxDistance{state.max_distance});
+  }
+  if (!state.field.empty()) commands.emplace_back(command::ShowField{state.field});
   if (state.shown != Shown::kA) commands.emplace_back(command::Show{state.shown});
   if (state.target) commands.emplace_back(command::Target{state.target});
   if (state.picked) commands.emplace_back(command::Pick{state.picked});
@@ -71,11 +75,11 @@ UndoRule undo_rule(const Command& command) {
           nullptr));
   const bool undoable =
       merged ||
-      is(static_cast<
-          std::variant<command::SetSources, command::AddSources, command::RemoveSource,
-                       command::ClearSources, command::MoreSources, command::FewerSources,
-                       command::ShuffleSources, command::Sculpt, command::Keep, command::Forget,
-                       command::Swap, command::Show, command::Flip, command::Target>*>(nullptr));
+      is(static_cast<std::variant<
+             command::SetSources, command::AddSources, command::RemoveSource, command::ClearSources,
+             command::MoreSources, command::FewerSources, command::ShuffleSources, command::Sculpt,
+             command::Keep, command::Forget, command::Swap, command::Show, command::Flip,
+             command::Target, command::ShowField, command::MaxDistance>*>(nullptr));
   return {undoable, merged};
 }
 

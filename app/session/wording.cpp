@@ -156,9 +156,9 @@ std::vector<Warning> mesh_warnings(const MeshReport& mesh) {
     out.push_back({counted(mesh.nonmanifold_vertices, "vertex joins", "vertices join") +
                    " parts of the surface that share no edge there"});
   }
-  if (mesh.repeated_corner_faces > 0) {
-    out.push_back({counted(mesh.repeated_corner_faces, "face repeats", "faces repeat") +
-                   " a corner and will be left out"});
+  if (const Index repeated = mesh.repeated_corner_faces - mesh.one_vertex_faces; repeated > 0) {
+    out.push_back(
+        {counted(repeated, "face repeats", "faces repeat") + " a corner and will be left out"});
   }
   const Mollification& mollified = mesh.mollified;
   if (mollified.most > 0) {

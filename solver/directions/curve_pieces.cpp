@@ -2,6 +2,7 @@
 #include "solver/directions/curve_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -58,7 +59,7 @@ class Collector {
       add_piece(points[i], points[i + 1], face);
     }
     for (std::size_t i = 1; i < faces.size(); ++i) pass(points[i], faces[i - 1], faces[i]);
-    const bool closed = points.size() > 2 && points.front() == points.back();
+    const bool closed = points.size() > 2 && same_place(points.front(), points.back());
     const bool returns = curve.closed && !faces.empty();
     if (closed || returns) pass(points.front(), faces.back(), faces.front());
     return {};
@@ -73,6 +74,19 @@ class Collector {
       if (std::ranges::find(at_b, f) != at_b.end()) return f;
     }
     return kNoIndex;
+  }
+
+  /// A point on an edge may be said in any of its faces, and files round its weights.
+  bool same_place(const SurfacePoint& a, const SurfacePoint& b) const {
+    constexpr double kRounded = 1e-9;
+    if (a.is_vertex() || b.is_vertex()) return a == b;
+    const auto there = surface_.express(b, a.face);
+    if (!there) return false;
+    double apart = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart = std::max(apart, std::abs(a.weights[k] - there->weights[k]));
+    }
+    return apart < kRounded;
   }
 
   void add_piece(const SurfacePoint& a, const SurfacePoint& b, Index face) {

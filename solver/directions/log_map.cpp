@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -154,10 +155,12 @@ Result<LogMap> by_waves(const Directions::State& state, const SourceSeeds& seeds
   WaveStart begin = wave_start(state, seeds, start);
   Propagation windows(state.windows);
   windows.follow_directions(start.starts);
-  const auto near = windows.run(seeds, progress, kNear);
+  constexpr double kBeyond = 1.01;  // the error of waves, so that windows say where it ends
+  const double reach = std::min(kNear, kBeyond * options.max_distance / unit);
+  const auto near = windows.run(seeds, progress, reach);
   begin.known.assign(state.tables->rank_of_vertex.size(), std::numeric_limits<double>::quiet_NaN());
   const auto is_near = [&](std::size_t v) {
-    return near && windows.vertices()[v].distance <= kNear;
+    return near && windows.vertices()[v].distance <= reach;
   };
   for (std::size_t v = 0; v < begin.known.size(); ++v) {
     if (is_near(v)) begin.known[v] = windows.directions()[v];

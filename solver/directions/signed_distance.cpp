@@ -5,6 +5,7 @@
 #include <limits>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "solver/directions/curve_pieces.h"
@@ -154,7 +155,7 @@ Result<SignedDistance> Directions::signed_distance(std::span<const SurfacePath> 
 Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>& mesh,
                                        std::span<const SurfacePath> curves, SideRule rule,
                                        const SpreadOptions& options, const Progress& progress) {
-  std::vector<Warning> warnings;
+  std::optional<Error> no_sides;
   if (rule != SideRule::kHeat) {
     const auto directions = Directions::build(mesh, part_of(progress, 0, 0.1));
     if (!directions) return directions.error();
@@ -162,12 +163,21 @@ Result<SignedDistance> signed_distance(const std::shared_ptr<const TriangleMesh>
     if (found || rule == SideRule::kSides || found.error().code == ErrorCode::kCancelled) {
       return found;
     }
-    warnings.push_back({found.error().message + "; the signed heat method answers instead"});
+    no_sides = found.error();
   }
   const auto heat = VectorHeat::build(mesh, options, part_of(progress, 0, 0.7));
   if (!heat) return heat.error();
   auto found = (*heat)->signed_distance(curves, part_of(progress, 0.7, 1));
-  if (found) found->warnings.insert(found->warnings.begin(), warnings.begin(), warnings.end());
+  if (!no_sides) return found;
+  if (found) {
+    found->warnings.insert(found->warnings.begin(),
+                           {no_sides->message + "; the signed heat method answers instead"});
+  } else if (found.error().code == ErrorCode::kBadInput &&
+             found.error().message != no_sides->message) {
+    Error both = found.error();
+    both.message = no_sides->message + ", and " + both.message;
+    return both;
+  }
   return found;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "solver/directions/curve_pieces.h"
@@ -50,7 +51,13 @@ class FaceFrames {
 Result<SignedDistance> VectorHeat::signed_distance(std::span<const SurfacePath> curves,
                                                    const Progress& progress) const try {
   const State& state = *state_;
-  if (state.no_vectors) return *state.no_vectors;
+  if (state.no_vectors) {
+    return Error{ErrorCode::kBadInput,
+                 "the signed heat method needs an oriented manifold, which the surface is not at "
+                 "vertex " +
+                     std::to_string(*state.flipped.broken),
+                 {"close the curves, so that their sides tell, or repair the mesh"}};
+  }
   const auto collected = curve_pieces(state.directions->paths, curves);
   if (!collected) return collected.error();
   const IntrinsicMesh& mesh = state.flipped.mesh;
@@ -84,7 +91,9 @@ Result<SignedDistance> VectorHeat::signed_distance(std::span<const SurfacePath> 
   std::vector<double> heat;
   const auto at = state.warm(rows, in_reach, heat, out.warnings, progress);
   if (!at) return at.error();
-  const auto normals = state.vector.solve(*at->vector, right, progress, state.threads);
+  const auto system = state.vectors(at->t, progress);
+  if (!system) return system.error();
+  const auto normals = system->system.solve(*system->factors, right, progress, state.threads);
   if (!normals) return normals.error();
 
   std::vector<double> divergences(state.mass.size(), 0.0);

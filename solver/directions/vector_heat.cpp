@@ -51,7 +51,7 @@ void VectorHeat::State::add_links() {
 }
 
 Result<Factors> VectorHeat::State::factorize(double t) const {
-  Factors out{t, nullptr, nullptr};
+  Factors out{t, nullptr};
   auto made = scalar.factorize(
       [&](const SpreadSystem::Add& add) {
         for (Index i = 0; i < size(); ++i) add(i, i, mass[i]);
@@ -65,8 +65,12 @@ Result<Factors> VectorHeat::State::factorize(double t) const {
       threads);
   if (!made) return made.error();
   out.scalar = *std::move(made);
-  if (no_vectors) return out;
-  auto pairs = vector.factorize(
+  return out;
+}
+
+Result<std::shared_ptr<const Factorization>> VectorHeat::State::factorize_vectors(
+    const SpreadSystem& system, double t) const {
+  return system.factorize(
       [&](const SpreadSystem::Add& add) {
         for (Index i = 0; i < 2 * size(); ++i) add(i, i, mass[i / 2]);
         for (const Link& link : links) {
@@ -86,8 +90,27 @@ Result<Factors> VectorHeat::State::factorize(double t) const {
         }
       },
       threads);
-  if (!pairs) return pairs.error();
-  out.vector = *std::move(pairs);
+}
+
+Result<VectorSystem> VectorHeat::State::vectors(double t, const Progress& progress) const {
+  if (!report(progress, "factorize", 0.5)) return cancelled_error();
+  const std::lock_guard lock(vector_lock_);
+  if (vector_ && vector_->t == t) return *vector_;
+  VectorSystem out;
+  if (vector_) {
+    out.system = vector_->system;
+  } else {
+    std::vector<Vec3> twice;
+    for (const Vec3& place : places) twice.insert(twice.end(), 2, place);
+    auto system = SpreadSystem::build(*backend, doubled(pattern), twice, threads);
+    if (!system) return system.error();
+    out.system = *std::move(system);
+  }
+  auto factors_there = factorize_vectors(out.system, t);
+  if (!factors_there) return factors_there.error();
+  out.t = t;
+  out.factors = *std::move(factors_there);
+  if (!vector_) vector_ = out;
   return out;
 }
 
@@ -189,15 +212,13 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
   state->unit = directions.surface->base.length_unit();
   state->row_of_vertex.assign(static_cast<std::size_t>(mesh->vertex_count()), kNoIndex);
   state->frames.resize(state->row_of_vertex.size());
-  std::vector<Vec3> places, places_twice;
   for (Index v = 0; v < mesh->vertex_count(); ++v) {
     if (directions.fans.vertex(v).kind == TangentFans::Kind::kNone) continue;
     state->frames[v] = directions.frame_at(SurfacePoint::at_vertex(v));
-    state->row_of_vertex[v] = static_cast<Index>(places.size());
-    places.push_back(mesh->positions()[v]);
-    places_twice.insert(places_twice.end(), 2, places.back());
+    state->row_of_vertex[v] = static_cast<Index>(state->places.size());
+    state->places.push_back(mesh->positions()[v]);
   }
-  state->mass.assign(places.size(), 0.0);
+  state->mass.assign(state->places.size(), 0.0);
   state->add_links();
   if (state->flipped.broken) {
     state->no_vectors =
@@ -212,17 +233,13 @@ Result<std::shared_ptr<const VectorHeat>> VectorHeat::build(
     faces.push_back(
         {state->row_of_vertex[f[0]], state->row_of_vertex[f[1]], state->row_of_vertex[f[2]]});
   }
-  const SymmetricPattern pattern = pattern_of_faces(state->size(), faces);
-  state->parts = connected_components(pattern);
+  state->backend = *backend;
+  state->pattern = pattern_of_faces(state->size(), faces);
+  state->parts = connected_components(state->pattern);
   if (!report(progress, "analyze", 0.3)) return cancelled_error();
-  auto scalar = SpreadSystem::build(**backend, pattern, places, state->threads);
+  auto scalar = SpreadSystem::build(**backend, state->pattern, state->places, state->threads);
   if (!scalar) return scalar.error();
   state->scalar = *std::move(scalar);
-  if (!state->no_vectors) {
-    auto vector = SpreadSystem::build(**backend, doubled(pattern), places_twice, state->threads);
-    if (!vector) return vector.error();
-    state->vector = *std::move(vector);
-  }
   if (!report(progress, "factorize", 0.5)) return cancelled_error();
   auto factors = state->factorize(options.time_factor);
   if (!factors) return factors.error();
@@ -256,12 +273,14 @@ Result<Spread> VectorHeat::transport(std::span<const TangentVector> vectors,
   if (!at) return at.error();
   const auto size = state.spread(*at, *rows, lengths, progress);
   if (!size) return size.error();
+  const auto system = state.vectors(at->t, progress);
+  if (!system) return system.error();
   std::vector<double> right(2 * state.mass.size(), 0.0);
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     right[2 * (*rows)[i]] += vectors[i].x;
     right[2 * (*rows)[i] + 1] += vectors[i].y;
   }
-  const auto carried = state.vector.solve(*at->vector, right, progress, state.threads);
+  const auto carried = system->system.solve(*system->factors, right, progress, state.threads);
   if (!carried) return carried.error();
   out.t = at->t * state.unit * state.unit;
   for (Index v = 0; v < state.mesh->vertex_count(); ++v) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,10 +20,17 @@ struct Link {
   double weight, cosine, sine;
 };
 
-/// What the matrices of one time are.
+/// The factors of the scalar system for one time.
 struct Factors {
   double t = 0;  ///< in squares of the mean edge
-  std::shared_ptr<const Factorization> scalar, vector;
+  std::shared_ptr<const Factorization> scalar;
+};
+
+/// The system of vectors: two rows for each row of the scalar one.
+struct VectorSystem {
+  SpreadSystem system;
+  double t = 0;
+  std::shared_ptr<const Factorization> factors;  ///< for that time
 };
 
 struct VectorHeat::State {
@@ -37,13 +45,18 @@ struct VectorHeat::State {
   Components parts;                  ///< of the rows
   std::unique_ptr<const Directions::State> directions;
   FlippedDirections flipped;
-  SpreadSystem scalar, vector;
+  const Backend* backend = nullptr;
+  SymmetricPattern pattern;  ///< of the scalar system
+  std::vector<Vec3> places;  ///< of its rows
+  SpreadSystem scalar;
   Factors factors;
 
   Index size() const { return static_cast<Index>(mass.size()); }
 
   void add_links();
   Result<Factors> factorize(double t) const;
+  /// Made by the first call that needs vectors, and kept at the time that was asked for first.
+  Result<VectorSystem> vectors(double t, const Progress& progress) const;
   Result<std::vector<Index>> rows_of(std::span<const Index> vertices) const;
   std::vector<char> reached(std::span<const Index> rows) const;
 
@@ -54,6 +67,13 @@ struct VectorHeat::State {
   Result<std::vector<double>> spread(const Factors& at, std::span<const Index> rows,
                                      std::span<const double> values,
                                      const Progress& progress) const;
+
+ private:
+  Result<std::shared_ptr<const Factorization>> factorize_vectors(const SpreadSystem& system,
+                                                                 double t) const;
+
+  mutable std::mutex vector_lock_;
+  mutable std::optional<VectorSystem> vector_;
 };
 
 }  // namespace geotherm

@@ -54,8 +54,7 @@ Result<void> check_vertex(const IntrinsicSurface& surface, Index v) {
                  "source vertex " + std::to_string(v) + " does not exist",
                  {"vertices are 0 to " + std::to_string(surface.mesh->vertex_count() - 1)}};
   }
-  const auto is_masked = [](const Face& face) { return face[0] == face[1] && face[1] == face[2]; };
-  if (!surface.kept->on_surface[v] && std::ranges::any_of(surface.mesh->faces(), is_masked)) {
+  if (!surface.kept->on_surface[v] && std::ranges::any_of(surface.mesh->faces(), is_one_vertex)) {
     return Error{ErrorCode::kBadInput,
                  "source vertex " + std::to_string(v) + " is masked out, or belongs to no face",
                  {"choose one that the mask leaves"}};

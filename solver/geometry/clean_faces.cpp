@@ -249,12 +249,17 @@ void take_faces(const TriangleMesh& mesh, int threads, CleanFaces& out) {
   const auto count = static_cast<std::int64_t>(mesh.faces().size());
   const int pieces = piece_count(threads, count, kMinCleanedPerThread);
   std::vector<std::size_t> before(static_cast<std::size_t>(pieces) + 1, 0);
+  std::vector<Index> one_vertex(static_cast<std::size_t>(pieces), 0);
   const auto is_usable = [&mesh](std::int64_t f) {
     return !repeats_corner(mesh.faces()[static_cast<std::size_t>(f)]);
   };
   for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
     std::size_t usable = 0;
-    for (std::int64_t f = begin; f < end; ++f) usable += is_usable(f);
+    for (std::int64_t f = begin; f < end; ++f) {
+      usable += is_usable(f);
+      one_vertex[static_cast<std::size_t>(piece)] +=
+          is_one_vertex(mesh.faces()[static_cast<std::size_t>(f)]) ? 1 : 0;
+    }
     before[static_cast<std::size_t>(piece) + 1] = usable;
   });
   std::partial_sum(before.begin(), before.end(), before.begin());
@@ -269,6 +274,7 @@ void take_faces(const TriangleMesh& mesh, int threads, CleanFaces& out) {
     }
   });
   out.repeated_corner = static_cast<Index>(count - static_cast<std::int64_t>(before.back()));
+  out.one_vertex = std::accumulate(one_vertex.begin(), one_vertex.end(), Index{0});
 }
 
 void list_edges(Index vertex_count, int threads, CleanFaces& out) {

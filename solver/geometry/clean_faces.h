@@ -18,6 +18,7 @@ struct CleanFaces {
   CornerTable corners;            ///< of `faces`
   EdgeTable edges;                ///< of `faces`
   Index repeated_corner = 0;      ///< faces dropped: two corners are one vertex
+  Index one_vertex = 0;           ///< of them: all corners are, as masked() leaves faces
   Index duplicate = 0;            ///< faces dropped: the same three vertices as an earlier one
   bool oriented_manifold = true;  ///< every edge has one face, or two that agree in orientation
   Index reoriented = 0;           ///< faces turned round to agree with their neighbours

@@ -144,10 +144,12 @@ double unit_for(double mean_edge, const SurfaceRules& rules, const IntrinsicSurf
 
 std::vector<Warning> cleaning_notes(const CleanFaces& clean) {
   std::vector<Warning> notes;
-  if (clean.repeated_corner > 0) {
-    notes.push_back({counted_text(static_cast<std::size_t>(clean.repeated_corner),
-                                  "face repeats a corner and was left out",
-                                  "faces repeat a corner and were left out")});
+  // What a mask leaves out is no news.
+  const Index repeated = clean.repeated_corner - clean.one_vertex;
+  if (repeated > 0) {
+    notes.push_back(
+        {counted_text(static_cast<std::size_t>(repeated), "face repeats a corner and was left out",
+                      "faces repeat a corner and were left out")});
   }
   if (clean.duplicate > 0) {
     notes.push_back({counted_text(static_cast<std::size_t>(clean.duplicate),

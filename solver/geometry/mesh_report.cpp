@@ -278,6 +278,7 @@ MeshReport inspect_mesh(const TriangleMesh& mesh) {
   MeshReport report;
   static_cast<MeshSummary&>(report) = summarize_clean_faces(mesh, clean, 1);
   report.repeated_corner_faces = clean.repeated_corner;
+  report.one_vertex_faces = clean.one_vertex;
   report.duplicate_faces = clean.duplicate;
   report.inconsistent_faces = clean.reoriented;
   report.duplicate_positions = count_duplicate_positions(mesh);

@@ -24,6 +24,7 @@ inline int previous_corner(int k) { return (0b010010 >> (2 * k)) & 3; }
 
 /// Whether two corners of the face are one vertex, so that it has no inside.
 inline bool repeats_corner(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
+inline bool is_one_vertex(const Face& f) { return f[0] == f[1] && f[1] == f[2]; }
 
 /// Whether each vertex belongs to a face that repeats no corner: 1 or 0.
 std::vector<char> vertices_in_faces(Index vertex_count, std::span<const Face> faces);

@@ -171,8 +171,8 @@ namespace {
 /// A list of flags of numbers. `count`: how many there are of what they number.
 Result<std::vector<char>> flags_of(const MaskNumbers& numbers, const MaskText& text, bool of_flags,
                                    Index count) {
-  std::vector<char> out(static_cast<std::size_t>(count), text.keeps ? 1 : 0);
-  const char marked = text.keeps ? 0 : 1;
+  const char unmarked = text.keeps ? 1 : 0, marked = text.keeps ? 0 : 1;
+  std::vector<char> out(static_cast<std::size_t>(count), unmarked);
   for (std::size_t i = 0; i < numbers.values.size(); ++i) {
     const double value = numbers.values[i];
     if (of_flags) {
@@ -186,7 +186,17 @@ Result<std::vector<char>> flags_of(const MaskNumbers& numbers, const MaskText& t
                        " are 0 to " + std::to_string(count - 1),
                    {"give a 0 or 1 for each, or numbers of those there are"}};
     }
-    out[static_cast<std::size_t>(value)] = marked;
+    char& flag = out[static_cast<std::size_t>(value)];
+    if (flag == marked && !numbers.ids) {
+      return Error{ErrorCode::kBadFile,
+                   printable(text.path) + ": number " + std::to_string(i + 1) + " of the " +
+                       std::to_string(numbers.values.size()) + " of the mask names " +
+                       (text.of_faces ? "face " : "vertex ") + number_text(value) +
+                       " again, and the mesh has " + std::to_string(count) +
+                       (text.of_faces ? " faces" : " vertices"),
+                   {"name each once, or give a 0 or 1 for all of them"}};
+    }
+    flag = marked;
   }
   return out;
 }
@@ -203,13 +213,14 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
     const std::string extension = io::file_extension(what.path);
     const io::MaskNumbers numbers = io::read_mask_numbers(bytes.bytes(), extension, what.property);
     const auto is_flag = [](double value) { return value == 0 || value == 1; };
-    const bool flags =
-        numbers.flags || (!numbers.ids && std::ranges::all_of(numbers.values, is_flag));
+    const bool binary = !numbers.ids && std::ranges::all_of(numbers.values, is_flag);
+    const bool flags = numbers.flags || binary;
     const auto size = static_cast<Index>(numbers.values.size());
+    constexpr Index kMostIds = 2;  // of a list of ids in which there are only 0 and 1
     const Index vertices = mesh.vertex_count(), faces = mesh.face_count();
     const bool of_faces = what.of_faces || (flags && size == faces && size != vertices);
     const Index count = of_faces ? faces : vertices;
-    if (numbers.flags && size != count) {
+    if ((numbers.flags || (binary && size > kMostIds)) && size != count) {
       return Error{ErrorCode::kBadFile,
                    io::printable(what.path) + ": the mask has " + std::to_string(size) +
                        " numbers, and the mesh " + std::to_string(vertices) + " vertices and " +

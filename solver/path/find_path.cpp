@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,9 +38,12 @@ constexpr std::size_t kMaxRoutes = 300, kMaxFaces = 20000;
 
 class Search {
  public:
-  Search(const PathSurface& surface, const GeodesicEnds& ends, const Progress& progress)
+  /// `known`: a path no longer than that is the shortest; negative: none is known to be.
+  Search(const PathSurface& surface, const GeodesicEnds& ends, double known,
+         const Progress& progress)
       : surface_(surface),
         ends_(ends),
+        known_(known),
         progress_(progress),
         seen_(static_cast<std::size_t>(surface.mesh()->vertex_count()), 0) {}
 
@@ -47,9 +51,11 @@ class Search {
     auto along_edges = edge_path(surface_, ends_.from, ends_.to);
     if (!along_edges) return along_edges.error();
     if (auto tried = shorten_from(*along_edges); !tried) return tried.error();
+    if (is_found()) return best_;
     auto down = streamline(ends_.to, ends_.from, ends_.from_distances);
     if (!down) return down.error();
     if (auto tried = shorten_from(reversed(*std::move(down))); !tried) return tried.error();
+    if (is_found()) return best_;
     auto up = streamline(ends_.from, ends_.to, ends_.to_distances);
     if (!up) return up.error();
     if (auto tried = shorten_from(*up); !tried) return tried.error();
@@ -59,6 +65,8 @@ class Search {
   }
 
  private:
+  bool is_found() const { return best_.length <= known_; }
+
   Result<SurfacePath> streamline(const SurfacePoint& from, const SurfacePoint& to,
                                  std::span<const double> distances) const {
     auto line = trace_streamline(surface_, {distances}, from, to);
@@ -93,6 +101,7 @@ class Search {
     std::ranges::sort(near);
     int tries = 0;
     for (const auto& [length, v] : near) {
+      if (is_found()) return {};
       if (tries == kMaxTries || length > best_.length * (1 + kDistanceError)) break;
       if (seen_[v] || surface_.corners_at(v).empty()) continue;
       ++tries;
@@ -109,10 +118,11 @@ class Search {
   }
 
   Result<void> through_edges() {
-    if (!(best_.length > 0)) return {};
+    if (is_found() || !(best_.length > 0)) return {};
     const CrossingGraph graph(surface_, ends_, best_.length);
     std::size_t faces = 0;
     for (const SurfacePath& route : graph.routes(best_.length * (1 + kGraphError), kMaxRoutes)) {
+      if (is_found()) break;
       if (faces > kMaxFaces || route.length > best_.length * (1 + kGraphError)) break;
       faces += route.faces.size();
       if (auto tried = shorten_from(route); !tried) return tried;
@@ -122,6 +132,7 @@ class Search {
 
   const PathSurface& surface_;
   const GeodesicEnds& ends_;
+  double known_;
   const Progress& progress_;
   std::vector<char> seen_;
   SurfacePath best_;
@@ -134,11 +145,15 @@ class Search {
 /// of all; docs/paths.md has the measured rate. Errors: kOutOfMemory, those of shorten() and
 /// trace_streamline().
 Result<SurfacePath> search_geodesic(const PathSurface& surface, const GeodesicEnds& ends,
-                                    const Progress& progress) {
+                                    double known, const Progress& progress) {
   return within_memory("a geodesic", *surface.mesh(), progress, [&](const Progress& watched) {
-    return Search(surface, ends, watched).run();
+    return Search(surface, ends, known, watched).run();
   });
 }
+
+/// A path that is longer than an exact distance by less than this share is the shortest: both lose
+/// fewer digits.
+constexpr double kSameLength = 1e-9;
 
 /// An order of points that does not depend on which of them a path comes from.
 bool stands_before(const Vec3& a, const Vec3& b) {
@@ -147,6 +162,21 @@ bool stands_before(const Vec3& a, const Vec3& b) {
 
 std::string place_text(const Vec3& p) {
   return "(" + rounded_text(p.x()) + ", " + rounded_text(p.y()) + ", " + rounded_text(p.z()) + ")";
+}
+
+/// The straight piece between two places of one face: on the surface nothing is shorter.
+std::optional<SurfacePath> straight_piece(const PathSurface& surface, const SurfacePoint& a,
+                                          const SurfacePoint& b) {
+  const std::vector<Index> at_b = surface.faces_at(b);
+  for (const Index face : surface.faces_at(a)) {
+    if (std::ranges::find(at_b, face) == at_b.end()) continue;
+    SurfacePath path;
+    path.points = {surface.out_of(a), surface.out_of(b)};
+    path.faces = {surface.file_face(face)};
+    path.length = length_of(*surface.mesh(), path.points);
+    return path.length > 0 ? std::optional(std::move(path)) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -232,6 +262,12 @@ Result<FoundPath> PathFinder::piece(const SurfacePoint& from, const SurfacePoint
   const auto a = surface_->into(from), b = surface_->into(to);
   if (!a) return a.error();
   if (!b) return b.error();
+  if (auto path = straight_piece(*surface_, *a, *b)) return FoundPath{*std::move(path), {}};
+  if (method_->kind() == MethodKind::kExact && b->is_vertex()) {
+    auto path = as_long_as_known(from, surface_->out_of(*b), part_of(progress, 0, 0.3));
+    if (!path) return path.error();
+    if (*path) return FoundPath{**std::move(path), {}};
+  }
   if (!stands_before(surface_->position(*b), surface_->position(*a))) {
     return geodesic(from, to, progress);
   }
@@ -279,6 +315,26 @@ Result<FoundPath> PathFinder::streamline(const SurfacePoint& from, const Surface
   return out;
 }
 
+Result<std::optional<SurfacePath>> PathFinder::as_long_as_known(const SurfacePoint& from,
+                                                                const SurfacePoint& to,
+                                                                const Progress& progress) const {
+  auto along_edges = edge_path(*surface_, from, to);
+  if (!along_edges) return along_edges.error();
+  const auto solved = distances(from, false, progress);
+  if (!solved) return solved.error();
+  const std::span<const double> known = (*solved)->distances;
+  const double longest = known[static_cast<std::size_t>(to.vertex)] * (1 + kSameLength);
+  auto shortened = shorten(*surface_, *along_edges, true, progress);
+  if (!shortened) return shortened.error();
+  if (shortened->length <= longest) return std::optional(*std::move(shortened));
+  const auto down = trace_streamline(*surface_, {known}, to, from);
+  if (!down) return down.error();
+  shortened = shorten(*surface_, reversed(down->path), true, progress);
+  if (!shortened) return shortened.error();
+  if (shortened->length <= longest) return std::optional(*std::move(shortened));
+  return std::optional<SurfacePath>();
+}
+
 Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePoint& to,
                                        const Progress& progress) const {
   if (auto way = edge_path(*surface_, from, to); !way) return way.error();
@@ -286,7 +342,11 @@ Result<FoundPath> PathFinder::geodesic(const SurfacePoint& from, const SurfacePo
   if (!there) return there.error();
   const auto back = distances(to, false, part_of(progress, 0.4, 0.8));
   if (!back) return back.error();
-  auto path = search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances},
+  double known = -1;
+  if (method_->kind() == MethodKind::kExact && to.is_vertex()) {
+    known = (*there)->distances[static_cast<std::size_t>(to.vertex)] * (1 + kSameLength);
+  }
+  auto path = search_geodesic(*surface_, {from, to, (*there)->distances, (*back)->distances}, known,
                               part_of(progress, 0.8, 1));
   if (!path) return path.error();
   return FoundPath{*std::move(path), {}};

@@ -82,7 +82,7 @@ TEST_F(Program, TransportAndExtendReachAllVertices) {
   const ProgramRun vectors = run({"transport", "square.obj", "--vector", "4:3:0", "-o", "-"});
   // Towards vertex 0 all over the plane.
   const std::string all = vectors.out;
-  EXPECT_TRUE(all.starts_with("vertex,vx,vy,vz,u,v\n")) << all;
+  EXPECT_TRUE(all.starts_with("vertex,vx,vy,vz,u,v,e1x,e1y,e1z,e2x,e2y,e2z\n")) << all;
   EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 6);
   EXPECT_NE(all.find("-2.12132034355964"), std::string::npos) << all;
   const ProgramRun values =
@@ -93,6 +93,28 @@ TEST_F(Program, TransportAndExtendReachAllVertices) {
                           "--backend", "cholmod", "-o", "bunny.svg", "--json", "-"});
   EXPECT_EQ(said["given"].size(), 2U);
   EXPECT_EQ(said["reached"], said["model"]["vertices"]);
+  // Components along the axes are the vectors in space.
+  for (const int v : {0, 17, 1234}) {
+    for (int k = 0; k < 3; ++k) {
+      const double sum =
+          said["components"][v][0].get<double>() * said["frames"]["e1"][v][k].get<double>() +
+          said["components"][v][1].get<double>() * said["frames"]["e2"][v][k].get<double>();
+      EXPECT_NEAR(said["vectors"][v][k].get<double>(), sum, 1e-12) << v;
+    }
+  }
+  EXPECT_EQ(bytes_of(folder.path("bunny.svg")).find("dasharray"), std::string::npos)
+      << "arrows that the surface hides would lie over the others";
+}
+
+TEST_F(Program, WhatIsSpreadCanStandInAFile) {
+  folder.write("vectors.txt", "# V X Y\n17 1 0\n900, 0, 2\n5:1:1\n");
+  const Json said = json({"transport", "bunny", "--vectors", "vectors.txt", "--json", "-"});
+  const Json same = json({"transport", "bunny", "--vector", "17:1:0", "--vector", "900:0:2",
+                          "--vector", "5:1:1", "--json", "-"});
+  EXPECT_EQ(said["vectors"], same["vectors"]);
+  folder.write("values.txt", "17 1\n900\n");
+  expect_refused({"extend", "bunny", "--values", "values.txt"}, "--values line 2: '900'");
+  expect_refused({"extend", "bunny"}, "--value");
 }
 
 TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
@@ -111,6 +133,10 @@ TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
   EXPECT_EQ(said["rule"], "sides");
   EXPECT_NEAR(said["length"].get<double>(), 4, 1e-9);
   EXPECT_NEAR(said["range"][0].get<double>(), -0.5, 1e-9);
+  const std::string picture = bytes_of(folder.path("signed.svg"));
+  for (const char* colour : {"#588cdc", "#ec8246", "#780618", "#28303a"}) {
+    EXPECT_NE(picture.find(colour), std::string::npos) << colour << ": both sides and the curve";
+  }
   // Lines of other commands are curves, too; one that is open has no sides.
   run({"path", "square.obj", "--from", "xyz:0.5:0.5:0", "--to", "xyz:1.5:0.5:0", "-o", "p.csv"});
   const Json open = json({"signed", "square.obj", "--curves", "p.csv", "--json", "-"});
@@ -121,6 +147,14 @@ TEST_F(Program, SignedDistanceKnowsTheSidesOfALoop) {
   expect_refused({"signed", "square.obj", "--curves", "p.csv", "--rule", "luck"}, "luck");
   expect_refused({"signed", "square.obj", "--curves", "square.obj"}, "line 2 is no point");
   expect_refused({"signed", "square.obj"}, "--through");
+}
+
+/// A closed line ends in another face than it begins in, at the same place.
+TEST_F(Program, IsolinesInFilesSeparateTheSurface) {
+  run({"isolines", "bunny", "-s", "840", "--values", "0.3", "-o", "ring.csv"});
+  const Json said = json({"signed", "bunny", "--curves", "ring.csv", "--json", "-"});
+  EXPECT_EQ(said["rule"], "sides");
+  EXPECT_EQ(said["warnings"].size(), 0U) << said["warnings"];
 }
 
 TEST_F(Program, CentreOfTheCornersIsTheMiddle) {
@@ -195,11 +229,17 @@ TEST_F(Program, DirectionsThatCannotBeAreOneLine) {
                  "leaves the surface");
   expect_refused({"trace", "square.obj", "--from", "0", "--direction", "east", "--length", "1"},
                  "east");
-  expect_refused({"trace", "square.obj", "--from", "0", "--fan", "0", "--length", "1"}, "--fan");
+  for (const char* count : {"0", "100000000"}) {
+    expect_refused({"trace", "square.obj", "--from", "0", "--fan", count, "--length", "1"},
+                   "give 1 to 1000000");
+  }
   expect_refused({"transport", "square.obj", "--vector", "4:1"}, "VERTEX:X:Y");
   expect_refused({"transport", "square.obj", "--vector", "4:1:x"}, "VERTEX:X:Y");
   expect_refused({"transport", "square.obj", "--vector", "77:1:0"}, "77");
   expect_refused({"transport", "strip.obj", "--vector", "0:1:0"}, "no oriented manifold");
+  expect_refused({"signed", "strip.obj", "--through", "2", "--through", "3"},
+                 "do not separate the surface into what is left and right of them, and the signed "
+                 "heat method needs an oriented manifold");
   expect_refused({"transport", "square.obj", "--vector", "4:1:0", "--backend", "cg"}, "cg");
   expect_refused({"extend", "square.obj", "--value", "4"}, "VERTEX:VALUE");
 }

@@ -42,6 +42,10 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"Target", Target{FacePoint{3, {0.25, 0.25, 0.5}}}, "target face:3:0.25:0.25:0.5"},
         TextCase{"TargetVertex", Target{VertexList{{17}}}, "target 17"},
         TextCase{"NoTarget", Target{}, "target none"},
+        TextCase{"Field", ShowField{"a map.npy"}, R"(field "a map.npy")"},
+        TextCase{"NoField", ShowField{}, "field none"},
+        TextCase{"MaxDistance", MaxDistance{0.5}, "max-distance 0.5"},
+        TextCase{"AllDistances", MaxDistance{}, "max-distance none"},
         TextCase{"OpenWithBlanks", Open{"my \"best\" model #1.ply"},
                  R"(open "my \"best\" model #1.ply")"},
         TextCase{"OpenWithBackslashes", Open{"C:\\a b\\c"}, R"(open "C:\\a b\\c")"},
@@ -112,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Command, EveryKindHasATextCase) {
   // The list above must grow with the variant.
-  EXPECT_EQ(std::variant_size_v<Command>, 43U);
+  EXPECT_EQ(std::variant_size_v<Command>, 45U);
 }
 
 class SettingText : public testing::TestWithParam<std::string> {};

@@ -2,6 +2,7 @@
 // What a session does to the mesh before it solves: refining, welding, other formats.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/explore/session_fixture.h"
@@ -45,6 +46,36 @@ TEST_F(SessionMesh, ARefinedMethodDoesNotServeForTheMeshItself) {
     run({"refine 0"});
     EXPECT_EQ(shown().distances, plain) << method;
   }
+}
+
+TEST_F(SessionMesh, DistancesEndWhereTheyAreTold) {
+  run({"open " + small_model(), "source set 5", "max-distance 0.3"});
+  EXPECT_FALSE(session.explored().a->error) << "parts would be held against all of it";
+  run({"max-distance none", "method wavefront"});
+  const std::vector<double> all = shown().distances;
+  run({"max-distance 0.3"});
+  for (std::size_t v = 0; v < all.size(); ++v) {
+    EXPECT_EQ(shown().distances[v], all[v] <= 0.3 ? all[v] : kUnreached) << v;
+  }
+  const auto again = commands_to(session.state());
+  EXPECT_EQ(std::ranges::count(again, Command(command::MaxDistance{0.3})), 1);
+  run({"undo"});
+  EXPECT_EQ(shown().distances, all);
+  EXPECT_NE(refused("max-distance 0").find("number"), std::string::npos);
+}
+
+TEST_F(SessionMesh, WhatAFileHoldsIsShownInPlaceOfDistances) {
+  run({"open " + small_model(), "source set 5", "save distances " + folder() + "d.npy"});
+  const PictureData before = picture_of(session.explored(), Shown::kA, View::kContours);
+  run({"source set 17", "field " + folder() + "d.npy"});
+  const PictureData data = picture_of(session.explored(), Shown::kA, View::kContours);
+  EXPECT_TRUE(data.is_field);
+  EXPECT_EQ(data.values, before.values);
+  EXPECT_TRUE(data.sources.empty());
+  run({"field none"});
+  EXPECT_FALSE(picture_of(session.explored(), Shown::kA, View::kContours).is_field);
+  write(folder() + "other.npy", "no array");
+  EXPECT_NE(refused("field " + folder() + "other.npy").find("other.npy"), std::string::npos);
 }
 
 TEST_F(SessionMesh, WeldingReadsTheModelAgainAndIsUndone) {

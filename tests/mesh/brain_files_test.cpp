@@ -98,6 +98,21 @@ TEST(Masks, OfAnotherMeshAreRefused) {
   EXPECT_FALSE(read_mask(corpus("gii/roi.shape.gii"), *two));
 }
 
+/// Flags of another mesh, or labels of parcels, would be taken for ids of the first vertices.
+TEST(Masks, ThatAreNoListOfIdsAreNotTakenForOne) {
+  const TemporaryDirectory folder;
+  folder.write("short.txt", "0 1 1\n");
+  const std::string both = "has 3 numbers, and the mesh 5 vertices and 4 faces";
+  EXPECT_NE(refusal(folder.path("short.txt")).find(both), std::string::npos);
+  EXPECT_NE(refusal("faces:" + folder.path("short.txt")).find(both), std::string::npos);
+  folder.write("parcels.txt", "0 2 3 3 2\n");
+  EXPECT_NE(
+      refusal(folder.path("parcels.txt")).find("number 4 of the 5 of the mask names vertex 3"),
+      std::string::npos);
+  folder.write("ids.txt", "1 0\n");
+  EXPECT_EQ(vertices_out(folder.path("ids.txt")), (std::vector<char>{1, 1, 0, 0, 0}));
+}
+
 TEST(Masks, LeaveNumbersAsTheyAre) {
   const TriangleMesh mesh = pyramid();
   const auto left = masked(mesh, {.vertices = {1, 0, 0, 0, 0}, .faces = {}});

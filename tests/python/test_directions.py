@@ -24,7 +24,9 @@ def test_a_log_map_of_the_plane_is_the_plane(square):
 def test_lines_are_straight(square):
     line = geotherm.trace(square, (0, [0.3, 0.3, 0.4]), 0.0, 0.5)
     assert np.allclose(line.points[-1] - line.points[0], [0.5, 0, 0]) and line.length == 0.5
-    assert geotherm.trace(square, 4, 0.0, 9.0).length == pytest.approx(2**0.5)
+    assert line.end == "length"
+    ends = geotherm.trace(square, 4, 0.0, 9.0)
+    assert ends.length == pytest.approx(2**0.5) and ends.end == "border"
     with pytest.raises(geotherm.InputError, match="leaves the surface"):
         geotherm.trace(square, 0, -1.0, 1.0)
 
@@ -49,9 +51,31 @@ def test_signed_distances_are_distances_with_sides(bunny):
     turned = geotherm.signed_distance(bunny, [corners[::-1]], rule="sides")
     assert np.allclose(signed, -turned, rtol=0, atol=1e-9)
     assert np.allclose(signed[corners], 0) and signed.min() < 0 < signed.max()
-    assert np.all(np.isfinite(geotherm.signed_distance(bunny, [[17, 900]], closed=False)))
+    with pytest.warns(geotherm.ResultWarning, match="signed heat method answers"):
+        heat = geotherm.signed_distance(bunny, [[17, 900]], closed=False)
+    assert np.all(np.isfinite(heat))
+    with pytest.raises(geotherm.InputError, match="each of the curves has one point"):
+        geotherm.signed_distance(bunny, corners)
     with pytest.raises(geotherm.InputError, match="do not separate"):
         geotherm.signed_distance(bunny, [[17, 900]], closed=False, rule="sides")
+
+
+def test_lines_are_curves(bunny):
+    distances = geotherm.Solver(bunny, method="exact").distance(840)
+    rings = geotherm.isolines(bunny, distances, levels=[0.3])
+    signed = geotherm.signed_distance(bunny, rings, rule="sides")
+    again = geotherm.signed_distance(bunny, [rings[0]], closed=False, rule="sides")
+    assert np.array_equal(signed, again)
+    assert np.allclose(np.abs(signed), np.abs(distances - 0.3), rtol=0, atol=0.02)
+
+
+def test_what_a_model_needs_is_made_once(bunny):
+    first = geotherm.transport(bunny, [17], [[1, 0]])
+    assert first.warnings == []
+    again = geotherm.transport(bunny, [17], [[1, 0]])
+    assert np.array_equal(first.vectors, again.vectors)
+    other = geotherm.transport(bunny, [17], [[1, 0]], time_factor=4)
+    assert not np.array_equal(first.vectors, other.vectors)
 
 
 @pytest.fixture

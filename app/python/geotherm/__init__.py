@@ -23,7 +23,7 @@ from geotherm._directions import (
     transport,
 )
 from geotherm._domains import Grid, PointCloud, Polygons, TetMesh, read
-from geotherm._library import Error, InputError
+from geotherm._library import Error, InputError, ResultWarning
 from geotherm._models import Mesh, Model
 from geotherm._options import features
 from geotherm._solver import Solver, farthest_points
@@ -49,6 +49,7 @@ __all__ = [
     "Polygons",
     "Relaxed",
     "Result",
+    "ResultWarning",
     "Samples",
     "Solver",
     "TetMesh",

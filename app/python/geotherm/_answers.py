@@ -141,6 +141,8 @@ class Line:
         length: model units.
         closed: whether it ends where it begins.
         value: of an isoline, else None.
+        end: of trace(), why it ends: "length", "border", or "split" (three faces at an edge, or
+            several fans at a vertex); else None.
     """
 
     def __init__(self, lines: Lines, number: int) -> None:
@@ -152,6 +154,7 @@ class Line:
         self.length = float(lines._lengths[number])
         self.closed = bool(lines._closed[number])
         self.value = None if lines._values is None else float(lines._values[number])
+        self.end: str | None = None
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes the lines that it is one of: .obj, .csv, .vtp."""

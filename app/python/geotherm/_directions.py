@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import ctypes
+import json
+import warnings
 from typing import Any
 
 import numpy as np
 
 from geotherm._answers import Line, Lines
 from geotherm._arrays import AnyArray, given, view
-from geotherm._library import Handle, Progress, Watch, create, text_bytes
+from geotherm._library import Handle, Progress, ResultWarning, Watch, create, text_bytes
 from geotherm._models import Model
 from geotherm._options import options_of
 from geotherm._sources import Taken
@@ -46,12 +48,29 @@ class Vectors:
         vectors: (V, 3), in space; nan where none can be.
         components: (V, 2): along e1 and e2 of each vertex.
         frames: (V, 3, 3): e1, e2 and the normal of each vertex.
+        warnings: texts: where heat took longer than asked for.
     """
 
     def __init__(self, handle: Handle) -> None:
         self.vectors = view(handle, "vectors")
         self.components = view(handle, "components")
         self.frames: AnyArray = view(handle, "frames").reshape(-1, 3, 3)
+        self.warnings: list[str] = json.loads(handle.text("warnings"))
+
+
+def _warned(handle: Handle) -> Handle:
+    """An answer of which the caller gets an array alone."""
+    for text in json.loads(handle.text("warnings")):
+        warnings.warn(text, ResultWarning, stacklevel=3)
+    return handle
+
+
+def _points_of(curve: Any, closed: bool) -> Any:
+    """Of a Line its points in faces."""
+    if not isinstance(curve, Line):
+        return curve
+    points = list(zip(curve.faces.tolist(), curve.weights.tolist()))
+    return points[:-1] if closed and curve.closed else points
 
 
 def log_map(
@@ -112,7 +131,9 @@ def trace(
             float(length),
             watch.pointer,
         )
-    return Lines(handle, values=False)[0]
+    line = Lines(handle, values=False)[0]
+    line.end = handle.text("end")
+    return line
 
 
 def _spread(
@@ -182,7 +203,8 @@ def extend(
     1.0
     """
     settings = {"backend": backend, "time_factor": time_factor, "threads": threads}
-    return view(_spread("extend", model, vertices, values, 1, settings, progress), "values")
+    handle = _spread("extend", model, vertices, values, 1, settings, progress)
+    return view(_warned(handle), "values")
 
 
 def signed_distance(
@@ -201,17 +223,22 @@ def signed_distance(
 
     Args:
         model: a mesh.
-        curves: a list of curves, each a list of points (vertices, (face, weights), places), joined by
-            geodesics.
+        curves: a list of curves, each a Line or a list of points (vertices, (face, weights), places),
+            joined by geodesics.
         closed: each leads back to its first point.
         rule: "sides" (exact, for curves that separate the surface), "heat" (the signed heat method,
-            which closes gaps), "auto": the first of them that works.
+            which closes gaps), "auto": the first of them that works; a ResultWarning says where that
+            is heat.
 
     >>> d = geotherm.signed_distance(mesh, [[17, 900, 1500]])
     >>> d.min() < 0 < d.max()
     True
     """
     settings = {"backend": backend, "time_factor": time_factor, "threads": threads}
+    if isinstance(curves, (Line, Lines)):
+        curves = [curves] if isinstance(curves, Line) else list(curves)
+    if isinstance(curves, (list, tuple)):
+        curves = [_points_of(curve, closed) for curve in curves]
     taken = Taken(curves, "curves", sets=True)
     options = options_of(settings)
     with Watch(progress) as watch:
@@ -224,4 +251,4 @@ def signed_distance(
             text_bytes(rule, "rule"),
             watch.pointer,
         )
-    return view(handle, "distances")
+    return view(_warned(handle), "distances")

@@ -56,6 +56,10 @@ class InputError(Error, ValueError):
     """An Error about an argument: another one would work. A ValueError, too."""
 
 
+class ResultWarning(UserWarning):
+    """What there is to know of an answer that is an array alone."""
+
+
 class Array(ctypes.Structure):
     """geotherm_array."""
 

@@ -146,6 +146,8 @@ struct SpreadOptions {
   std::string backend;     ///< one that factorises, of backend_names(); empty: the first of them
   double time_factor = 1;  ///< diffusion time in squares of the mean edge, > 0
   int threads = 0;         ///< 0: all cores
+
+  bool operator==(const SpreadOptions&) const = default;
 };
 
 /// Vectors or values at all vertices, from some of them.
@@ -164,8 +166,8 @@ struct Spread {
 class VectorHeat {
  public:
   /// Errors: kBadInput (no face with area, a time factor that is not above 0), kNotAvailable (no
-  /// such backend, or one that holds no factor), those of the backend. Cost: a factorisation of 2 V
-  /// and one of V rows.
+  /// such backend, or one that holds no factor), those of the backend. Cost: a factorisation of V
+  /// rows; the first call about vectors or signs adds one of 2 V.
   static Result<std::shared_ptr<const VectorHeat>> build(std::shared_ptr<const TriangleMesh> mesh,
                                                          const SpreadOptions& options = {},
                                                          const Progress& progress = {});

@@ -49,6 +49,7 @@ struct MeshReport : MeshSummary {
   Index nonmanifold_vertices = 0;  ///< vertices whose faces form more than one fan
 
   Index repeated_corner_faces = 0;        ///< of the degenerate faces those with a repeated corner
+  Index one_vertex_faces = 0;             ///< of the latter those of one vertex, as masked() leaves
   Index duplicate_faces = 0;              ///< the same three vertices as an earlier face
   Index merged_vertices = 0;              ///< that another one stands for (TriangleMesh::same_as())
   Index duplicate_positions = 0;          ///< vertices that lie exactly where an earlier one does

@@ -106,6 +106,10 @@ class PathFinder {
                                                           const Progress& progress) const;
   Result<FoundPath> geodesic(const SurfacePoint& from, const SurfacePoint& to,
                              const Progress& progress) const;
+  /// By exact distances: one that is no longer than they say, if it is found at once.
+  Result<std::optional<SurfacePath>> as_long_as_known(const SurfacePoint& from,
+                                                      const SurfacePoint& to,
+                                                      const Progress& progress) const;
 
   struct Recent;
 
