@@ -17,7 +17,7 @@ constexpr int kMargins[] = {4, 12, 36};
 /// Heat falls by e over a ring or less; fewer than this would take many rounds.
 constexpr int kLeastRings = 6;
 
-/// What a block says of the triangles at a vertex, in model units: others must say the same.
+/// What a block says of the triangles at a vertex, in MeshPart::unit: others must say the same.
 struct Star {
   double stiffness = 0, mass = 0, corners = 0;
 

@@ -22,7 +22,7 @@ struct SharedAnswer {
   double mean_edge = 0, area = 0;        ///< model units
   double t = 0, relative_t = 0;          ///< of the component with most faces
   double least = 0, most = 0, mean = 0;  ///< of the distances that are reached
-  GlobalIndex unreached = 0;
+  GlobalIndex unreached = 0, loose = 0;  ///< the latter are in no face
   Index flips = 0;  ///< of all blocks; those near their edges are made by several
   int blocks = 0, rings = 0, rounds = 0;
   double row_residual = 0;  ///< SharedHeat::row_residual
