@@ -158,7 +158,7 @@ bool hold_beyond(const MeshPart& part, const std::vector<Star>& owners, int ring
 
 Result<std::vector<MeshBlock>> build_blocks(const RankGroup& ranks, const BlockRules& rules,
                                             MeshPart& part) {
-  const int count = static_cast<int>((part.own + kMostOfBlock - 1) / kMostOfBlock);
+  const int count = static_cast<int>((part.own + rules.most - 1) / rules.most);
   for (const int margin : kMargins) {
     // Without flips all triangles at a vertex are there when the ring behind it is.
     const int rings = rules.rings + 1 + (rules.flip || margin != kMargins[0] ? margin : 0);

@@ -63,8 +63,9 @@ inline constexpr Index kMostOfBlock = 150'000;
 
 /// How a rank's share is cut and triangulated.
 struct BlockRules {
-  bool flip = true;  ///< to intrinsic Delaunay
-  int rings = 16;    ///< around a block, which it solves for, too
+  bool flip = true;           ///< to intrinsic Delaunay
+  int rings = 16;             ///< around a block, which it solves for, too
+  Index most = kMostOfBlock;  ///< vertices of a block
   int threads = 1;
 };
 

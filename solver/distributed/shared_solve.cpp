@@ -252,7 +252,8 @@ void to_model_units(double unit, SharedAnswer& out) {
 
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress) {
+                                      const HeatOptions& options, const Progress& progress,
+                                      Index most_of_block) {
   auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
   SharedAnswer out;
   report(progress, "reading", 0.0);
@@ -276,6 +277,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "operators", 0.2);
   const BlockRules rules = {.flip = options.laplacian != LaplacianKind::kCotan,
                             .rings = rings_for(options.time_step, components.mean_edge * part.unit),
+                            .most = most_of_block,
                             .threads = thread_count(options.threads)};
   auto blocks = build_blocks(ranks, rules, part);
   if (!blocks) return blocks.error();

@@ -8,6 +8,7 @@
 #include "geotherm/distance_method.h"
 #include "geotherm/options.h"
 #include "geotherm/progress.h"
+#include "solver/distributed/mesh_block.h"
 #include "solver/distributed/rank_group.h"
 
 namespace geotherm {
@@ -37,10 +38,11 @@ struct SharedAnswer {
 /// step is solved by blocks (shared_heat.h), the Poisson step by PETSc: conjugate gradients with
 /// BoomerAMG, phi = 0 on every source. `sources`: numbers in the file. Of the options what is not
 /// the default is refused, but for: time step, Laplacian (kAuto is kIntrinsicDelaunay), variant,
-/// precision, threads. Errors, the same on all ranks: kBadFile, kBadInput, kNumericalFailure. All
-/// ranks call it. Precondition: MPI is started.
+/// precision, threads. `most_of_block`: BlockRules::most. Errors, the same on all ranks: kBadFile,
+/// kBadInput, kNumericalFailure. All ranks call it. Precondition: MPI is started.
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress = {});
+                                      const HeatOptions& options, const Progress& progress = {},
+                                      Index most_of_block = kMostOfBlock);
 
 }  // namespace geotherm
