@@ -14,6 +14,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/viewer_window.h"
+#include "app/session/ranks.h"
 #include "solver/mesh/output_file.h"
 
 namespace {
@@ -73,7 +74,9 @@ int run(int argc, char** argv) {
     return geotherm::app::run_command_line({argv + (argc > 0 ? 1 : 0), argv + argc}, *drawing,
                                            *window);
   } catch (const std::bad_alloc&) {
-    std::fputs("geotherm: error: not enough memory; try a smaller mesh or --backend cg\n", stderr);
+    const bool rank = geotherm::app::launched_as().count > 1;
+    std::fprintf(stderr, "geotherm: error: not enough memory; try %s\n",
+                 rank ? "more ranks, or fewer on each machine" : "a smaller mesh or --backend cg");
   } catch (const std::system_error& failure) {  // no thread could be started, most likely
     std::fprintf(stderr, "geotherm: error: the system refuses: %s; try --threads 1\n",
                  failure.what());

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "app/cli/commands.h"
+#include "app/cli/many_work.h"
 #include "app/cli/rows_file.h"
+#include "app/session/answer.h"
 #include "app/session/machine.h"
 #include "app/session/ranks.h"
 #include "app/session/report.h"
@@ -27,6 +29,8 @@ struct SharedWork {
   std::string path;
   ViewerState asked;
   std::vector<GlobalIndex> sources;
+  NpyType type = NpyType::kFloat64;
+  MeshCounts counts;
   Outputs outputs;
 };
 
@@ -64,7 +68,6 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
       {!a.targets.empty(), "--target"},
       {!a.sequence.frames.empty(), "--sequence"},
       {a.symmetric, "--symmetric"},
-      {a.float32 || !a.dtype.empty(), "--dtype and --float32"},
       {a.sources.curve, "--curve"},
   };
   for (const auto& [asked_for, what] : kept) {
@@ -81,16 +84,35 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
   return {};
 }
 
-Result<std::vector<GlobalIndex>> vertices_in(const SourceArguments& arguments) {
+/// Random ones are drawn among all `vertices` of the file: which belong to a face is not known
+/// here.
+Result<std::vector<GlobalIndex>> vertices_in(const SourceArguments& arguments,
+                                             GlobalIndex vertices) {
   const auto named = some_sources_of(arguments);
   if (!named) return named.error();
   std::vector<GlobalIndex> out;
   for (const Source& source : *named) {
+    if (const auto* const random = std::get_if<RandomVertices>(&source.spec);
+        random != nullptr && random->offset == 0) {
+      if (random->count > vertices) {
+        return Error{source.blame, source.where + ": " + grouped(random->count) +
+                                       " different vertices were asked for, and the mesh has " +
+                                       grouped(vertices)};
+      }
+      const auto drawn = draw_numbers(vertices, random->count, random->seed);
+      out.insert(out.end(), drawn.begin(), drawn.end());
+      continue;
+    }
     const auto* const list = std::get_if<VertexList>(&source.spec);
     if (list == nullptr || list->offset != 0) {
       return Error{source.blame, source.where +
                                      ": sources of a mesh that ranks share are vertices by their "
-                                     "numbers, without offsets"};
+                                     "numbers or random ones, without offsets"};
+    }
+    const GlobalIndex last = std::ranges::max(list->vertices);
+    if (last >= vertices) {
+      return Error{source.blame, source.where + ": there is no vertex " + std::to_string(last) +
+                                     "; vertices are 0 to " + std::to_string(vertices - 1)};
     }
     out.insert(out.end(), list->vertices.begin(), list->vertices.end());
   }
@@ -105,9 +127,9 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
   if (!asked) return asked.error();
   work.asked = *std::move(asked);
   if (auto fits = refuse_what_one_does(arguments, work.asked); !fits) return fits.error();
-  auto sources = vertices_in(arguments.sources);
-  if (!sources) return sources.error();
-  work.sources = *std::move(sources);
+  const auto type = number_type(arguments);
+  if (!type) return type.error();
+  work.type = *type;
   work.path = arguments.model;
   if (is_bundled(work.path)) {
     auto file = bundled_file(work.path);
@@ -120,10 +142,19 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
                      ": a mesh that ranks share is read from a binary .ply; geotherm generate and "
                      "most programs write one"};
   }
+  const auto counts = count_ply(work.path);
+  if (!counts) return counts.error();
+  work.counts = *counts;
+  auto sources = vertices_in(arguments.sources, counts->vertices);
+  if (!sources) return sources.error();
+  work.sources = *std::move(sources);
   protect_inputs(arguments.model, arguments.sources, work.outputs);
   if (!first) return work;
   for (const std::string& path : arguments.outputs) {
     if (auto expected = work.outputs.expect(path, "--output"); !expected) return expected.error();
+    const auto bytes = static_cast<double>(
+        npy_bytes_of(1, static_cast<std::uint64_t>(counts->vertices), work.type));
+    if (auto fits = check_room(path, bytes); !fits) return fits.error();
   }
   if (!arguments.json.empty()) {
     if (auto expected = work.outputs.expect(arguments.json, "--json"); !expected) {
@@ -134,18 +165,18 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
 }
 
 /// Every rank writes the share of the file that it has. Errors, the same on all: kBadFile.
-Result<void> write_shared(const std::string& path, const Ranks& ranks, const SharedAnswer& answer) {
+Result<void> write_shared(const std::string& path, NpyType type, const Ranks& ranks,
+                          const SharedAnswer& answer) {
   const auto count = static_cast<std::uint64_t>(answer.vertices);
-  auto room = ranks.agree(ranks.is_first() ? check_room(path, 8.0 * static_cast<double>(count))
-                                           : Result<void>());
-  if (!room) return room;
-  auto file = SharedFile::open(path, io::npy_header("<f8", {&count, 1}), ranks);
+  const bool wide = type == NpyType::kFloat64;
+  std::string bytes;
+  const auto fits = ranks.agree(io::npy_row(path, answer.distances, type, bytes));
+  if (!fits) return fits;
+  auto file = SharedFile::open(path, io::npy_header(wide ? "<f8" : "<f4", {&count, 1}), ranks);
   if (!file) return about_file(file.error());
-  const std::string bytes = io::npy_bytes(answer.distances);
-  const std::size_t header = bytes.size() - sizeof(double) * answer.distances.size();
-  const auto begin = share_begin(answer.vertices, ranks.rank(), ranks.count());
-  auto written = ranks.agree(file->write(sizeof(double) * static_cast<std::uint64_t>(begin),
-                                         std::string_view(bytes).substr(header)));
+  const auto begin =
+      static_cast<std::uint64_t>(share_begin(answer.vertices, ranks.rank(), ranks.count()));
+  auto written = ranks.agree(file->write((wide ? 8 : 4) * begin, bytes));
   if (written) written = ranks.agree(ranks.is_first() ? file->finish() : Result<void>());
   return written ? written : about_file(written.error());
 }
@@ -196,6 +227,7 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
             {"query", answer.timing.query}}},
           {"memory_mb", {{"factor", answer.factor_mb}, {"peak_rss", peak_mb}}},
           {"quality", quality_json(answer.quality, true)},
+          {"error", nullptr},  // ranks hold distances against no other method
           {"warnings", told(answer.warnings)},
           {"ranks", ranks},
           {"shared",
@@ -242,6 +274,7 @@ std::string shared_table(const SharedWork& work, const SharedAnswer& a, int rank
                         counted(a.rounds, "round", "rounds") + "; Poisson " +
                         significant(a.quality.poisson_residual, 2) + ", after " +
                         counted(a.quality.iterations_poisson, "iteration", "iterations")});
+  table.add_row({"check", "against straight lines and edges alone, not another method"});
   return table.text();
 }
 
@@ -268,7 +301,7 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
       solve_over_ranks(group, work->path, work->sources, work->asked.options, progress);
   if (!answer) return answer.error();
   for (const std::string& path : arguments.outputs) {
-    const auto write = [&] { return write_shared(path, *ranks, *answer); };
+    const auto write = [&] { return write_shared(path, work->type, *ranks, *answer); };
     const auto written = ranks->is_first() ? work->outputs.write(path, write) : write();
     if (!written) return written.error();
   }
@@ -276,6 +309,12 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   CommandOutput out;
   if (!ranks->is_first()) return out;
   out.warnings = answer->warnings;
+  MeshSummary mesh;
+  mesh.components = answer->components;
+  mesh.unreferenced_vertices = static_cast<Index>(answer->loose);
+  for (Warning& note : unreached_notes(mesh, static_cast<Index>(answer->unreached))) {
+    out.warnings.push_back(std::move(note));
+  }
   if (!arguments.json.empty()) {
     const auto json = shared_json(*work, *answer, ranks->count(), peak_mb);
     const auto written = work->outputs.write_text(arguments.json, report_text(json), out.text);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <utility>
 
 #include "app/session/wording.h"
@@ -327,6 +328,23 @@ Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpa
   return each;
 }
 
+std::vector<std::int64_t> draw_numbers(std::int64_t pool, Index count, std::uint64_t seed) {
+  std::unordered_map<std::int64_t, std::int64_t> moved;  // what stands where another stood
+  const auto at = [&](std::int64_t i) {
+    const auto found = moved.find(i);
+    return found == moved.end() ? i : found->second;
+  };
+  Random random(seed);
+  std::vector<std::int64_t> out;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto other =
+        i + static_cast<std::int64_t>(random.below(static_cast<std::uint64_t>(pool - i)));
+    out.push_back(at(other));
+    moved[other] = at(i);
+  }
+  return out;
+}
+
 Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count,
                                            std::uint64_t seed) {
   const std::vector<char> used = usable_vertices(space);
@@ -339,12 +357,9 @@ Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count
         grouped(count) + " different vertices were asked for",
         grouped(static_cast<std::int64_t>(pool.size())) + " belong to a " + cell_word(space));
   }
-  Random random(seed);
-  for (Index i = 0; i < count; ++i) {
-    std::swap(pool[i], pool[i + random.below(pool.size() - i)]);
-  }
-  pool.resize(static_cast<std::size_t>(count));
-  return pool;
+  std::vector<Index> out;
+  for (const std::int64_t i : draw_numbers(std::ssize(pool), count, seed)) out.push_back(pool[i]);
+  return out;
 }
 
 Result<void> check_pin(const Constraint& constraint, const SourceSpace& space) {

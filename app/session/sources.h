@@ -150,6 +150,10 @@ struct EachSource {
 /// twice. A curve and the boundary are one set each. Errors: those of resolve_sources().
 Result<EachSource> resolve_each(std::span<const Source> sources, const SourceSpace& space);
 
+/// `count` different numbers below `pool`; the same on every platform for a seed. Precondition:
+/// there are as many. Cost: O(count).
+std::vector<std::int64_t> draw_numbers(std::int64_t pool, Index count, std::uint64_t seed);
+
 /// `count` different vertices that belong to a face; the same on every platform for a seed.
 /// Errors: kBadInput (fewer such vertices).
 Result<std::vector<Index>> random_vertices(const SourceSpace& space, Index count,

@@ -186,10 +186,8 @@ void add_lost_faces(const HeatOptions& options, const CellCounts& faces, Distanc
 void add_clamped_vertices(const HeatOptions& options, DistanceResult& result) {
   const Index clamped = result.quality.clamped_vertices;
   if (clamped == 0) return;
-  const auto reached =
-      std::ranges::count_if(result.distances, [](double d) { return d < kUnreached; });
   Warning warning{counted_text(static_cast<std::size_t>(clamped), "vertex ", "vertices ") +
-                  share(clamped, static_cast<std::size_t>(reached)) +
+                  share(clamped, static_cast<std::size_t>(result.quality.reached_vertices)) +
                   " had a distance below 0, which was set to 0"};
   if (options.boundary == BoundaryRule::kDirichlet) {
     warning.hint = other_border();
@@ -221,16 +219,18 @@ Error with_time_hint(Error error, double unit_t, TimeRule rule) {
 }
 
 Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
-                         DistanceResult& result) {
+                         DistanceResult& result, double usual_heat_residual) {
   const Quality& q = result.quality;
   add_lost_faces(options, cells, result);
   add_clamped_vertices(options, result);
   add_bound_warnings(MethodKind::kHeat, result);
   for (const bool heat : {true, false}) {
     const double residual = heat ? q.heat_residual : q.poisson_residual;
-    const bool compact = options.precision == Precision::kCompact && q.iterations_poisson == 0;
-    if (residual <= (compact ? kSuspiciousOfCompact : kSuspiciousResidual))
-      continue;  // false for what is no number
+    const bool direct = (heat ? q.iterations_heat : q.iterations_poisson) == 0;
+    const bool compact = options.precision == Precision::kCompact && direct;
+    const double usual = std::max(compact ? kSuspiciousOfCompact : kSuspiciousResidual,
+                                  heat ? usual_heat_residual : 0.0);
+    if (residual <= usual) continue;  // false for what is no number
     const std::string text = std::string("the ") + (heat ? "heat" : "Poisson") +
                              " system was solved to a residual of " + rounded_text(residual) +
                              " only";

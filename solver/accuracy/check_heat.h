@@ -43,8 +43,9 @@ bool is_extreme_time(double unit_t);
 Error with_time_hint(Error error, double unit_t, TimeRule rule);
 
 /// Appends to an answer what a person should know about its quality figures, which must be filled
-/// in. Errors: kNumericalFailure where residuals say that this is no answer at all.
+/// in. `usual_heat_residual`: what the way in which the heat step was solved leaves by design.
+/// Errors: kNumericalFailure where residuals say that this is no answer at all.
 Result<void> assess_heat(const HeatOptions& options, double unit_t, const CellCounts& cells,
-                         DistanceResult& result);
+                         DistanceResult& result, double usual_heat_residual = 0);
 
 }  // namespace geotherm

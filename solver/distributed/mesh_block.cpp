@@ -17,7 +17,7 @@ constexpr int kMargins[] = {4, 12, 36};
 /// Heat falls by e over a ring or less; fewer than this would take many rounds.
 constexpr int kLeastRings = 6;
 
-/// What a block says of the triangles at a vertex, in model units: others must say the same.
+/// What a block says of the triangles at a vertex, in MeshPart::unit: others must say the same.
 struct Star {
   double stiffness = 0, mass = 0, corners = 0;
 
@@ -158,7 +158,7 @@ bool hold_beyond(const MeshPart& part, const std::vector<Star>& owners, int ring
 
 Result<std::vector<MeshBlock>> build_blocks(const RankGroup& ranks, const BlockRules& rules,
                                             MeshPart& part) {
-  const int count = static_cast<int>((part.own + kMostOfBlock - 1) / kMostOfBlock);
+  const int count = static_cast<int>((part.own + rules.most - 1) / rules.most);
   for (const int margin : kMargins) {
     // Without flips all triangles at a vertex are there when the ring behind it is.
     const int rings = rules.rings + 1 + (rules.flip || margin != kMargins[0] ? margin : 0);

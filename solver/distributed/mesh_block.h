@@ -16,8 +16,8 @@ namespace geotherm {
 /// The connected parts of a mesh that ranks share, numbered on all ranks alike.
 struct SharedComponents {
   std::vector<Index> of;             ///< of each vertex of the part; kNoIndex: in no face
-  std::vector<ComponentSize> sizes;  ///< of each, in model units; area and cells come by measure()
-  double mean_edge = 0;              ///< of all, model units
+  std::vector<ComponentSize> sizes;  ///< in MeshPart::unit; area and cells come by measure()
+  double mean_edge = 0;              ///< of all, likewise
 };
 
 /// All ranks call it. Errors (the same on all): kBadInput, nothing has a length. Cost: exchanges
@@ -63,8 +63,9 @@ inline constexpr Index kMostOfBlock = 150'000;
 
 /// How a rank's share is cut and triangulated.
 struct BlockRules {
-  bool flip = true;  ///< to intrinsic Delaunay
-  int rings = 16;    ///< around a block, which it solves for, too
+  bool flip = true;           ///< to intrinsic Delaunay
+  int rings = 16;             ///< around a block, which it solves for, too
+  Index most = kMostOfBlock;  ///< vertices of a block
   int threads = 1;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/distributed/mesh_part.h"
 
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -198,12 +199,25 @@ void fetch_positions(const RankGroup& ranks, Index from, MeshPart& part) {
     part.positions[v] = Vec3(points[v].at[0], points[v].at[1], points[v].at[2]);
 }
 
+/// Brings the positions of all ranks into one unit, which is returned.
+double normalise(const RankGroup& ranks, std::vector<Vec3>& positions) {
+  double most = 0;
+  for (const Vec3& p : positions) most = std::max(most, p.cwiseAbs().maxCoeff());
+  int exponent = 0;
+  std::frexp(ranks.most(most), &exponent);
+  for (Vec3& p : positions) {
+    for (double& x : p) x = std::ldexp(x, -exponent);
+  }
+  return std::ldexp(1.0, exponent);
+}
+
 }  // namespace
 
 Result<MeshPart> share_mesh(const RankGroup& ranks, MeshSlice slice) {
   MeshPart part;
   part.vertices = slice.vertices;
   part.faces = slice.faces;
+  part.unit = normalise(ranks, slice.positions);
   std::vector<CurveVertex> mine = share_out(ranks, along_curve(ranks, slice));
   slice.positions = {};
   // Vertices with their halo, and three entries a face, are numbered by 32 bits.

@@ -21,6 +21,14 @@ inline std::int64_t share_begin(std::int64_t all, int part, int parts) {
 /// The part whose share holds this number.
 int part_of_share(std::int64_t number, std::int64_t all, int parts);
 
+/// How many there are in a file.
+struct MeshCounts {
+  GlobalIndex vertices = 0, faces = 0;
+};
+
+/// Reads the head of a binary .ply alone. Errors: those of read_ply_slice() that the head shows.
+Result<MeshCounts> count_ply(const std::string& path);
+
 /// Some vertices and faces that follow each other in a file, numbered as there.
 struct MeshSlice {
   GlobalIndex vertices = 0, faces = 0;  ///< of the file
@@ -39,14 +47,17 @@ Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts);
 /// the order of their global numbers, then the rings of the halo, one after the other.
 struct MeshPart {
   GlobalIndex vertices = 0, faces = 0;  ///< of all ranks
-  std::vector<GlobalIndex> first;       ///< ranks + 1: the first own global number of each
-  Index own = 0;                        ///< vertices that this rank owns
-  std::vector<GlobalIndex> id;          ///< global number of each vertex here
-  std::vector<GlobalIndex> file_id;     ///< own: number in the file
-  std::vector<Vec3> positions;          ///< of each vertex here, model units
-  std::vector<Face> corners;            ///< first those that touch an own vertex
-  Index own_faces = 0;                  ///< so many
-  std::vector<Index> ring_begin;        ///< the first vertex of each ring from 1 on, and the end
+  /// Of lengths, model units: a power of two as large as the coordinates, so that no square of a
+  /// length leaves the range of doubles.
+  double unit = 1;
+  std::vector<GlobalIndex> first;    ///< ranks + 1: the first own global number of each
+  Index own = 0;                     ///< vertices that this rank owns
+  std::vector<GlobalIndex> id;       ///< global number of each vertex here
+  std::vector<GlobalIndex> file_id;  ///< own: number in the file
+  std::vector<Vec3> positions;       ///< of each vertex here, in `unit`
+  std::vector<Face> corners;         ///< first those that touch an own vertex
+  Index own_faces = 0;               ///< so many
+  std::vector<Index> ring_begin;     ///< the first vertex of each ring from 1 on, and the end
   std::unordered_map<GlobalIndex, Index> halo;  ///< global to here, of those not owned
 
   Index size() const { return static_cast<Index>(id.size()); }

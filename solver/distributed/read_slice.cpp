@@ -174,31 +174,47 @@ class SliceReader {
   MeshSlice slice_;
 };
 
+/// `start`: what the file begins with, which the header points into.
+Result<PlyHeader> header_of(const io::InputFile& file, const std::string& start) {
+  PlyHeader header = io::parse_ply_header(start);
+  if (header.format == PlyFormat::kAscii) {
+    return Error{ErrorCode::kBadInput,
+                 file.shown() + " is an ASCII .ply, and ranks read binary ones",
+                 {"write it as binary"}};
+  }
+  const PlyElement *vertex = header.find("vertex"), *face = header.find("face");
+  const bool complete = vertex != nullptr && face != nullptr && vertex < face &&
+                        vertex->find("x", false) >= 0 && vertex->find("y", false) >= 0 &&
+                        vertex->find("z", false) >= 0 && face->count > 0 && has_corners(*face);
+  if (complete) return header;
+  return Error{ErrorCode::kBadFile,
+               file.shown() +
+                   ": the file has no vertices with x, y and z before faces with a list "
+                   "\"vertex_indices\" of whole numbers"};
+}
+
 }  // namespace
+
+Result<MeshCounts> count_ply(const std::string& path) {
+  auto file = io::InputFile::open_as_is(path);
+  if (!file) return file.error();
+  return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshCounts> {
+    const std::string start = file->start(kMostHeader);
+    const auto header = header_of(*file, start);
+    if (!header) return header.error();
+    return MeshCounts{header->find("vertex")->count, header->find("face")->count};
+  });
+}
 
 Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts) {
   auto file = io::InputFile::open_as_is(path);
   if (!file) return file.error();
   return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshSlice> {
     const std::string start = file->start(kMostHeader);
-    PlyHeader header = io::parse_ply_header(start);
-    if (header.format == PlyFormat::kAscii) {
-      return Error{ErrorCode::kBadInput,
-                   file->shown() + " is an ASCII .ply, and ranks read binary ones",
-                   {"write it as binary"}};
-    }
-    const PlyElement *vertex = header.find("vertex"), *face = header.find("face");
-    const bool complete = vertex != nullptr && face != nullptr && vertex < face &&
-                          vertex->find("x", false) >= 0 && vertex->find("y", false) >= 0 &&
-                          vertex->find("z", false) >= 0 && face->count > 0 && has_corners(*face);
-    if (!complete) {
-      return Error{ErrorCode::kBadFile,
-                   file->shown() +
-                       ": the file has no vertices with x, y and z before faces with a list "
-                       "\"vertex_indices\" of whole numbers"};
-    }
-    const auto body = static_cast<std::int64_t>(header.body - start.data());
-    return SliceReader(*file, std::move(header), body, part, parts).read();
+    auto header = header_of(*file, start);
+    if (!header) return header.error();
+    const auto body = static_cast<std::int64_t>(header->body - start.data());
+    return SliceReader(*file, *std::move(header), body, part, parts).read();
   });
 }
 

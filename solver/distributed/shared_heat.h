@@ -15,7 +15,7 @@ struct SharedTask {
   const RankGroup& ranks;
   const MeshPart& part;
   const SharedComponents& components;
-  const DiffusionTimes& times;  ///< of the components, model units
+  const DiffusionTimes& times;  ///< of the components, in MeshPart::unit
   const HeatOptions& options;
   std::span<const char> is_source;  ///< of each vertex of the part
   std::vector<char> reached;        ///< of each component: it holds a source
@@ -29,7 +29,7 @@ struct SharedHeat {
   double residual = 0;        ///< |M u - b| / |b|, as Quality::heat_residual
   double row_residual = 0;    ///< the largest |M u - b|_i / (M_ii u_i)
   std::vector<Index> beside;  ///< vertices that others own and share a face with an own one
-  std::vector<FaceField::Extent> extent;  ///< of each component, in model units
+  std::vector<FaceField::Extent> extent;  ///< of each component, in MeshPart::unit
 };
 
 /// Makes the factors of all blocks. Errors (the same on all ranks): the backend's.

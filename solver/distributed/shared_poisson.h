@@ -15,8 +15,8 @@ inline bool is_pinned(const SharedTask& task, Index v) {
          task.is_source[static_cast<std::size_t>(v)] != 0;
 }
 
-/// phi of own vertices, L phi = b (of own vertices, model units), by conjugate gradients of all
-/// ranks with BoomerAMG. `iterations`: that it took. Errors (the same on all ranks):
+/// phi of own vertices, L phi = b (of own vertices, in MeshPart::unit), by conjugate gradients of
+/// all ranks with BoomerAMG. `iterations`: that it took. Errors (the same on all ranks):
 /// kNumericalFailure, with PETSc's reason. All ranks call it.
 Result<std::vector<double>> solve_poisson(const SharedTask& task, std::span<const MeshBlock> blocks,
                                           const std::vector<double>& b, int& iterations);

@@ -12,9 +12,8 @@
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
 #include "solver/distributed/shared_heat.h"
+#include "solver/distributed/shared_notes.h"
 #include "solver/distributed/shared_poisson.h"
-#include "solver/geometry/clean_faces.h"
-#include "solver/geometry/tufted_cover.h"
 
 namespace geotherm {
 namespace {
@@ -37,7 +36,7 @@ class BlockFaces {
         given_(field_of(task, heat, block)),
         field_(*block.surface, given_.heat, given_.t, {pool_, task.threads}, given_.extent) {}
 
-  /// Of own vertices, model units.
+  /// Of own vertices, in MeshPart::unit.
   void add_divergence(std::vector<double>& b) const {
     const Block divergence = field_.divergence({&anchors_, 1});
     for (Index here = 0; here < block_.own(); ++here) {
@@ -53,7 +52,7 @@ class BlockFaces {
     double left = 0, given = 0;  ///< squares of L phi - b and of b
   };
 
-  /// `phi`, `b`: of vertices of the part, model units.
+  /// `phi`, `b`: of vertices of the part, in MeshPart::unit.
   Sums inspect(const std::vector<double>& phi, const std::vector<double>& b) const {
     const Surface& surface = *block_.surface;
     const OperatorMesh& mesh = *surface.operators;
@@ -97,6 +96,10 @@ class BlockFaces {
   FaceField field_;
 };
 
+/// |M u - b| / |b| that what is no news may leave (shared_heat.h): 1e-6 of the terms of the rows at
+/// the edges of blocks, of which those near a source are as large as b, a few together.
+constexpr double kUsualHeatResidual = 1e-5;
+
 /// Makes distances of phi, of own vertices, and what there is to say about them.
 std::vector<double> distances_of(const SharedTask& task, const std::vector<double>& phi,
                                  SharedAnswer& out) {
@@ -124,14 +127,13 @@ std::vector<double> distances_of(const SharedTask& task, const std::vector<doubl
     clamped += distances[v] < kUnreached && phi[v] < -kRoundOffOfDistance * out.most ? 1 : 0;
   }
   out.quality.clamped_vertices = static_cast<Index>(task.ranks.sum(clamped));
-  out.quality.reached_vertices = static_cast<Index>(reached);
   return distances;
 }
 
 /// The quality figures, and what a person should know of them.
 Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces,
                    const SharedHeat& heat, std::vector<double> phi, const std::vector<double>& b,
-                   SharedAnswer& out) {
+                   std::vector<double>& distances, SharedAnswer& out) {
   phi.resize(static_cast<std::size_t>(task.part.size()), 0.0);
   Halo(task.ranks, task.part, heat.beside).fetch(task.ranks, phi);
   std::array<double, 8> sums{};
@@ -161,8 +163,13 @@ Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces
   q.edges_checked = true;
   DistanceResult result;
   result.quality = q;
+  result.distances = std::move(distances);
+  check_lines(task, result);
+  distances = std::move(result.distances);
+  q = result.quality;
   const CellCounts cells = {static_cast<Index>(sums[4]), static_cast<Index>(sums[5])};
-  const auto assessed = assess_heat(task.options, task.times.extreme, cells, result);
+  const auto assessed =
+      assess_heat(task.options, task.times.extreme, cells, result, kUsualHeatResidual);
   out.warnings = std::move(result.warnings);
   return assessed;
 }
@@ -189,35 +196,6 @@ void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<d
   }
 }
 
-/// What a person should know of how the mesh was taken. `repeated`: faces that repeat a corner.
-std::vector<Warning> notes_of(const RankGroup& ranks, std::span<const MeshBlock> blocks,
-                              const HeatOptions& options, double repeated) {
-  double lengthened = 0, covers = 0;
-  for (const MeshBlock& block : blocks) {
-    if (!block.surface) continue;
-    const IntrinsicMesh& mesh = block.surface->intrinsic;
-    lengthened = std::max(lengthened, mesh.mollified.most * mesh.unit);
-    const Index vertices = block.surface->mesh->vertex_count();
-    if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
-  }
-  CleanFaces left_out;
-  left_out.repeated_corner = static_cast<Index>(ranks.sum(repeated));
-  std::vector<Warning> notes = cleaning_notes(left_out);
-  lengthened = ranks.most(lengthened);
-  if (lengthened > 0) {
-    notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
-                     rounded_text(lengthened) +
-                     "; distances across them may be too long by as "
-                     "much"});
-  }
-  if (ranks.most(covers) > 0 && options.laplacian == LaplacianKind::kAuto) {
-    notes.push_back(
-        {"the surface is no oriented manifold everywhere: edges there are not flipped, "
-         "where one process would take the tufted Laplacian"});
-  }
-  return notes;
-}
-
 /// How many rings a block takes in, by the longest diffusion length in mean edges.
 int rings_for(const TimeStep& step, double mean_edge) {
   const double m =
@@ -226,11 +204,20 @@ int rings_for(const TimeStep& step, double mean_edge) {
       std::clamp(std::ceil(kRings * std::sqrt(m)), kRings, static_cast<double>(kMostRings)));
 }
 
-/// Flags for the vertices of the part. Errors: kBadInput, no such vertex, or in no face.
+/// Whether all of these are in the file. Errors: kBadInput.
+Result<void> check_numbers(std::span<const GlobalIndex> sources, GlobalIndex vertices) {
+  const GlobalIndex last = std::ranges::max(sources);
+  if (last < vertices) return {};
+  return Error{ErrorCode::kBadInput,
+               "there is no vertex " + std::to_string(last),
+               {"vertices are 0 to " + std::to_string(vertices - 1)}};
+}
+
+/// Flags for the own vertices of the part. Errors: kBadInput, in no face.
 Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
                                 const SharedComponents& components,
                                 std::span<const GlobalIndex> sources) {
-  std::vector<char> flags(static_cast<std::size_t>(part.size()), 0);
+  std::vector<char> flags(static_cast<std::size_t>(part.own), 0);
   std::vector<GlobalIndex> wanted(sources.begin(), sources.end()), loose;
   std::ranges::sort(wanted);
   for (Index v = 0; v < part.own; ++v) {
@@ -239,33 +226,41 @@ Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
     if (components.of[v] == kNoIndex) loose.push_back(part.file_id[v]);
   }
   loose = ranks.gather(loose);
-  if (wanted.back() >= part.vertices) {
-    return Error{ErrorCode::kBadInput,
-                 "there is no vertex " + std::to_string(wanted.back()),
-                 {"vertices are 0 to " + std::to_string(part.vertices - 1)}};
-  }
-  if (!loose.empty()) {
-    return Error{ErrorCode::kBadInput,
-                 "vertex " + std::to_string(loose.front()) + " belongs to no face",
-                 {"choose another"}};
-  }
+  if (loose.empty()) return flags;
+  return Error{ErrorCode::kBadInput,
+               "vertex " + std::to_string(loose.front()) + " belongs to no face",
+               {"choose another"}};
+}
+
+/// Of vertices of the part: those of others come from their owners.
+template <class T>
+void fetch_halo(const RankGroup& ranks, const MeshPart& part, T missing, std::vector<T>& values) {
+  values.resize(static_cast<std::size_t>(part.size()), missing);
   std::vector<Index> others;
   for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
-  Halo(ranks, part, others).fetch(ranks, flags);
-  return flags;
+  Halo(ranks, part, others).fetch(ranks, values);
+}
+
+/// From the unit of the part to that of the model.
+void to_model_units(double unit, SharedAnswer& out) {
+  for (double& d : out.distances) d *= unit;
+  for (double* const length : {&out.least, &out.most, &out.mean, &out.mean_edge}) *length *= unit;
+  out.area *= unit * unit;
 }
 
 }  // namespace
 
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress) {
+                                      const HeatOptions& options, const Progress& progress,
+                                      Index most_of_block) {
   auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
   SharedAnswer out;
   report(progress, "reading", 0.0);
   auto slice = ranks.agree_on(read_ply_slice(path, ranks.rank(), ranks.count()));
   if (!slice) return slice.error();
   out.read_ms = lap();
+  if (auto there = check_numbers(sources, slice->vertices); !there) return there.error();
   const auto repeated = static_cast<double>(std::ranges::count_if(
       slice->corners, [](const auto& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }));
   report(progress, "sharing", 0.1);
@@ -275,27 +270,27 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   auto named = name_components(ranks, part);
   if (!named) return named.error();
   SharedComponents& components = *named;
+  auto is_source = place(ranks, part, components, sources);
+  if (!is_source) return is_source.error();
   out.share_ms = lap();
 
   report(progress, "operators", 0.2);
   const BlockRules rules = {.flip = options.laplacian != LaplacianKind::kCotan,
-                            .rings = rings_for(options.time_step, components.mean_edge),
+                            .rings = rings_for(options.time_step, components.mean_edge * part.unit),
+                            .most = most_of_block,
                             .threads = thread_count(options.threads)};
   auto blocks = build_blocks(ranks, rules, part);
   if (!blocks) return blocks.error();
-  components.of.resize(static_cast<std::size_t>(part.size()), kNoIndex);
-  std::vector<Index> others;
-  for (Index v = part.own; v < part.size(); ++v) others.push_back(v);
-  Halo(ranks, part, others).fetch(ranks, components.of);
+  fetch_halo(ranks, part, kNoIndex, components.of);
+  fetch_halo(ranks, part, char{0}, *is_source);
   measure_components(ranks, part, *blocks, components);
-  std::vector<Warning> notes = notes_of(ranks, *blocks, options, repeated);
-  part.positions = {};  // blocks have theirs
+  std::vector<Warning> notes = notes_of(ranks, part, components, *blocks, options, repeated);
+  part.positions.resize(static_cast<std::size_t>(part.own));  // blocks have theirs
+  part.positions.shrink_to_fit();
   part.corners = {};
   part.halo = {};
-  const auto times = diffusion_times(components.sizes, 1.0, options.time_step);
+  const auto times = diffusion_times(components.sizes, part.unit, options.time_step);
   if (!times) return times.error();
-  const auto is_source = place(ranks, part, components, sources);
-  if (!is_source) return is_source.error();
   std::vector<double> reached(components.sizes.size(), 0.0);
   for (Index v = 0; v < part.own; ++v) {
     if ((*is_source)[v]) reached[components.of[v]] = 1;
@@ -347,11 +342,11 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "poisson", 0.7);
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
-  const std::vector<double> distances = distances_of(task, *phi, out);
+  std::vector<double> distances = distances_of(task, *phi, out);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);
-  if (auto right = judge(task, faces, *heat, *phi, b, out); !right) return right.error();
+  if (auto right = judge(task, faces, *heat, *phi, b, distances, out); !right) return right.error();
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
 
@@ -360,6 +355,9 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.components = static_cast<Index>(components.sizes.size());
   out.mean_edge = components.mean_edge;
   for (const ComponentSize& size : components.sizes) out.area += size.area;
+  double loose = 0;
+  for (Index v = 0; v < part.own; ++v) loose += components.of[v] == kNoIndex ? 1 : 0;
+  out.loose = static_cast<GlobalIndex>(ranks.sum(loose));
   out.t = times->model_t;
   out.relative_t = times->relative_t;
   out.flips = static_cast<Index>(ranks.sum(flips));
@@ -367,6 +365,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.rings = rules.rings;
   out.rounds = heat->rounds;
   out.row_residual = heat->row_residual;
+  to_model_units(part.unit, out);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "geotherm/distance_method.h"
 #include "geotherm/options.h"
 #include "geotherm/progress.h"
+#include "solver/distributed/mesh_block.h"
 #include "solver/distributed/rank_group.h"
 
 namespace geotherm {
@@ -22,7 +23,7 @@ struct SharedAnswer {
   double mean_edge = 0, area = 0;        ///< model units
   double t = 0, relative_t = 0;          ///< of the component with most faces
   double least = 0, most = 0, mean = 0;  ///< of the distances that are reached
-  GlobalIndex unreached = 0;
+  GlobalIndex unreached = 0, loose = 0;  ///< the latter are in no face
   Index flips = 0;  ///< of all blocks; those near their edges are made by several
   int blocks = 0, rings = 0, rounds = 0;
   double row_residual = 0;  ///< SharedHeat::row_residual
@@ -37,10 +38,11 @@ struct SharedAnswer {
 /// step is solved by blocks (shared_heat.h), the Poisson step by PETSc: conjugate gradients with
 /// BoomerAMG, phi = 0 on every source. `sources`: numbers in the file. Of the options what is not
 /// the default is refused, but for: time step, Laplacian (kAuto is kIntrinsicDelaunay), variant,
-/// precision, threads. Errors, the same on all ranks: kBadFile, kBadInput, kNumericalFailure. All
-/// ranks call it. Precondition: MPI is started.
+/// precision, threads. `most_of_block`: BlockRules::most. Errors, the same on all ranks: kBadFile,
+/// kBadInput, kNumericalFailure. All ranks call it. Precondition: MPI is started.
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress = {});
+                                      const HeatOptions& options, const Progress& progress = {},
+                                      Index most_of_block = kMostOfBlock);
 
 }  // namespace geotherm

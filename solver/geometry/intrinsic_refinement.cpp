@@ -54,20 +54,16 @@ bool is_obtuse_boundary(const IntrinsicMesh& mesh, Side side) {
          opposite_cotangent(lengths, corner_of(side)) < kObtuse;
 }
 
-/// The faces and boundary edges that need a vertex at the start.
-struct Needs {
-  std::vector<Index> large;  ///< faces
-  std::vector<Side> obtuse;  ///< boundary sides
-};
+}  // namespace
 
-Needs find_needs(const IntrinsicMesh& mesh, const Components& parts,
-                 std::span<const double> part_edge, int threads) {
+RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Components& parts,
+                                      std::span<const double> part_edge, int threads) {
   constexpr std::int64_t kGrain = 1 << 15;  // minimum faces per thread
   const auto count = static_cast<std::int64_t>(mesh.faces.size());
   const int pieces = piece_count(threads, count, kGrain);
-  std::vector<Needs> found(static_cast<std::size_t>(pieces));
+  std::vector<RefinementNeeds> found(static_cast<std::size_t>(pieces));
   for_pieces(pieces, count, [&](int piece, std::int64_t begin, std::int64_t end) {
-    Needs& here = found[static_cast<std::size_t>(piece)];
+    RefinementNeeds& here = found[static_cast<std::size_t>(piece)];
     for (auto f = static_cast<Index>(begin); f < static_cast<Index>(end); ++f) {
       const double edge = parts.count == 1 ? part_edge[0] : part_edge[parts.of[mesh.faces[f][0]]];
       const auto& l = mesh.lengths[f];
@@ -77,13 +73,15 @@ Needs find_needs(const IntrinsicMesh& mesh, const Components& parts,
       }
     }
   });
-  Needs out = std::move(found.front());
+  RefinementNeeds out = std::move(found.front());
   for (std::size_t p = 1; p < found.size(); ++p) {
     out.large.insert(out.large.end(), found[p].large.begin(), found[p].large.end());
     out.obtuse.insert(out.obtuse.end(), found[p].obtuse.begin(), found[p].obtuse.end());
   }
   return out;
 }
+
+namespace {
 
 struct MeanLength {
   double sum = 0, count = 0;
@@ -209,7 +207,7 @@ class Refiner {
   }
 
   /// Error: kCancelled.
-  Result<void> run(const Needs& needs, const Progress& progress) {
+  Result<void> run(const RefinementNeeds& needs, const Progress& progress) {
     constexpr std::int64_t kStepsBetweenCalls = 1 << 12;
     for (Index f = 0; f < mesh_.face_count() && !needs.large.empty(); ++f) note_size(f);
     obtuse_ = needs.obtuse;
@@ -367,7 +365,7 @@ Result<Refinement> refine_triangulation(IntrinsicMesh& mesh, std::vector<Edit>& 
                                         Components& parts, std::span<const double> part_edge,
                                         std::span<const Vec3> positions, Index most, int threads,
                                         const Progress& progress) {
-  const Needs needs = find_needs(mesh, parts, part_edge, threads);
+  const RefinementNeeds needs = find_refinement_needs(mesh, parts, part_edge, threads);
   Refinement out;
   out.large_faces = static_cast<Index>(needs.large.size());
   out.obtuse_boundary = static_cast<Index>(needs.obtuse.size());

@@ -21,6 +21,16 @@ struct Refinement : RefinementCounts {
   std::vector<char> on_border;  ///< points: the vertex lies on the boundary
 };
 
+/// The faces and boundary edges for which refine_triangulation() would insert a vertex or raise t.
+struct RefinementNeeds {
+  std::vector<Index> large;  ///< faces
+  std::vector<Side> obtuse;  ///< boundary sides
+};
+
+/// Its preconditions and arguments. Cost: one pass over the faces, by all threads.
+RefinementNeeds find_refinement_needs(const IntrinsicMesh& mesh, const Components& parts,
+                                      std::span<const double> part_edge, int threads);
+
 /// Inserts vertices into a Delaunay triangulation, never into the mesh, until it can carry the heat
 /// method with one diffusion time per part: no face has an edge above 2.6 sqrt(t), on which heat
 /// would underflow to no direction, and no boundary edge lies opposite an obtuse angle (above 96

@@ -46,10 +46,11 @@ const char* start_all(int* rank, int* count) {
   }
   MPI_Comm_rank(MPI_COMM_WORLD, rank);
   MPI_Comm_size(MPI_COMM_WORLD, count);
-  // Each process solves for itself, and signals are the program's.
+  // Each process solves for itself, and signals are the program's: PETSc would leave none of its
+  // handlers, which remove files that were begun.
   PETSC_COMM_WORLD = MPI_COMM_SELF;
-  PetscErrorCode code = PetscInitializeNoArguments();
-  if (code == 0) code = PetscPopSignalHandler();
+  PetscErrorCode code = PetscOptionsSetValue(nullptr, "-no_signal_handler", "true");
+  if (code == 0) code = PetscInitializeNoArguments();
   if (code == 0) code = PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   if (code != 0) return told(words_of(code));
   // BoomerAMG's settings exist as options alone.

@@ -57,6 +57,18 @@ PROGRAM=$program refused 2 'bunny.ply' sh of_rank.sh truncated
 # Messages in shared memory would be files that are too large, too.
 OMPI_MCA_btl=self,tcp PROGRAM=$program refused 2 'cannot be written' sh of_rank.sh full
 [ -z "$(ls | grep rows.npy)" ] || fail "something of rows.npy was left: $(ls)"
+# A signal to mpirun ends all and leaves nothing.
+"$program" generate bunny --faces 40000 -o many.ply >/dev/null
+for signal in TERM INT; do
+  mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
+  launcher=$!
+  for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*')" ] || break; sleep 0.1; done
+  [ -n "$(find . -name 'rows.npy.*')" ] || fail "no rows before the signal"
+  kill -"$signal" "$launcher"
+  wait "$launcher" && fail "a signal was survived"
+  for _ in $(seq 50); do [ -n "$(find . -name 'rows.npy*')" ] || break; sleep 0.1; done
+  [ -z "$(find . -name 'rows.npy*')" ] || fail "$signal: something was left: $(ls)"
+done
 # Without the library of MPI.
 GEOTHERM_MPI_MODULE=none refused 2 'geotherm-mpi' "$program" solve bunny -s 0,1 --each -o rows.npy
 

@@ -68,6 +68,34 @@ for key in eikonal_error_mean mean_edge_length area t max; do
 done
 cp d.json "${KEEP_REPORT:-/dev/null}"
 
+# Lengths whose squares no double holds; random sources and their type of numbers.
+agrees wide.ply 7 15 4 --variant classic "${delaunay[@]}"
+"$program" solve plane.ply -s random:5:3 --no-check --threads 1 --json one.json >/dev/null 2>&1
+shared 2 plane.ply random:5:3 --float32
+/usr/bin/python3 - <<'PY' || fail "random sources"
+import json
+one, shared = (json.load(open(name)) for name in ("one.json", "d.json"))
+assert sorted(one["sources"]) == shared["sources"], shared["sources"]
+assert b"<f4" in open("d.npy", "rb").read(80)
+PY
+# warns WORDS: the last solve, each line once.
+warns() { [ "$(grep -c -- "$1" said)" = 1 ] || { cat said; fail "no warning '$1'"; }; }
+# What is poor is said in the words of one process, with its numbers.
+for run in "plane.ply 7 -m 0.001" "twice.ply 7" "three.ply 7"; do
+  read -r mesh source options <<<"$run"
+  # shellcheck disable=SC2086
+  "$program" solve "$mesh" -s "$source" $options --no-check "${delaunay[@]}" >/dev/null 2>one
+  # shellcheck disable=SC2086
+  shared 3 "$mesh" "$source" $options "${delaunay[@]}"
+  [ -s one ] || fail "$run: nothing to warn of"
+  diff one said || fail "$run: other warnings"
+done
+# Where one process would insert vertices: as many needs as it counts.
+"$program" solve obtuse.ply -s 0 --no-check >one 2>&1
+needs=$(grep -o '[0-9,]* obtuse border edges' one | tr -dc '0-9')
+shared 3 obtuse.ply 0
+warns "^geotherm: warning: $needs edges of the border .*one process would insert vertices"
+
 solve=(--backend petsc -o r.npy)
 # Seen by one rank alone: the last face, a file that is cut short, a disk that is full.
 refused 4 'vertex 6300 is used.*face 12282 of 12282' "$program" solve range.ply -s 0 "${solve[@]}"
@@ -81,7 +109,7 @@ exec "$PROGRAM" solve plane.ply -s 0 --backend petsc --threads 1 -o ../$(basenam
 SH
 refused 2 'the file ends' sh of_rank.sh truncated
 OMPI_MCA_btl=self,tcp refused 2 'cannot be written' sh of_rank.sh full
-refused 2 'no vertex 6300' "$program" solve plane.ply -s 6300 "${solve[@]}"
+refused 2 'no vertex 6300' "$program" solve plane.ply -s 0,6300 "${solve[@]}"
 refused 2 'no such file\|No such file' "$program" solve gone.ply -s 0 "${solve[@]}"
 refused 2 'no such folder\|No such file\|folder' "$program" solve plane.ply -s 0 --backend petsc -o gone/r.npy
 # What one process alone does is said, not left out.
@@ -89,13 +117,14 @@ refused 2 'no such folder\|No such file\|folder' "$program" solve plane.ply -s 0
 refused 2 'binary .ply' "$program" solve bunny.obj -s 0 "${solve[@]}"
 for option in --check --labels '--target 3' '--max-distance 1' '--weld 0.1' '--boundary dirichlet' \
   '--method wavefront' '--constraint pin-vertex' '--heat hold' '--laplacian refined' '--memory-limit 99' \
-  '--fields all' '--refine 1' '--float32' '--on-poor better'; do
+  '--fields all' '--refine 1' '--on-poor better'; do
   # A launcher's words alone make it one rank, without the time that mpirun takes.
   # shellcheck disable=SC2086
   if PMI_RANK=0 PMI_SIZE=1 "$program" solve plane.ply -s 0 $option "${solve[@]}" >out 2>said; then fail "$option"; fi
   grep -q -- "${option%% *} .*is for one process" said || { cat said; fail "$option"; }
 done
 refused 2 'give -o FILE.npy' "$program" solve plane.ply -s 0 --backend petsc -o d.csv
+refused 2 '7000 different vertices\|7,000 different vertices' "$program" solve plane.ply -s random:7000 "${solve[@]}"
 refused 2 'vertices by their numbers' "$program" solve plane.ply -s xyz:0:0:0 "${solve[@]}"
 GEOTHERM_MPI_MODULE=none refused 2 'geotherm-mpi' "$program" solve plane.ply -s 0 "${solve[@]}"
 echo "shared: all checked"

@@ -9,7 +9,7 @@ import struct
 import sys
 
 
-def plane(nx, ny, stretch=1.0, shear=0.0, at=(0.0, 0.0), size=1.0):
+def plane(nx, ny, stretch=1.0, shear=0.0, at=(0.0, 0.0), size=1.0, repeated=0):
     chance = random.Random(1)
     points = []
     for y in range(ny):
@@ -21,7 +21,7 @@ def plane(nx, ny, stretch=1.0, shear=0.0, at=(0.0, 0.0), size=1.0):
         for x in range(nx - 1):
             i = y * nx + x
             faces += [(i, i + 1, i + nx + 1), (i, i + nx + 1, i + nx)]
-    return points, faces
+    return points, faces + faces[100:100 + repeated]
 
 
 def sphere(rings, around):
@@ -77,6 +77,8 @@ if sys.argv[1] == "make":
     write("obtuse.ply", *plane(90, 70, shear=2.3))
     write("stretched.ply", *plane(90, 70, stretch=10.0))
     write("strip.ply", *plane(1500, 3))
+    write("wide.ply", *plane(90, 70, size=1e200))
+    write("twice.ply", *plane(90, 70, repeated=50))
     write("range.ply", *plane(90, 70), last=(0, 1, 6300))
     write("square.ply", *plane(30, 20))
 else:

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "solver/distributed/shared_notes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "solver/accuracy/distance_bounds.h"
+#include "solver/core/text.h"
+#include "solver/geometry/clean_faces.h"
+#include "solver/geometry/intrinsic_refinement.h"
+#include "solver/geometry/tufted_cover.h"
+
+namespace geotherm {
+namespace {
+
+/// Faces whose first corner by global numbers is this rank's, and that come after the same three
+/// corners.
+double count_duplicates(const MeshPart& part) {
+  std::vector<Face> faces;
+  for (Face face : std::span(part.corners).first(static_cast<std::size_t>(part.own_faces))) {
+    std::ranges::sort(face, {}, [&](Index v) { return part.id[v]; });
+    if (face[0] < part.own && !repeats_corner(face)) faces.push_back(face);
+  }
+  std::ranges::sort(faces);
+  return static_cast<double>(std::ssize(faces) -
+                             (std::ranges::unique(faces).begin() - faces.begin()));
+}
+
+struct NeedCounts {
+  double large = 0, obtuse = 0;
+};
+
+/// The faces of a block, counted by their owners, that cannot carry the heat method as they are.
+NeedCounts count_needs(const MeshPart& part, const SharedComponents& components,
+                       const MeshBlock& block, int threads) {
+  const Surface& surface = *block.surface;
+  const IntrinsicMesh& mesh = surface.intrinsic;
+  std::vector<double> part_edge(static_cast<std::size_t>(surface.parts.count));
+  for (std::size_t v = 0; v < block.vertex.size(); ++v) {
+    const Index here = surface.parts.of[v];
+    if (here == kNoIndex) continue;
+    part_edge[here] = components.sizes[components.of[block.vertex[v]]].mean_edge / mesh.unit;
+  }
+  const auto is_own = [&](Index face) {
+    const Index first =
+        std::ranges::min(mesh.faces[face], {}, [&](Index v) { return part.id[block.vertex[v]]; });
+    return first < block.own();
+  };
+  const RefinementNeeds needs = find_refinement_needs(mesh, surface.parts, part_edge, threads);
+  const auto count = [](auto number) { return static_cast<double>(number); };
+  return {
+      count(std::ranges::count_if(needs.large, is_own)),
+      count(std::ranges::count_if(needs.obtuse, [&](Side side) { return is_own(face_of(side)); }))};
+}
+
+/// Where kAuto would insert vertices in one process.
+void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
+  if (large == 0 && obtuse == 0) return;
+  std::string what;
+  if (large > 0) {
+    what = counted_text(static_cast<std::size_t>(large), "face is", "faces are") +
+           " too large for the diffusion time";
+  }
+  if (obtuse > 0) {
+    what += (what.empty() ? "" : ", and ") +
+            counted_text(static_cast<std::size_t>(obtuse), "edge of the border lies",
+                         "edges of the border lie") +
+            " opposite an obtuse angle";
+  }
+  notes.push_back({what + ": one process would insert vertices there, which ranks do not, and "
+                          "distances around them may be far off",
+                   {"start without mpirun where one machine holds the mesh, or use ",
+                    SettingHint{"method", {"wavefront"}}}});
+}
+
+}  // namespace
+
+std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
+                              const SharedComponents& components, std::span<const MeshBlock> blocks,
+                              const HeatOptions& options, double repeated) {
+  double lengthened = 0, covers = 0, duplicates = 0;
+  std::array<double, 2> needs{};
+  for (const MeshBlock& block : blocks) {
+    if (!block.surface) continue;
+    const IntrinsicMesh& mesh = block.surface->intrinsic;
+    lengthened = std::max(lengthened, mesh.mollified.most * mesh.unit * part.unit);
+    const Index vertices = block.surface->mesh->vertex_count();
+    if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
+    if (block.surface->kept->duplicate > 0) duplicates = 1;
+    if (options.laplacian != LaplacianKind::kAuto) continue;
+    const NeedCounts more = count_needs(part, components, block, options.threads);
+    needs[0] += more.large;
+    needs[1] += more.obtuse;
+  }
+  CleanFaces left_out;
+  left_out.repeated_corner = static_cast<Index>(ranks.sum(repeated));
+  if (ranks.most(duplicates) > 0) {
+    left_out.duplicate = static_cast<Index>(ranks.sum(count_duplicates(part)));
+  }
+  std::vector<Warning> notes = cleaning_notes(left_out);
+  lengthened = ranks.most(lengthened);
+  if (lengthened > 0) {
+    notes.push_back({"faces that are degenerate or nearly so had edges lengthened, by up to " +
+                     rounded_text(lengthened) +
+                     "; distances across them may be too long by as "
+                     "much"});
+  }
+  ranks.combine(needs, RankGroup::Combination::kSum);
+  note_needs(needs[0], needs[1], notes);
+  if (ranks.most(covers) > 0 && options.laplacian == LaplacianKind::kAuto) {
+    notes.push_back(
+        {"the surface is no oriented manifold everywhere: edges there are not flipped, "
+         "where one process would take the tufted Laplacian"});
+  }
+  return notes;
+}
+
+void check_lines(const SharedTask& task, DistanceResult& result) {
+  const MeshPart& part = task.part;
+  const auto own = std::span(part.positions).first(static_cast<std::size_t>(part.own));
+  std::vector<std::array<double, 3>> places;
+  for (Index v = 0; v < part.own; ++v) {
+    const Vec3& at = own[v];
+    if (task.is_source[v]) places.push_back({at[0], at[1], at[2]});
+  }
+  std::vector<LineSource> sources;
+  for (const auto& [x, y, z] : task.ranks.gather(places)) {
+    sources.push_back({Vec3(x, y, z), Vec3(x, y, z), 0.0});
+  }
+  const double edge = task.components.mean_edge;
+  check_straight_lines(own, StraightLine(sources, edge), edge, 1,
+                       bound_tolerance(MethodKind::kHeat), task.threads, result);
+  Quality& q = result.quality;
+  std::array<double, 2> sums = {static_cast<double>(q.reached_vertices),
+                                static_cast<double>(q.below_straight_line)};
+  task.ranks.combine(sums, RankGroup::Combination::kSum);
+  q.reached_vertices = static_cast<Index>(sums[0]);
+  q.below_straight_line = static_cast<Index>(sums[1]);
+  q.most_below_straight_line = task.ranks.most(q.most_below_straight_line);
+  q.clamped_reach = task.ranks.most(q.clamped_reach) * part.unit;
+}
+
+}  // namespace geotherm
