@@ -101,11 +101,10 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     const auto points = points_in_order(through, model);
     if (!points) return points.error();
     const Watched watched(watch);
-    const auto prepared = [&] {
-      const std::lock_guard lock((*object)->lock);
-      return finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
-    };
-    const auto finder = prepared();
+    auto lock = lock_of(**object, watched.progress());
+    if (!lock) return lock.error();
+    const auto finder = finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
+    lock->unlock();
     if (!finder) return finder.error();
     PathOptions options;
     options.field = *follows;
@@ -139,11 +138,11 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
                           {"give one, and one or more"});
     }
     const Watched watched(watch);
-    const auto prepared = [&] {
-      const std::lock_guard lock((*object)->lock);
-      return finder_of(**object, PathField::kGeodesic, part_of(watched.progress(), 0.0, 0.5));
-    };
-    const auto finder = prepared();
+    auto lock = lock_of(**object, watched.progress());
+    if (!lock) return lock.error();
+    const auto finder =
+        finder_of(**object, PathField::kGeodesic, part_of(watched.progress(), 0.0, 0.5));
+    lock->unlock();
     if (!finder) return finder.error();
     auto made = std::make_shared<Answer>();
     made->lines = Lines{model.mesh, {}, false};
