@@ -8,6 +8,7 @@
 #include "app/c/handles.h"
 #include "app/session/wording.h"
 #include "geotherm/path.h"
+#include "solver/path/shorten.h"
 
 namespace geotherm::c {
 namespace {
@@ -96,6 +97,11 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     if (auto there = require(lines, "lines"); !there) return there;
     const auto follows = field_of(field);
     if (!follows) return follows.error();
+    const bool loose = closed == 2;
+    if (closed < 0 || closed > 2 || (loose && *follows != PathField::kGeodesic)) {
+      return bad_argument("closed is " + std::to_string(closed),
+                          {"give 0, 1 or, for a geodesic, 2"});
+    }
     const Model& model = (*object)->model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
     const auto points = points_in_order(through, model);
@@ -108,9 +114,15 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     if (!finder) return finder.error();
     PathOptions options;
     options.field = *follows;
-    options.closed = closed != 0;
-    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 1.0));
+    options.closed = closed == 1;
+    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 0.9));
     if (!found) return found.error();
+    if (loose) {
+      auto shorter =
+          shorten((*finder)->surface(), found->path, false, part_of(watched.progress(), 0.9, 1.0));
+      if (!shorter) return shorter.error();
+      found->path = *std::move(shorter);
+    }
     auto made = std::make_shared<Answer>();
     made->warnings = std::move(found->warnings);
     made->lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};

@@ -251,25 +251,29 @@ class Solver:
         *through: Any,
         field: str = "geodesic",
         closed: bool = False,
+        loose: bool = False,
         progress: Progress = None,
     ) -> Line:
         """The shortest path through two points or more: vertices, (face, weights) or places.
 
         Args:
             field: "geodesic", or what is followed backwards: "distance", "heat".
-            closed: leads from the last to the first.
+            closed: leads from the last to the first, and is pulled straight all round.
+            loose: of an open geodesic the points between its ends only say where it runs at first.
 
         >>> solver.path(17, 99).length > 0
         True
         """
         taken = Taken(list(through), "points", sets=True)
+        if loose and closed:
+            raise InputError("loose is for open paths: a closed one is")
         with Watch(progress) as watch:
             handle = create(
                 "path",
                 self._handle.value,
                 taken.pointer,
                 text_bytes(field, "field"),
-                int(bool(closed)),
+                2 if loose else int(bool(closed)),
                 watch.pointer,
             )
         return Lines(handle, values=False)[0]
