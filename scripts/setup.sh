@@ -14,7 +14,8 @@ there yet. Says nothing when nothing is missing. Needs root or sudo only when so
   --dev    also what the tests use: ccache, clang-format, locales, Vulkan's validation layer, a
            display without a screen (Xvfb) and a hand for it (xdotool), models made to break readers,
            shells that complete words, the judges of Debian packages and a maker of bare systems, NumPy,
-           SciPy, pytest, pip and mypy for the Python package, a browser for pages (Chromium)
+           SciPy, pytest, pip and mypy for the Python package and what it works with (joblib, dask,
+           mpi4py, tqdm, meshio), a browser for pages (Chromium)
   --lint   also what scripts/lint.sh needs: clang-tidy, shellcheck
   --package  also what scripts/package.sh needs: help2man
   --mpi    also PETSc and MPI: the backend petsc, work shared over mpirun; --dev has it, too
@@ -39,7 +40,8 @@ for argument in "$@"; do
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
       shared-mime-info pkg-config mmdebstrap python3-numpy python3-scipy python3-pytest python3-pip
-      python3-venv mypy chromium python3-jsonschema "${site[@]}" "${cluster[@]}") ;;
+      python3-venv mypy chromium python3-jsonschema python3-joblib python3-dask python3-mpi4py
+      python3-tqdm python3-meshio "${site[@]}" "${cluster[@]}") ;;
     --mpi) packages+=("${cluster[@]}") ;;
     --site) packages+=("${site[@]}") ;;
     --package) packages+=(help2man dpkg-dev) ;;

@@ -21,13 +21,20 @@ runner=$(command -v docker || command -v podman) || fail "there is neither docke
 mkdir -p "$folder"
 
 say "building a wheel in $image"
+# shellcheck disable=SC2016  # they are the shell's in the container
 "$runner" run --rm -v "$root:/source:ro" -v "$(cd "$folder" && pwd):/wheels" "$image" bash -euc '
   dnf -q -y install epel-release
-  dnf -q -y --enablerepo=powertools install eigen3-devel json-devel libpng-devel zlib-devel
-  pipx install cmake && pipx install ninja
-  git clone -q --depth 1 --branch v1.4.3 https://github.com/jlblancoc/nanoflann /nanoflann
-  cmake -S /nanoflann -B /nanoflann/build -DNANOFLANN_BUILD_EXAMPLES=OFF -DNANOFLANN_BUILD_TESTS=OFF
-  cmake --install /nanoflann/build
+  dnf -q -y --enablerepo=powertools install libpng-devel zlib-devel
+  pipx install "cmake<4" && pipx install ninja
+  headers() {  # NAME VERSION TAG ADDRESS: what the distribution has is too old
+    git clone -q --depth 1 --branch "$3" "$4" "/headers/$1-$2"
+    cmake -S "/headers/$1-$2" -B "/headers/build/$1" -DBUILD_TESTING=OFF -DJSON_BuildTests=OFF \
+      -DNANOFLANN_BUILD_EXAMPLES=OFF -DNANOFLANN_BUILD_TESTS=OFF
+    cmake --install "/headers/build/$1"
+  }
+  headers Eigen3 3.4.0 3.4.0 https://gitlab.com/libeigen/eigen.git
+  headers nlohmann_json 3.11.2 v3.11.2 https://github.com/nlohmann/json.git
+  headers nanoflann 1.4.3 v1.4.3 https://github.com/jlblancoc/nanoflann.git
   cp -r /source /build && rm -rf /build/build
   python=/opt/python/cp311-cp311/bin/python
   $python -m pip wheel --no-deps -w /made /build \

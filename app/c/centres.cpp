@@ -46,7 +46,8 @@ Result<CentreOptions> centre_options(const char* kind, const char* method) {
 Result<std::shared_ptr<const DistanceMethod>> method_with_labels(const Solver& solver,
                                                                  const Progress& progress) {
   if (solver.ready.method->heat() == nullptr) return solver.ready.method;
-  const std::lock_guard lock(solver.lock);
+  const auto lock = lock_of(solver, progress);
+  if (!lock) return lock.error();
   auto ready =
       solver.solver.prepare(app::better_options(solver.options, MethodKind::kWavefront), progress);
   if (!ready) return ready.error();

@@ -62,7 +62,7 @@ struct Solver {
   Solver(app::ModelSolver with, app::ReadyMethod by, const ViewerState& asked)
       : solver(std::move(with)), ready(std::move(by)), options(asked.options), check(asked.check) {}
 
-  mutable std::mutex lock;          ///< of what follows up to `ready`
+  mutable std::timed_mutex lock;    ///< of what follows up to `ready`
   mutable app::ModelSolver solver;  ///< for answers with all there is to say
   mutable std::shared_ptr<const PathFinder> geodesics, exact_paths;
   const app::ReadyMethod ready;  ///< for distances alone, on any number of threads
@@ -191,6 +191,11 @@ Result<void> write_row(const geotherm_array& array, std::int64_t row,
 Result<app::ResolvedSources> one_set(const geotherm_sources* sources, const app::Model& model);
 /// A set for each range of `starts` or, without these, for each point; then those of the text.
 Result<app::EachSource> many_sets(const geotherm_sources* sources, const app::Model& model);
+
+// solvers.cpp
+
+/// The solver's lock, once other calls have let go of it. Errors: kCancelled, also while it waits.
+Result<std::unique_lock<std::timed_mutex>> lock_of(const Solver& solver, const Progress& progress);
 
 // lines.cpp
 

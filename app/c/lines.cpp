@@ -10,6 +10,7 @@
 #include "app/c/handles.h"
 #include "app/session/wording.h"
 #include "geotherm/path.h"
+#include "solver/path/shorten.h"
 
 namespace geotherm::c {
 namespace {
@@ -129,22 +130,32 @@ geotherm_status geotherm_path(const geotherm_solver* solver, const geotherm_sour
     if (auto there = require(lines, "lines"); !there) return there;
     const auto follows = field_of(field);
     if (!follows) return follows.error();
+    const bool loose = closed == 2;
+    if (closed < 0 || closed > 2 || (loose && *follows != PathField::kGeodesic)) {
+      return bad_argument("closed is " + std::to_string(closed),
+                          {"give 0, 1 or, for a geodesic, 2"});
+    }
     const Model& model = (*object)->model();
     if (auto surface = app::refuse_space(model, "paths are"); !surface) return surface;
     const auto points = points_in_order(through, model);
     if (!points) return points.error();
     const Watched watched(watch);
-    const auto prepared = [&] {
-      const std::lock_guard lock((*object)->lock);
-      return finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
-    };
-    const auto finder = prepared();
+    auto lock = lock_of(**object, watched.progress());
+    if (!lock) return lock.error();
+    const auto finder = finder_of(**object, *follows, part_of(watched.progress(), 0.0, 0.5));
+    lock->unlock();
     if (!finder) return finder.error();
     PathOptions options;
     options.field = *follows;
-    options.closed = closed != 0;
-    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 1.0));
+    options.closed = closed == 1;
+    auto found = (*finder)->find(*points, options, part_of(watched.progress(), 0.5, 0.9));
     if (!found) return found.error();
+    if (loose) {
+      auto shorter =
+          shorten((*finder)->surface(), found->path, false, part_of(watched.progress(), 0.9, 1.0));
+      if (!shorter) return shorter.error();
+      found->path = *std::move(shorter);
+    }
     auto made = std::make_shared<Answer>();
     made->warnings = std::move(found->warnings);
     made->lines = Lines{model.mesh, {{0, std::move(found->path)}}, false};
@@ -174,8 +185,9 @@ geotherm_status geotherm_paths(const geotherm_solver* solver, const geotherm_sou
     const Watched watched(watch);
     auto made = std::make_shared<Answer>();
     const auto led_by = [&](bool exact) -> Result<std::vector<Isoline>> {
-      const auto prepared = [&] {
-        const std::lock_guard lock((*object)->lock);
+      const auto prepared = [&]() -> Result<std::shared_ptr<const PathFinder>> {
+        const auto lock = lock_of(**object, watched.progress());
+        if (!lock) return lock.error();
         const Progress part = part_of(watched.progress(), 0.0, 0.5);
         return exact ? exact_finder_of(**object, part)
                      : finder_of(**object, PathField::kGeodesic, part);

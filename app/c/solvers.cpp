@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Solvers, and distances from them.
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -181,6 +182,15 @@ Result<app::Wanted> wanted_by(const Solver& solver, std::string_view words) {
 }
 
 }  // namespace
+
+Result<std::unique_lock<std::timed_mutex>> lock_of(const Solver& solver, const Progress& progress) {
+  std::unique_lock lock(solver.lock, std::defer_lock);
+  while (!lock.try_lock_for(std::chrono::milliseconds(20))) {
+    if (!report(progress, "waiting for the solver", -1)) return cancelled_error();
+  }
+  return lock;
+}
+
 }  // namespace geotherm::c
 
 using namespace geotherm;     // NOLINT: the functions below are C
@@ -218,11 +228,10 @@ geotherm_status geotherm_solver_move(const geotherm_solver* solver, const geothe
     if (!mesh) return mesh.error();
     next.mesh = std::make_shared<const TriangleMesh>(*std::move(mesh));
     const Watched watched(watch);
-    const auto with = [&] {
-      const std::lock_guard lock((*object)->lock);
-      return (*object)->solver;
-    };
-    app::ModelSolver copy = with();
+    auto lock = lock_of(**object, watched.progress());
+    if (!lock) return lock.error();
+    app::ModelSolver copy = (*object)->solver;
+    lock->unlock();
     copy.move(next);
     ViewerState asked = app::initial_state();
     asked.options = (*object)->options;
@@ -296,7 +305,8 @@ geotherm_status geotherm_solve(const geotherm_solver* solver, const geotherm_sou
     const auto placed = one_set(sources, (*object)->model());
     if (!placed) return placed.error();
     const Watched watched(watch);
-    const std::lock_guard lock((*object)->lock);
+    const auto lock = lock_of(**object, watched.progress());
+    if (!lock) return lock.error();
     auto solved = (*object)->solver.solve((*object)->options, *placed, *asked, watched.progress());
     if (!solved) return solved.error();
     auto made = std::make_shared<Answer>();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/c/handles.h"
+#include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/io.h"
@@ -160,7 +161,15 @@ Result<std::string> text_in(const Answer& answer, const std::string& name) {
   return no_name("text", name, {"json", "table"});
 }
 
+/// Errors (kBadInput): a surface of edge lengths, in a file with places of vertices.
+Result<void> has_places(const Model& model) {
+  if (!model.space || std::string_view(model.space->words().domain) != "lengths") return {};
+  return bad_argument(model.name + " is a surface of edge lengths, whose vertices have no places",
+                      {"write distances as .npy or .csv"});
+}
+
 Result<void> write(const Model& model, const std::string& path) {
+  if (auto there = has_places(model); !there) return there;
   const auto tets = app::tets_of(model);
   if (tets && check_tets_path(path)) return write_tets(path, *tets);
   return write_mesh(path, *model.mesh);
@@ -178,6 +187,9 @@ Result<void> write(const Answer& answer, const std::string& path) {
   if (!answer.solved) return bad_argument("this answer is not written: it is arrays");
   const app::Answer& solved = *answer.solved;
   if (auto fits = app::check_answer_path(solved.model, path); !fits) return fits;
+  if (app::holds_mesh(path)) {
+    if (auto there = has_places(solved.model); !there) return there;
+  }
   return app::write_answer(path, solved.model, solved.result.distances,
                            solved.result.nearest_source, {});
 }

@@ -5,8 +5,8 @@ One wheel serves every Python: it holds libgeotherm.so and Python that loads it.
 (`pip wheel . --config-settings NAME=VALUE`):
 
     library   a libgeotherm.so that was built already; otherwise cmake builds one, in build/wheel,
-              without CHOLMOD, whose licence is another, and with all that not every system has
-              linked into it
+              without CHOLMOD, whose licence is another, and Assimp, and with all that not every
+              system has linked into it
     platform  of the wheel's name; otherwise that of this Python
     cmake     further arguments for cmake, with blanks between
 """
@@ -33,6 +33,10 @@ Settings = Optional[Mapping[str, Any]]
 _ROOT = Path(__file__).resolve().parents[2]
 _PACKAGE = _ROOT / "app/python/geotherm"
 _LIBRARY = "libgeotherm.so.0"
+# What every Linux with glibc has, as manylinux allows it; libpng travels along.
+_EVERYWHERE = re.compile(
+    r"(linux-vdso|libc|libm|libdl|librt|libpthread|libz|libpng\w*|.*/ld-linux[^.]*)\.so"
+)
 
 
 def _version() -> str:
@@ -57,7 +61,7 @@ def _built_library(settings: Settings) -> Path:
         return Path(given).resolve()
     build = _ROOT / "build/wheel"
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    off = ["WITH_CHOLMOD", "BUILD_ENGINE", "BUILD_APP", "BUILD_TESTS", "BUILD_BENCH"]
+    off = ["WITH_CHOLMOD", "WITH_ASSIMP", "BUILD_ENGINE", "BUILD_APP", "BUILD_TESTS", "BUILD_BENCH"]
     configure = ["cmake", "-S", str(_ROOT), "-B", str(build), *generator]
     configure += ["-DCMAKE_BUILD_TYPE=Release", "-DGEOTHERM_FOR_WHEEL=ON"]
     configure += [f"-DGEOTHERM_{name}=OFF" for name in off]
@@ -70,12 +74,21 @@ def _built_library(settings: Settings) -> Path:
     return build / "lib" / _LIBRARY
 
 
+def _not_everywhere(loaded: str) -> list[str]:
+    """The libraries of an output of ldd that a system may lack."""
+    names = [line.split()[0] for line in loaded.splitlines() if line.strip()]
+    return [name for name in names if not _EVERYWHERE.match(name)]
+
+
 def _libraries(settings: Settings) -> dict[str, bytes]:
     """The library, and with one that was built for a wheel the libpng that it was linked to."""
     library = _built_library(settings)
     files = {f"geotherm/{_LIBRARY}": _stripped(library)}
     if _setting(settings, "library") is None:
         needed = subprocess.run(["ldd", str(library)], check=True, capture_output=True, text=True)
+        missing = _not_everywhere(needed.stdout)
+        if missing:
+            raise RuntimeError(f"the wheel would need {', '.join(missing)}, which it does not bring")
         for name, path in re.findall(r"(libpng\S+) => (\S+)", needed.stdout):
             files[f"geotherm/{name}"] = Path(path).read_bytes()
     return files

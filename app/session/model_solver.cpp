@@ -139,6 +139,12 @@ Result<std::vector<Index>> ModelSolver::nearest_sources(const SourceSet& sources
   MethodOptions options;
   options.method = model_.space ? model_.space->rival() : MethodKind::kWavefront;
   options.threads = threads;
+  if (options.method == MethodKind::kHeat) {  // there is no wave
+    return about_model(model_.name,
+                       {ErrorCode::kNotAvailable,
+                        "no method tells the nearest source on a surface of edge lengths",
+                        {"compare the distances from each source by itself"}});
+  }
   const auto method = make(options, nullptr, part_of(progress, 0.0, 0.5));
   if (!method) return about_model(model_.name, method.error());
   auto result =

@@ -2,6 +2,8 @@
 """How Sphinx makes the site of the pages that pages.py puts together; scripts/site.sh calls it."""
 
 import os
+import pathlib
+import re
 
 import geotherm
 
@@ -15,6 +17,7 @@ html_theme = "furo"
 html_title = "geotherm"
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 html_copy_source = False
 html_show_sphinx = False
 pygments_dark_style = "monokai"
@@ -51,5 +54,25 @@ def keep_sentences(app, what, name, thing, options, lines) -> None:
         lines[:0] = ["..", ""]
 
 
+def leave_out_script(app, page, template, context, tree) -> None:
+    """The theme's, in place of which there is site.js."""
+    context["script_files"] = [file for file in context["script_files"] if "furo.js" not in file]
+
+
+def prefer_dark(app, error) -> None:
+    """Colours of the theme's dark mode for who prefers it: as Debian ships the theme, its style sheet has
+    them for those alone who have pressed the button."""
+    static = pathlib.Path(app.outdir) / "_static"
+    theme = (static / "styles/furo.css").read_text(encoding="utf-8")
+    colours = re.search(r'body\[data-theme="dark"\]\s*\{([^}]*)\}', theme)
+    if not colours:
+        raise RuntimeError("furo.css has no colours of a dark mode")
+    rule = "@media (prefers-color-scheme: dark) { body:not([data-theme=light]) {%s} }" % colours[1]
+    with open(static / "site.css", "a", encoding="utf-8") as style:
+        style.write(f"@media not print {{ {rule} }}\n")
+
+
 def setup(app) -> None:
+    app.connect("html-page-context", leave_out_script, priority=900)
+    app.connect("build-finished", prefer_dark)
     app.connect("autodoc-process-docstring", keep_sentences, priority=400)

@@ -10,8 +10,11 @@ import re
 import shutil
 import subprocess
 import sys
+import types
 
 import geotherm
+import geotherm.compat.potpourri3d
+import geotherm.compat.pygeodesic.geodesic
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "docs" / "reports.schema.json"
@@ -38,24 +41,31 @@ def public_members(kind: type) -> list[str]:
     return [name for name in vars(kind) if not name.startswith("_")]
 
 
-def python() -> str:
-    """All of geotherm.__all__, each with a docstring."""
-    bare = [name for name in geotherm.__all__ if not inspect.getdoc(getattr(geotherm, name))]
-    for name in geotherm.__all__:
-        thing = getattr(geotherm, name)
+def module(kind: types.ModuleType) -> str:
+    """All of its __all__, each with a docstring."""
+    names = kind.__all__
+    bare = [name for name in names if not inspect.getdoc(getattr(kind, name))]
+    for name in names:
+        thing = getattr(kind, name)
         if inspect.isclass(thing):
             bare += [f"{name}.{member}" for member in public_members(thing)
                      if not inspect.getdoc(inspect.getattr_static(thing, member))]
     if bare:
-        sys.exit(f"pages.py: error: no docstring: {', '.join(bare)}")
-    page = "# Python\n\nHow it is used: [from Python](../docs/python.md).\n\n"
-    page += "```{eval-rst}\n.. automodule:: geotherm\n\n"
-    for name in sorted(geotherm.__all__, key=str.lower):
-        if inspect.isclass(getattr(geotherm, name)):
-            page += f".. autoclass:: geotherm.{name}\n   :members:\n   :show-inheritance:\n\n"
+        sys.exit(f"pages.py: error: no docstring in {kind.__name__}: {', '.join(bare)}")
+    page = f"```{{eval-rst}}\n.. automodule:: {kind.__name__}\n\n"
+    for name in sorted(names, key=str.lower):
+        if inspect.isclass(getattr(kind, name)):
+            page += f".. autoclass:: {kind.__name__}.{name}\n   :members:\n   :show-inheritance:\n\n"
         else:
-            page += f".. autofunction:: geotherm.{name}\n\n"
+            page += f".. autofunction:: {kind.__name__}.{name}\n\n"
     return page + "```\n"
+
+
+def python() -> str:
+    """The package, and the names of others in it."""
+    page = "# Python\n\nHow it is used: [from Python](../docs/python.md).\n\n" + module(geotherm)
+    page += "\n## In place of potpourri3d\n\n" + module(geotherm.compat.potpourri3d)
+    return page + "\n## In place of pygeodesic\n\n" + module(geotherm.compat.pygeodesic.geodesic)
 
 
 def cpp() -> str:

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """pip install without an index, in a virtual environment of its own."""
 
+import importlib.util
 import os
+import re
 import subprocess
 import sys
 import zipfile
@@ -60,3 +62,48 @@ def test_one_wheel_installs_and_runs(environment, tmp_path):
     assert said.stdout.split()[1] == "0.0"
     check = [environment / "bin/pip", "check"]
     assert b"geotherm" not in subprocess.run(check, capture_output=True, env=clean()).stdout
+
+
+@pytest.fixture
+def builder():
+    spec = importlib.util.spec_from_file_location("builder", ROOT / "app/python/wheel_builder.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_a_wheel_is_built_without_what_systems_lack(builder, monkeypatch):
+    commands = []
+    monkeypatch.setattr(builder.subprocess, "run", lambda command, **_: commands.append(command))
+    builder._built_library({})
+    configure, build = commands
+    off = ("WITH_CHOLMOD", "WITH_ASSIMP", "BUILD_ENGINE", "BUILD_APP", "BUILD_TESTS", "BUILD_BENCH")
+    assert {f"-DGEOTHERM_{name}=OFF" for name in off} <= {*configure}
+    assert "-DGEOTHERM_FOR_WHEEL=ON" in configure and "geotherm_c" in build
+    options = (ROOT / "docs/installing.md").read_text() + (ROOT / "docs/architecture.md").read_text()
+    assert all(f"GEOTHERM_{name}" in options for name in off)
+
+
+def test_a_wheel_that_needs_more_is_refused(builder):
+    every = """\tlinux-vdso.so.1 (0x1)
+\tlibpng16.so.16 => /lib/x86_64-linux-gnu/libpng16.so.16 (0x2)
+\tlibz.so.1 => /lib/x86_64-linux-gnu/libz.so.1 (0x3)
+\tlibm.so.6 => /lib/x86_64-linux-gnu/libm.so.6 (0x4)
+\tlibc.so.6 => /lib/x86_64-linux-gnu/libc.so.6 (0x5)
+\t/lib64/ld-linux-x86-64.so.2 (0x6)
+"""
+    assert builder._not_everywhere(every) == []
+    more = every + "\tlibassimp.so.5 => not found\n\tlibstdc++.so.6 => /lib/libstdc++.so.6 (0x7)\n"
+    assert builder._not_everywhere(more) == ["libassimp.so.5", "libstdc++.so.6"]
+
+
+def test_the_recipe_has_headers_that_are_new_enough():
+    recipe = (ROOT / "scripts/wheels.sh").read_text()
+    brought = dict(re.findall(r"^  headers (\w+) ([\d.]+) ", recipe, flags=re.M))
+    wanted = {}
+    for part in ("solver", "app"):
+        text = (ROOT / part / "CMakeLists.txt").read_text()
+        wanted.update(re.findall(r"find_package\((\w+) (\d[\d.]*)", text))
+    assert set(wanted) == {"Eigen3", "nanoflann", "nlohmann_json"} == set(brought)
+    for name, least in wanted.items():
+        assert [*map(int, brought[name].split("."))] >= [*map(int, least.split("."))], name

@@ -117,3 +117,22 @@ def test_a_library_that_is_missing_is_said():
         [sys.executable, "-c", code], env=environment, capture_output=True, text=True
     )
     assert said.returncode == 1 and "/no/such/file.so" in said.stderr
+
+
+def test_who_waits_for_a_solver_can_be_cancelled(bunny):
+    solver = geotherm.Solver(bunny)
+    begun, released = threading.Event(), threading.Event()
+
+    def hold(stage, share):
+        begun.set()
+        released.wait(10)
+
+    first = threading.Thread(target=lambda: solver.solve(17, progress=hold))
+    first.start()
+    assert begun.wait(10)
+    begin = time.monotonic()
+    with pytest.raises(geotherm.Error, match="cancelled"):
+        solver.solve(99, progress=lambda stage, share: False)
+    assert time.monotonic() - begin < 5
+    released.set()
+    first.join()

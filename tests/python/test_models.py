@@ -72,7 +72,7 @@ def test_grids():
     check(geotherm.Grid(speeds, spacing=(0.5, 0.5)), 0, expected, 0.04)
 
 
-def test_edge_lengths(bunny):
+def test_edge_lengths(bunny, tmp_path):
     V, F, _ = grid_of(30)
     sides = np.linalg.norm(V[F[:, [1, 2, 0]]] - V[F[:, [2, 0, 1]]], axis=2)
     check(geotherm.Mesh.from_edge_lengths(F, sides), 0, np.linalg.norm(V, axis=1), 0.04)
@@ -97,6 +97,21 @@ def test_edge_lengths(bunny):
         geotherm.Solver(solver.model, method="exact")
     with pytest.raises(geotherm.Error, match="nowhere"):
         solver.distance([0.0, 0.0, 0.0])
+    with pytest.raises(geotherm.Error, match="nearest source"):
+        solver.solve([17, 99], labels=True)
+    assert not solver.solve(17, labels=True).nearest.any()
+    for has_no_places in (solver.model, solver.solve(17)):
+        with pytest.raises(geotherm.InputError, match="no places"):
+            has_no_places.write(tmp_path / "x.ply")
+    solver.solve(17).write(tmp_path / "x.npy")
+
+
+def test_a_moved_model_is_pickled_as_what_it_was(bunny):
+    cloud = geotherm.Solver(geotherm.PointCloud(bunny.vertices))
+    moved = cloud.update(bunny.vertices * 2).update(bunny.vertices * 3).model
+    again = pickle.loads(pickle.dumps(moved))
+    assert isinstance(again, geotherm.PointCloud) and np.array_equal(again.vertices, moved.vertices)
+    assert np.array_equal(again.faces, moved.faces)
 
 
 def test_models_of_other_packages_by_their_shape():
@@ -108,10 +123,16 @@ def test_models_of_other_packages_by_their_shape():
         SimpleNamespace(points=V, faces=vtk),  # pyvista
         SimpleNamespace(points=V, faces=vtk, regular_faces=F),
         SimpleNamespace(points=V, cells=[block, SimpleNamespace(type="line", data=F[:, :2])]),
+        SimpleNamespace(points=V, cells_dict={5: F}, cells=vtk),  # pyvista's UnstructuredGrid
     ):
         assert np.array_equal(geotherm.Mesh(thing).faces, F)
         assert np.array_equal(geotherm.Solver(thing).model.vertices, V)
     assert geotherm.PointCloud(SimpleNamespace(points=V)).n_vertices == 25
+    points, tets = cube_of_tets(3)
+    assert geotherm.TetMesh(SimpleNamespace(points=points, cells_dict={10: tets})).domain == "tets"
+    mixed = SimpleNamespace(points=V, cells=[block, SimpleNamespace(type="quad", data=[[0, 1, 2, 3]])])
+    with pytest.raises(geotherm.InputError, match="1 of the kind quad"):
+        geotherm.Mesh(mixed)
 
 
 def test_meshio_objects():
@@ -136,8 +157,8 @@ def test_welded_vertices_are_one():
     assert np.array_equal(geotherm.Solver(again).distance(0), welded)
     moved = geotherm.Solver(mesh).update(soup * 2)
     assert np.allclose(moved.distance(0), 2 * welded)
-    with pytest.raises(geotherm.Error, match="welded"):
-        pickle.dumps(moved)
+    again = pickle.loads(pickle.dumps(moved))
+    assert np.array_equal(again.distance(0), moved.distance(0))
 
 
 def test_files_are_read_and_written(bunny, tmp_path):

@@ -29,7 +29,7 @@ def test_a_picture_is_a_png(answer, tmp_path):
     assert picture[:8] == b"\x89PNG\r\n\x1a\n" and picture._repr_png_() == picture
     assert int.from_bytes(picture[16:20], "big") == 120
     assert (tmp_path / "a.png").read_bytes() == picture
-    with pytest.raises(geotherm.Error, match="no_such|no-such|view"):
+    with pytest.raises(geotherm.InputError, match="no_such|no-such|view"):
         answer.plot(view="no_such")
 
 
@@ -51,6 +51,61 @@ def test_numbers_of_vertices_are_drawn(bunny, tmp_path):
     assert len({bytes(picture), bytes(plain), bytes(upside)}) == 3
     with pytest.raises(geotherm.InputError, match="values has 3 numbers for"):
         bunny.plot([1, 2, 3])
+
+
+def test_zero_and_one_are_numbers_to_the_program(bunny):
+    assert _pictures._option_words({"threads": 1, "time_factor": 1.0, "azimuth": 0, "roll": 0.0}) == [
+        *("--threads", "1", "--time-factor", "1.0", "--azimuth", "0", "--roll", "0.0")
+    ]
+    words = _pictures._option_words({"light": True, "strict": False, "bar": False, "markers": True})
+    assert words == ["--light", "on", "--no-bar"]
+
+
+def domains():
+    y, x = np.mgrid[:6, :7]
+    corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1]]
+    angle = np.arange(300) * 2.399963
+    z = np.linspace(-1, 1, 300)
+    sphere = np.stack([np.cos(angle), np.sin(angle)]) * np.sqrt(1 - z * z)
+    points = np.vstack([sphere, z]).T
+    return [
+        geotherm.PointCloud(points, normals=points * 2),
+        geotherm.Solver(geotherm.PointCloud(points)).update(points * 2).model,
+        geotherm.Grid(1.0 + (x > 3), spacing=(0.5, 2), origin=(4, 5)),
+        geotherm.Grid(np.ones((3, 4, 5)), spacing=(1, 2, 3), origin=(7, 8, 9)),
+        geotherm.TetMesh(corners, [[0, 1, 2, 4], [0, 2, 3, 4]]),
+        geotherm.Polygons(corners, [[0, 1, 2, 3], [0, 1, 4]]),
+    ]
+
+
+@pytest.mark.parametrize("model", domains(), ids=lambda model: model.domain)
+def test_every_domain_reaches_the_program_as_it_is(model, tmp_path):
+    path, _, domain = _pictures._model_words(model, tmp_path, False)
+    again = geotherm.read(path, domain=domain)
+    assert again.domain == model.domain and np.array_equal(again.vertices, model.vertices)
+    assert np.array_equal(again.faces, model.faces)
+    assert np.array_equal(geotherm.Solver(again).distance(1), geotherm.Solver(model).distance(1))
+    path, _, domain = _pictures._model_words(model, tmp_path, True)
+    assert domain == "triangles" and np.array_equal(geotherm.read(path).vertices, model.vertices)
+
+
+def test_many_sources_are_a_file(tmp_path):
+    words = _pictures._source_words([*map(str, range(200)), "face:1:1:0:0", "boundary"], tmp_path)
+    assert words == ["-s", "boundary", "--source-file", str(tmp_path / "sources.txt")]
+    assert (tmp_path / "sources.txt").read_text().splitlines()[199:] == ["199", "face:1:1:0:0"]
+
+
+def test_a_cloud_is_drawn_and_lengths_are_not(tmp_path):
+    cloud = domains()[0]
+    try:
+        picture = geotherm.Solver(cloud, threads=1).solve([0]).plot(size=(60, 40), samples=1)
+    except geotherm.Error as why:
+        if why.code != "no-device" or os.environ.get("GEOTHERM_REQUIRE_VULKAN"):
+            raise
+        pytest.skip(str(why))
+    assert picture[:4] == b"\x89PNG" and cloud.plot(cloud.vertices[:, 2], size=(60, 40)) != picture
+    with pytest.raises(geotherm.Error, match="no places"):
+        geotherm.Mesh.from_edge_lengths([[0, 1, 2]], [[3, 4, 5]]).plot()
 
 
 def test_what_cannot_be_written_is_said(bunny, tmp_path):

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from geotherm._arrays import AnyArray, given, number_in, view
+from geotherm._arrays import AnyArray, given, number_in, view, whole_in
 from geotherm._library import Error, Handle, InputError, call, create, path_bytes
-from geotherm._models import Model
+from geotherm._models import Model, handle_of
 
 if TYPE_CHECKING:
     from geotherm._pictures import Picture
@@ -300,10 +300,10 @@ def isolines(
         levels = numbers[(numbers != 0) | (least < 0)] * apart
         levels = levels[(levels > least) & (levels < largest)]
     elif count is not None:
-        if not 1 <= number_in(count, "count") <= 1e5:
+        if not 1 <= whole_in(count, "count") <= 1e5:
             raise InputError(f"count is {count}", hint="give 1 to 100,000")
         levels = least + (largest - least) * (np.arange(1, count + 1) / (count + 1))
     asked, kept_levels = given(levels, "levels", 1)
-    handle = create("isolines", model._handle.value, ctypes.byref(array), ctypes.byref(asked))
+    handle = create("isolines", handle_of(model), ctypes.byref(array), ctypes.byref(asked))
     del kept_levels
     return Lines(handle, values=True)

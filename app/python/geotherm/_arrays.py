@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import ctypes
+import operator
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,17 @@ def number_in(value: Any, name: str) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise InputError(f"{name} is {value!r}, and one number is expected") from None
+
+
+def whole_in(value: Any, name: str) -> int:
+    """One whole number of 64 bits. Errors: InputError."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise InputError(f"{name} is {value!r}, and one whole number is expected") from None
+    if isinstance(value, bool) or not -(2**63) <= number < 2**63:
+        raise InputError(f"{name} is {value!r}, which is no number of that kind")
+    return number
 
 
 def no_array() -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 
 from geotherm._arrays import AnyArray, given, view
 from geotherm._library import Handle, Progress, Watch, create, text_bytes
-from geotherm._models import Model
+from geotherm._models import Model, handle_of
 from geotherm._sources import Taken
 
 
@@ -74,7 +74,7 @@ def centres(
     with Watch(progress) as watch:
         handle = create(
             "centres",
-            model._handle.value,
+            handle_of(model),
             taken.pointer,
             None if array is None else ctypes.byref(array),
             text_bytes(kind, "kind"),

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from geotherm._answers import Line, Lines
-from geotherm._arrays import AnyArray, given, view
+from geotherm._arrays import AnyArray, given, number_in, view
 from geotherm._library import Handle, Progress, ResultWarning, Watch, create, text_bytes
-from geotherm._models import Model
+from geotherm._models import Model, handle_of
 from geotherm._options import options_of
 from geotherm._sources import Taken
 
@@ -97,10 +97,10 @@ def log_map(
     with Watch(progress) as watch:
         handle = create(
             "log_map",
-            model._handle.value,
+            handle_of(model),
             taken.pointer,
             text_bytes(method, "method"),
-            float(max_distance),
+            number_in(max_distance, "max_distance"),
             watch.pointer,
         )
     return LogMap(handle)
@@ -125,10 +125,10 @@ def trace(
     with Watch(progress) as watch:
         handle = create(
             "trace",
-            model._handle.value,
+            handle_of(model),
             taken.pointer,
-            float(direction),
-            float(length),
+            number_in(direction, "direction"),
+            number_in(length, "length"),
             watch.pointer,
         )
     line = Lines(handle, values=False)[0]
@@ -151,7 +151,7 @@ def _spread(
     with Watch(progress) as watch:
         handle = create(
             function,
-            model._handle.value,
+            handle_of(model),
             options.value,
             ctypes.byref(at),
             ctypes.byref(values),
@@ -244,10 +244,10 @@ def signed_distance(
     with Watch(progress) as watch:
         handle = create(
             "signed_distance",
-            model._handle.value,
+            handle_of(model),
             options.value,
             taken.pointer,
-            int(closed),
+            int(bool(closed)),
             text_bytes(rule, "rule"),
             watch.pointer,
         )

@@ -20,7 +20,7 @@ from geotherm._models import (
     Mesh,
     Model,
     attributes,
-    blocks,
+    cells_of,
 )
 from geotherm._options import options_of
 
@@ -39,7 +39,7 @@ class Polygons(Model):
     def __init__(self, vertices: Any, faces: Iterable[Sequence[int]]) -> None:
         try:
             rows = [np.asarray(face) for face in faces]
-        except TypeError:
+        except (TypeError, ValueError):
             raise InputError("faces is no list of faces") from None
         if any(row.ndim != 1 for row in rows):
             raise InputError("faces is no list of faces, each a list of vertices")
@@ -64,7 +64,7 @@ class TetMesh(Model):
 
     def __init__(self, vertices: Any, tets: Any = None) -> None:
         if tets is None:
-            cells = blocks(vertices, "tetra")
+            cells = cells_of(vertices).get("tetra")
             vertices = attributes(vertices, "points", "vertices")
             if not cells or vertices is None:
                 raise InputError("tets is missing", hint="give vertices and tets")
@@ -114,13 +114,16 @@ class Grid(Model):
         spacing: float | Sequence[float] = (1.0, 1.0, 1.0),
         origin: Sequence[float] = (0.0, 0.0, 0.0),
     ) -> None:
-        samples = np.asarray(speeds)
+        try:
+            samples = np.asarray(speeds)
+        except ValueError:
+            raise InputError("speeds is no array: its rows differ in length") from None
         if samples.ndim not in (2, 3):
             raise InputError(f"speeds has the shape {samples.shape}", hint="give 2 or 3 axes")
         steps, begin = _along(spacing, "spacing", 1.0), _along(origin, "origin", 0.0)
         size = [*samples.shape[::-1], 1][:3]
-        if samples.dtype == object:
-            raise InputError("speeds is an array of object", hint="give numbers")
+        if samples.dtype.kind not in "biuf":
+            raise InputError(f"speeds is an array of {samples.dtype}", hint="give numbers")
         flat = samples.astype(np.float64).reshape(-1)
         self._build(GRID, values=(flat, "speeds", 1), grid=(size, steps, begin))
         self._recipe = (_grid_again, np.array(samples), tuple(steps), tuple(begin))
@@ -188,8 +191,9 @@ def read(
     }
     kind = kinds.get(handle.text("domain"), Model)
     by_arrays = kind is Mesh and weld is None
-    return kind._around(handle, () if by_arrays else (_read_again, os.fspath(path), settings))
+    return kind._around(handle, () if by_arrays else (read_again, os.fspath(path), settings))
 
 
-def _read_again(path: str, settings: dict[str, Any]) -> Any:
+def read_again(path: str, settings: dict[str, Any]) -> Any:
+    """What read() made of a file."""
     return read(path, **settings)

@@ -246,6 +246,8 @@ def path_bytes(path: str | os.PathLike[str], argument: str) -> bytes:
 
 def text_bytes(text: str, argument: str) -> bytes:
     """A text as the library takes it."""
+    if not isinstance(text, str):
+        raise InputError(f"{argument} is {text!r}, and no text")
     if "\0" in text:
         raise InputError(f"{argument} holds a zero byte")
     return text.encode("utf-8", "surrogateescape")

@@ -31,6 +31,15 @@ if TYPE_CHECKING:
 TRIANGLES, POLYGONS, TETS, POINTS, GRID, LENGTHS = range(6)
 
 
+def handle_of(model: Any) -> Any:
+    """That of a model. Errors: InputError, where it is something else."""
+    if not isinstance(model, Model):
+        raise InputError(
+            f"model is {type(model).__name__}, and no model", hint="geotherm.Mesh() makes one"
+        )
+    return model._handle.value
+
+
 class Model:
     """What distance is computed in; immutable. Mesh, Polygons, TetMesh, PointCloud and Grid make
     one of arrays, read() one of a file."""
@@ -47,10 +56,9 @@ class Model:
 
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
-        """The model with its vertices elsewhere; pickled it is a mesh."""
-        moved = cls._around(handle, ())
-        moved._recipe = (_mesh_again, np.array(moved.vertices), np.array(moved.faces), None)
-        return moved
+        """The model with its vertices elsewhere, which is made again by moving the first one."""
+        first = earlier._recipe[1] if earlier._recipe[0] is _moved_again else earlier
+        return cls._around(handle, (_moved_again, first))
 
     def _build(
         self,
@@ -145,9 +153,32 @@ class Model:
 
     def __reduce__(self) -> tuple[Any, ...]:
         maker, *arguments = self._recipe
-        if maker is _not_again:
-            _not_again()
+        if maker is _moved_again:
+            arguments.append(np.array(self.vertices))
         return maker, tuple(arguments)
+
+    def plot(
+        self,
+        values: Any = None,
+        path: str | os.PathLike[str] | None = None,
+        *,
+        size: tuple[int, int] = (900, 700),
+        **options: Any,
+    ) -> Picture:
+        """A picture by the program geotherm, which must be installed; notebooks show it.
+
+        Args:
+            values: (V,) numbers that its colours show; not finite: none. None: the model alone.
+            path: of a file that is written, too: .png, .pdf, .svg, .html or .glb.
+            size: pixels.
+            options: those of `geotherm render`, with _ in place of -: bar_label="curvature".
+
+        Raises: InputError, Error ("not-available", "no-device").
+        """
+        from geotherm._pictures import plotted  # it imports much
+
+        settings = {"view": "smooth", **options} if values is None else options
+        return plotted(self, [], settings, size, path, values)
 
 
 def attributes(thing: Any, *names: str) -> Any:
@@ -158,21 +189,35 @@ def attributes(thing: Any, *names: str) -> Any:
     return None
 
 
-def blocks(thing: Any, kind: str) -> list[Any]:
-    """The cells of a kind of a meshio mesh."""
+_VTK_CELLS = {5: "triangle", 9: "quad", 10: "tetra"}
+
+
+def cells_of(thing: Any) -> dict[str, list[Any]]:
+    """The cells of a meshio mesh or of pyvista's UnstructuredGrid, by their kind."""
     cells = getattr(thing, "cells", None)
+    if not isinstance(cells, (Mapping, list, tuple)):
+        cells = getattr(thing, "cells_dict", None)
     if isinstance(cells, Mapping):
-        return [cells[kind]] if kind in cells else []
-    if not isinstance(cells, (list, tuple)):
-        return []
-    return [block.data for block in cells if getattr(block, "type", None) == kind]
+        return {_VTK_CELLS.get(kind, str(kind)): [array] for kind, array in cells.items()}
+    found: dict[str, list[Any]] = {}
+    for block in cells if isinstance(cells, (list, tuple)) else ():
+        if hasattr(block, "type") and hasattr(block, "data"):
+            found.setdefault(block.type, []).append(block.data)
+    return found
 
 
 def _faces_of(thing: Any) -> Any:
     """Triangles of a trimesh, pyvista or meshio object."""
-    triangles = blocks(thing, "triangle")
-    if triangles:
-        return np.concatenate(triangles)
+    cells = cells_of(thing)
+    if "triangle" in cells:
+        for kind, parts in cells.items():
+            if kind != "triangle" and kind.startswith(("triangle", "quad", "polygon")):
+                count = sum(len(part) for part in parts)
+                raise InputError(
+                    f"cells hold {count} of the kind {kind} beside triangles",
+                    hint="cut them into triangles, or give vertices and faces to geotherm.Polygons",
+                )
+        return np.concatenate(cells["triangle"])
     if hasattr(thing, "regular_faces"):
         return thing.regular_faces
     faces = getattr(thing, "faces", None)
@@ -249,32 +294,9 @@ class Mesh(Model):
         model._recipe = (_lengths_again, np.array(faces), np.array(lengths))
         return model
 
-    def plot(
-        self,
-        values: Any = None,
-        path: str | os.PathLike[str] | None = None,
-        *,
-        size: tuple[int, int] = (900, 700),
-        **options: Any,
-    ) -> Picture:
-        """A picture by the program geotherm, which must be installed; notebooks show it.
-
-        Args:
-            values: (V,) numbers that its colours show; not finite: none. None: the mesh alone.
-            path: of a file that is written, too: .png, .pdf, .svg, .html or .glb.
-            size: pixels.
-            options: those of `geotherm render`, with _ in place of -: bar_label="curvature".
-
-        Raises: InputError, Error ("not-available", "no-device").
-        """
-        from geotherm._pictures import plotted  # it imports much
-
-        settings = {"view": "smooth", **options} if values is None else options
-        return plotted(self, [], settings, size, path, values)
-
     @classmethod
     def _moved(cls, earlier: Model, handle: Handle) -> Any:
-        return cls._around(handle, (_not_again,) if earlier._recipe else ())
+        return super()._moved(earlier, handle) if earlier._recipe else cls._around(handle, ())
 
     def __reduce__(self) -> tuple[Any, ...]:
         if self._recipe:
@@ -282,11 +304,10 @@ class Mesh(Model):
         return _mesh_again, (np.array(self.vertices), np.array(self.faces), None)
 
 
-def _not_again() -> Any:
-    raise InputError(
-        "a mesh with welded vertices that was moved cannot be pickled",
-        hint="pickle the mesh from before, and the vertices",
-    )
+def _moved_again(first: Model, vertices: AnyArray) -> Model:
+    from geotherm._solver import Solver
+
+    return Solver(first).update(vertices).model
 
 
 def _lengths_again(faces: AnyArray, lengths: AnyArray) -> Model:

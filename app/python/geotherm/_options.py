@@ -12,18 +12,20 @@ from typing import Any
 from geotherm._library import Handle, call, create, text_bytes
 
 
+def text_of(value: Any) -> str:
+    """A value as the program reads it."""
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    return repr(value) if type(value) is float else str(value)
+
+
 def options_of(settings: Mapping[str, Any]) -> Handle:
     """geotherm_options with the settings that are not None; names have _ in place of -."""
     options = create("options_new")
     for name, value in settings.items():
         if value is None:
             continue
-        if isinstance(value, bool):
-            text = "on" if value else "off"
-        elif isinstance(value, float):
-            text = repr(value)
-        else:
-            text = str(value)
+        text = text_of(value)
         name = name.replace("_", "-")
         call("options_set", options.value, text_bytes(name, "option"), text_bytes(text, name))
     return options

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from geotherm._answers import Line, Lines, Relaxed, Result, Samples
-from geotherm._arrays import AnyArray, described, given, output
+from geotherm._arrays import AnyArray, described, given, number_in, output, whole_in
 from geotherm._library import (
     Handle,
     InputError,
@@ -175,7 +175,7 @@ class Solver:
         kept = None if targets is None else _vertices(targets, "targets")
         if kept is not None and kept.size == 0:
             raise InputError("targets is empty", hint="leave it out for all vertices")
-        rows = Rows(path=None, max_distance=max_distance)
+        rows = Rows(path=None, max_distance=number_in(max_distance, "max_distance"))
         if kept is not None:
             rows.targets, rows.target_count = kept.ctypes.data, kept.size
         columns = self.model.n_vertices if kept is None else kept.size
@@ -237,8 +237,9 @@ class Solver:
         wanted = ["labels"] * labels + ["fields"] * fields
         if check is not None:
             wanted.append(f"check={check}")
-        if max_distance != float("inf"):
-            wanted.append(f"max-distance={float(max_distance)!r}")
+        most = number_in(max_distance, "max_distance")
+        if most != float("inf"):
+            wanted.append(f"max-distance={most!r}")
         taken = Taken(sources)
         with Watch(progress) as watch:
             words = text_bytes(" ".join(wanted), "check")
@@ -250,25 +251,29 @@ class Solver:
         *through: Any,
         field: str = "geodesic",
         closed: bool = False,
+        loose: bool = False,
         progress: Progress = None,
     ) -> Line:
         """The shortest path through two points or more: vertices, (face, weights) or places.
 
         Args:
             field: "geodesic", or what is followed backwards: "distance", "heat".
-            closed: leads from the last to the first.
+            closed: leads from the last to the first, and is pulled straight all round.
+            loose: of an open geodesic the points between its ends only say where it runs at first.
 
         >>> solver.path(17, 99).length > 0
         True
         """
         taken = Taken(list(through), "points", sets=True)
+        if loose and closed:
+            raise InputError("loose is for open paths: a closed one is")
         with Watch(progress) as watch:
             handle = create(
                 "path",
                 self._handle.value,
                 taken.pointer,
                 text_bytes(field, "field"),
-                int(closed),
+                2 if loose else int(bool(closed)),
                 watch.pointer,
             )
         return Lines(handle, values=False)[0]
@@ -301,7 +306,7 @@ class Solver:
         taken = Taken(points, "points", sets=True)
         with Watch(progress) as watch:
             return Relaxed(
-                create("relax", self._handle.value, taken.pointer, int(steps), watch.pointer)
+                create("relax", self._handle.value, taken.pointer, whole_in(steps, "steps"), watch.pointer)
             )
 
     def farthest_points(
@@ -313,10 +318,10 @@ class Solver:
             count: how many; one query each.
             first: the vertex to begin with.
         """
-        begin = -1 if first is None else int(first)
+        begin = -1 if first is None else whole_in(first, "first")
         with Watch(progress) as watch:
             return Samples(
-                create("samples", self._handle.value, int(count), begin, watch.pointer)
+                create("samples", self._handle.value, whole_in(count, "count"), begin, watch.pointer)
             )
 
     def update(self, vertices: Any, *, progress: Progress = None) -> Solver:
@@ -351,9 +356,14 @@ def _solver_again(model: Model, settings: dict[str, Any]) -> Solver:
 
 def _vertices(values: Any, name: str) -> npt.NDArray[np.int64]:
     """Vertex numbers. Errors: InputError."""
-    array = np.asarray(values)
-    if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
+    try:
+        array = np.asarray(values)
+    except ValueError:  # lists of several lengths
+        array = np.empty(0, object)
+    if array.ndim != 1 or array.dtype.kind == "O" or (array.size and array.dtype.kind not in "iu"):
         raise InputError(f"{name} is no list of vertex numbers")
+    if array.dtype.kind == "u" and array.size and int(array.max()) >= 2**63:
+        raise InputError(f"{name} holds {array.max()}, which is no vertex")
     return np.ascontiguousarray(array, dtype=np.int64)
 
 

@@ -100,6 +100,8 @@ class Taken:
     def _array(self, array: AnyArray) -> None:
         if array.size == 0:
             raise self._wrong("is empty", "name at least one")
+        if array.dtype.kind == "u" and int(array.max()) >= 2**63:
+            raise self._wrong(f"holds {array.max()}, which is no vertex")
         if array.dtype.kind in "iu" and array.ndim <= 1:
             self._ids(array.reshape(-1))
         elif array.dtype.kind in "fiu" and array.ndim <= 2 and array.shape[-1:] == (3,):

@@ -4,5 +4,5 @@
     import geotherm.compat.potpourri3d as pp3d
     import geotherm.compat.pygeodesic.geodesic as geodesic
 
-What does not work raises geotherm.Error, and what is not there NotImplementedError.
+What does not work raises geotherm.Error, and an option that is not there NotImplementedError.
 """
