@@ -21,11 +21,19 @@ if ! command -v help2man >/dev/null; then
   exit 0
 fi
 install -d "$share/man/man1"
+# Examples are a line each, which help2man would join to a paragraph.
+lines_apart() {
+  awk '/^Examples:$/ { $0 = ".SH EXAMPLES" }
+    /^\.SH/ { if (apart) print ".fi"; apart = 0; examples = /EXAMPLES/ }
+    examples && /^\.IP/ { $0 = ".nf"; apart = 1 }
+    { print }
+    END { if (apart) print ".fi" }'
+}
 # help2man FILE NAME WHAT COMMAND...: the words of `geotherm COMMAND --help` as a page.
 page() {
   help2man --no-info --section 1 --source geotherm --manual "geotherm" --name "$2" \
     --version-string "$("$program" --version)" --help-option "${3:-} --help" "$program" |
-    gzip -9n >"$share/man/man1/$1.1.gz"
+    lines_apart | gzip -9n >"$share/man/man1/$1.1.gz"
 }
 page geotherm "geodesic distance on meshes, points, volumes and grids"
 "$program" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\{1,\}\)  *\(.*\)/\1 \2/p' |

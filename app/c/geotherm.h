@@ -242,9 +242,9 @@ GEOTHERM_API geotherm_status geotherm_solve(const geotherm_solver* solver,
                                             const geotherm_watch* watch, geotherm_answer** answer);
 
 /* The shortest path through two points or more, in order. `field`: "geodesic" (or NULL),
- * "distance", "heat". `closed`: 1 leads back to the first point; 2: it is open, and the points between
- * its ends only say where it runs at first, so that it is pulled straight past them. On triangles and
- * points alone. */
+ * "distance", "heat". `closed`: 1 leads back to the first point; 2: it is open, and the points
+ * between its ends only say where it runs at first, so that it is pulled straight past them. On
+ * triangles and points alone. */
 GEOTHERM_API geotherm_status geotherm_path(const geotherm_solver* solver,
                                            const geotherm_sources* through, const char* field,
                                            int closed, const geotherm_watch* watch,

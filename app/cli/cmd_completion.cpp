@@ -63,6 +63,9 @@ CompletedOption completed(const CLI::Option& option) {
   return out;
 }
 
+/// What a model alone, `geotherm bunny`, is short for.
+constexpr std::string_view kOpens = "view";
+
 std::vector<CompletedCommand> completed(const CLI::App& root) {
   std::vector<CompletedCommand> all;
   for (const std::string& name : command_names(root)) {
@@ -74,7 +77,13 @@ std::vector<CompletedCommand> completed(const CLI::App& root) {
     }
     all.push_back(std::move(one));
   }
+  std::ranges::stable_partition(all, [](const auto& one) { return one.name != kOpens; });
   return all;
+}
+
+/// The pattern of a command's word for bash and zsh. The last one stands for a model, too.
+std::string pattern_of(const CompletedCommand& command) {
+  return command.name == kOpens ? command.name + " | [!-]*" : command.name;
 }
 
 std::string model_names() {
@@ -101,7 +110,7 @@ std::string bash_script(const std::vector<CompletedCommand>& commands, const CLI
       names.insert(names.end(), option.names.begin(), option.names.end());
       if (option.takes_value) options.emplace(joined(option.names, " | "), &option);
     }
-    cases += "    " + command.name + ")\n      options='" + joined(names, " ") + "'\n";
+    cases += "    " + pattern_of(command) + ")\n      options='" + joined(names, " ") + "'\n";
     cases += "      words='" + words_of(command, root) + "'\n      ;;\n";
   }
   std::string values;
@@ -151,7 +160,7 @@ std::string zsh_script(const std::vector<CompletedCommand>& commands, const CLI:
   std::string list, cases;
   for (const CompletedCommand& command : commands) {
     list += "    '" + command.name + ":" + for_zsh(command.description) + "'\n";
-    cases += "    " + command.name + ")\n      _arguments -s";
+    cases += "    " + pattern_of(command) + ")\n      _arguments -s";
     for (const CompletedOption& option : command.options) {
       const std::string value = !option.takes_value ? ""
                                 : option.is_file    ? ":file:_files"
@@ -199,8 +208,14 @@ std::string fish_script(const std::vector<CompletedCommand>& commands, const CLI
   for (const CompletedCommand& command : commands) {
     script += "complete -c geotherm -n __fish_use_subcommand -a " + command.name + " -d '" +
               command.description + "'\n";
-    const std::string here =
-        "complete -c geotherm -n '__fish_seen_subcommand_from " + command.name + "'";
+    std::string when = "__fish_seen_subcommand_from " + command.name;
+    if (command.name == kOpens) {
+      when = "not __fish_use_subcommand; and not __fish_seen_subcommand_from";
+      for (const CompletedCommand& other : commands) {
+        if (other.name != kOpens) when += " " + other.name;
+      }
+    }
+    const std::string here = "complete -c geotherm -n '" + when + "'";
     const std::string words = words_of(command, root);
     if (!words.empty()) script += here + " -a '" + words + "'\n";
     for (const CompletedOption& option : command.options) {

@@ -68,6 +68,7 @@ TEST_F(ProgramHelp, BashCompletesCommandsOptionsValuesAndFiles) {
   EXPECT_EQ(completed("geotherm solve sca", 2), "scan.obj\n");
   EXPECT_EQ(completed("geotherm solve bunny -o sca", 4), "scan.obj\n");
   EXPECT_EQ(completed("geotherm help stu", 2), "study\n");
+  EXPECT_EQ(completed("geotherm bunny --azim", 2), "--azimuth\n");  // which is the command view
 }
 
 TEST_F(ProgramHelp, FishCompletesCommandsOptionsAndValues) {

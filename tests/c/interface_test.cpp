@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -11,6 +12,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 #include "app/c/geotherm.h"
 
@@ -57,41 +59,83 @@ Names declarations(const std::string& header) {
   return found;
 }
 
+/// What an interface declares. A line "released VERSION HASH" freezes all above it.
 struct Record {
-  int interface = -1;
   Names declarations;
+  std::set<std::string> released;  ///< versions
+  std::string broken;  ///< a version whose declarations were edited afterwards; empty: none
 };
 
-Record record() {
+/// FNV-1a, in hexadecimal digits.
+std::string hash_of(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  std::ostringstream out;
+  out << std::hex << hash;
+  return out.str();
+}
+
+Record record_in(const std::string& text) {
   Record out;
-  std::istringstream text(text_of(GEOTHERM_C_RECORD));
-  std::string word;
-  for (std::string line; std::getline(text, line);) {
+  std::string above;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line.starts_with('#')) continue;
-    if (out.interface < 0) {
-      std::istringstream(line) >> word >> out.interface;
+    std::istringstream words(line);
+    std::string word, version, hash;
+    if (words >> word >> version >> hash; word == "released") {
+      out.released.insert(version);
+      if (hash != hash_of(above)) out.broken = version + " (its hash is " + hash_of(above) + ")";
     } else {
       out.declarations.insert(line);
+      above += line + '\n';
     }
   }
   return out;
 }
 
+std::string record_path(int number) {
+  return GEOTHERM_C_RECORDS "/interface_" + std::to_string(number) + ".txt";
+}
+
 TEST(CInterface, NothingThatWasThereChangesWithoutItsNumber) {
   const Names now = declarations(text_of(GEOTHERM_C_HEADER));
-  const Record then = record();
-  ASSERT_FALSE(then.declarations.empty());
-  ASSERT_EQ(then.interface, GEOTHERM_INTERFACE)
-      << "the record is of another interface: write it anew from the header";
+  const Record then = record_in(text_of(record_path(GEOTHERM_INTERFACE).c_str()));
+  ASSERT_FALSE(then.declarations.empty()) << record_path(GEOTHERM_INTERFACE) << " is missing";
   for (const std::string& each : then.declarations) {
     EXPECT_TRUE(now.contains(each))
         << each << "\nis not in the header any more: raise GEOTHERM_INTERFACE and the interface of "
-        << "app/c/CMakeLists.txt, then write tests/c/interface.txt anew";
+        << "app/c/CMakeLists.txt, and write another record; what no release had may be edited";
   }
   for (const std::string& each : now) {
     EXPECT_TRUE(then.declarations.contains(each))
-        << each << "\nis new: add this line to tests/c/interface.txt";
+        << each << "\nis new: add this line at the end of " << record_path(GEOTHERM_INTERFACE);
   }
+}
+
+TEST(CInterface, WhatWasReleasedIsFrozen) {
+  std::set<std::string> frozen;
+  for (int number = 0; number <= GEOTHERM_INTERFACE; ++number) {
+    const Record each = record_in(text_of(record_path(number).c_str()));
+    EXPECT_FALSE(each.declarations.empty()) << record_path(number) << " is missing";
+    EXPECT_EQ(each.broken, "") << record_path(number) << " was edited above this release";
+    frozen.insert(each.released.begin(), each.released.end());
+  }
+  const std::string changes = text_of(GEOTHERM_CHANGELOG);
+  const std::regex heading(R"(\n## \[(\d+\.\d+\.\d+)\])");
+  for (std::sregex_iterator at(changes.begin(), changes.end(), heading), end; at != end; ++at) {
+    const std::string version = (*at)[1];
+    EXPECT_TRUE(frozen.contains(version))
+        << version << " is released: add the line 'released " << version << " HASH' at the end of "
+        << record_path(GEOTHERM_INTERFACE);
+  }
+}
+
+TEST(CInterface, AnEditOfAReleasedRecordIsNoticed) {
+  const std::string text = "int f(void)\nreleased 1.0.0 " + hash_of("int f(void)\n") + "\n";
+  EXPECT_EQ(record_in(text + "int g(void)\n").broken, "");
+  EXPECT_EQ(record_in(text).released, (Names{"1.0.0"}));
+  EXPECT_NE(record_in("int g(void)\n" + text).broken.find("1.0.0"), std::string::npos);
 }
 
 TEST(CInterface, ADeclarationThatDiffersIsNoticed) {

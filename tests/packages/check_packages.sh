@@ -30,6 +30,11 @@ grep -q 'model/x-ply' "$folder/mime/globs2"
     MANWIDTH=200 man --warnings -l "$page" >"$folder/page" 2>"$folder/said"
     test ! -s "$folder/said" || { cat "$folder/said"; exit 1; }
     grep -q "geotherm $command" "$folder/page" || { echo "no page of $command"; exit 1; }
+    "$build/geotherm" "$command" --help | sed -n '/^Examples:/,$s/^  //p' >"$folder/examples"
+    while read -r example; do  # each on its line
+      sed 's/^ *//' "$folder/page" | grep -xF -- "$example" >/dev/null ||
+        { echo "the page of $command has no line: $example"; exit 1; }
+    done <"$folder/examples"
   done
 for library in geotherm geotherm-solver; do
   PKG_CONFIG_PATH=$folder/root/usr/lib/pkgconfig \

@@ -67,7 +67,7 @@ def transported(
     model: Model, frames: Frames, vertices: AnyArray, vectors: AnyArray, t_coef: float
 ) -> AnyArray:
     """(n, 2): each point has the vector of the nearest one given, without turning on the way."""
-    import scipy.sparse.linalg
+    import scipy.sparse.linalg  # type: ignore[import]
 
     points, faces = np.asarray(model.vertices), np.asarray(model.faces)
     sides = np.linalg.norm(points[faces] - points[np.roll(faces, -1, axis=1)], axis=2)

@@ -23,10 +23,16 @@ class EdgeFlipGeodesicSolver:
     def __init__(self, V: Any, F: Any, t_coef: float = 1.0) -> None:
         self._solver = Solver(Mesh(V, F), method="wavefront")
 
-    def _path(self, vertices: Sequence[int], limits: tuple[Any, Any], **how: bool) -> AnyArray:
+    def _path(
+        self,
+        vertices: Sequence[int],
+        limits: tuple[Any, Any],
+        closed: bool = False,
+        loose: bool = False,
+    ) -> AnyArray:
         if limits != (None, None):
             raise NotImplementedError("paths are straightened to the end: leave the limits out")
-        return np.array(self._solver.path(*vertices, **how).points)
+        return np.array(self._solver.path(*vertices, closed=closed, loose=loose).points)
 
     def find_geodesic_path(
         self,
