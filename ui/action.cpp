@@ -178,7 +178,10 @@ void turn_switch(Frame& frame, Action action) {
   }
   switch (action) {
     case Action::kRemovePointed:
-      return frame.send(removal(frame.explored(), *frame.ui.input.pointed(frame)));
+      if (const auto place = frame.ui.input.pointed(frame)) {
+        return frame.send(removal(frame.explored(), *place));
+      }
+      return remove_entry(frame, *chosen_entry(frame));
     case Action::kFrame:
       return fit_model(frame);
     case Action::kLeftPanel:
@@ -223,8 +226,9 @@ bool is_possible(const Frame& frame, Action action) {
     case Action::kRemovePointed: {
       // Places belong to what is shown: while other sources are on their way, none can be named.
       const bool settled = frame.explored().sources == frame.state().sources;
-      const auto place = settled ? frame.ui.input.pointed(frame) : std::nullopt;
-      return place && *place < frame.explored().places.size();
+      const auto place = frame.ui.input.pointed(frame);
+      if (!place) return chosen_entry(frame).has_value();
+      return settled && *place < frame.explored().places.size();
     }
     case Action::kMoreSources:
     case Action::kViewTool:

@@ -204,7 +204,9 @@ void draw_status_bar(Frame& frame) {
   ImGui::AlignTextToFramePadding();
 
   // A picture that rests has no rate.
-  const bool rests = frame.canvas.fps() < 1;
+  const bool moves = frame.state().rotating || frame.state().timeline.playing || frame.ui.scrubs ||
+                     frame.ui.input.is_dragging();
+  const bool rests = !moves || frame.canvas.fps() < 1;
   const std::string fps = rests ? "" : app::fixed(frame.canvas.fps(), 0) + " fps";
   const std::string right = fps + (rests ? "" : "  \u00b7  ") + frame.canvas.device();
   const float room = ImGui::GetContentRegionAvail().x;

@@ -66,6 +66,15 @@ enum class Tool { kView, kSource, kBrush, kPath, kPick, kSculpt };
 /// The tools, and what a click of the chosen one does, above the picture.
 void draw_toolbar(Frame& frame);
 
+/// Offers the present sources back, for a while, by a button over the picture.
+void offer_sources(Frame& frame, std::string text);
+
+/// The source whose name in the list was clicked last, while it is there.
+std::optional<int> chosen_entry(const Frame& frame);
+
+/// Removes a source of the list. One that is several places can be had back by a click.
+void remove_entry(Frame& frame, int entry);
+
 /// A source as people call it: "vertex 17", "5 random".
 std::string short_name(const app::SourceSpec& source);
 
@@ -87,6 +96,9 @@ class CanvasInput {
   /// clicked last.
   std::optional<std::size_t> pointed(const Frame& frame) const;
 
+  /// Before a click sets one source in place of all: where they are several, they can be had back.
+  void set_source(Frame& frame);
+
  private:
   struct Mouse {
     float x = 0, y = 0;
@@ -99,7 +111,6 @@ class CanvasInput {
   void paint(Frame& frame, Mouse to);
   void click(Frame& frame);
   void begin_with_tool(Frame& frame);
-  void set_source(Frame& frame);
   void give_back_sources(Frame& frame);
   void zoom_with_wheel(Frame& frame);
   void draw_marks(Frame& frame) const;

@@ -269,20 +269,23 @@ void CanvasInput::click(Frame& frame) {
   send_inside_command(frame, *action, front->position);
 }
 
-/// Where one click replaces several sources, they can be had back by another one.
+void offer_sources(Frame& frame, std::string text) {
+  Notice notice;
+  notice.text = std::move(text);
+  notice.kind = app::LogLine::Kind::kNote;
+  notice.until = ImGui::GetTime() + kOffersUndo;
+  notice.sources = frame.state().sources;
+  std::erase_if(frame.ui.notices, [](const Notice& old) { return !old.sources.empty(); });
+  frame.ui.notices.push_back(std::move(notice));
+}
+
 void CanvasInput::set_source(Frame& frame) {
   before_click_ = frame.state().sources;
   chosen_.reset();
   const std::size_t count = std::max(before_click_->size(), frame.explored().places.size());
   if (count < 2) return;
-  Notice notice;
-  notice.text = "The click has replaced " + std::to_string(count) +
-                " sources. With Shift it adds one to them.";
-  notice.kind = app::LogLine::Kind::kNote;
-  notice.until = ImGui::GetTime() + kOffersUndo;
-  notice.sources = *before_click_;
-  std::erase_if(frame.ui.notices, [](const Notice& old) { return !old.sources.empty(); });
-  frame.ui.notices.push_back(std::move(notice));
+  offer_sources(frame, "The click has replaced " + std::to_string(count) +
+                           " sources. With Shift it adds one to them.");
 }
 
 /// The first click of a double click has set a source that nobody wanted.

@@ -21,6 +21,7 @@ void draw_stroke(Frame& frame, const char* label, MouseAction action) {
     if (binding.action == action) stroke = binding.stroke;
   }
   if (ImGui::MenuItem(label, stroke.c_str(), false, possible)) {
+    if (action == MouseAction::kSetSource) frame.ui.input.set_source(frame);
     send_point_command(frame, action, *frame.ui.menu_point);
   }
   frame.mark(label);

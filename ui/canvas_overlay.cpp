@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kNoticeTime = 12;  ///< seconds
 constexpr std::size_t kMaxNotices = 3;
+constexpr float kRoomForWarnings = 320;  ///< height of the picture, pixels at scale 1
+constexpr float kNoticesShare = 0.45F;   ///< of the height of the picture, whose middle stays free
 
 constexpr ImGuiWindowFlags kFloating =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -140,22 +142,14 @@ void draw_picked(Frame& frame) {
   draw_badge(frame, {at.x, at.y - frame.px(24)}, text);
 }
 
-/// A button for each setting that may help.
-void draw_remedies(Frame& frame, Notice& notice) {
+/// What a click takes care of; the notice goes with it.
+void draw_buttons(Frame& frame, Notice& notice) {
   ImGui::PushID(&notice);
   if (!notice.sources.empty() && draw_button(frame, "bring back", "Bring them back")) {
     frame.send(app::command::SetSources{notice.sources});
     notice.until = 0;
   }
-  for (const SettingHint& setting : notice.settings) {
-    for (const std::string& value : setting.values) {
-      const std::string change = setting.name + ' ' + value;
-      if (draw_button(frame, change, change.c_str())) {
-        frame.set(setting.name, value);
-        notice.until = 0;  // it has been taken care of
-      }
-    }
-  }
+  if (draw_remedies(frame, notice.settings)) notice.until = 0;
   ImGui::PopID();
 }
 
@@ -168,7 +162,8 @@ void draw_notices(Frame& frame) {
   frame.section = "Notices";
   ImGui::SetNextWindowPos({canvas.x + canvas.width / 2, canvas.y + canvas.height - frame.px(12)},
                           ImGuiCond_Always, {0.5F, 1});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(1.0F, canvas.height / 2)});
+  ImGui::SetNextWindowSizeConstraints({width, 0},
+                                      {width, std::max(1.0F, canvas.height * kNoticesShare)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, frame.px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, ImGui::GetStyle().FrameBorderSize);
   ImGui::Begin("##notices", nullptr, kFloating);
@@ -176,8 +171,9 @@ void draw_notices(Frame& frame) {
   for (Notice& notice : notices) {
     const Palette& p = frame.colours();
     const bool error = notice.kind == app::LogLine::Kind::kError;
-    draw_note(notice.text, error ? p.error : notice.sources.empty() ? p.warning : p.text);
-    draw_remedies(frame, notice);
+    const bool warning = notice.kind == app::LogLine::Kind::kWarning;
+    draw_note(notice.text, error ? p.error : warning ? p.warning : p.text);
+    draw_buttons(frame, notice);
   }
   const float button = frame.px(70);
   if (draw_button(frame, "close", "Close", true, button)) notices.clear();
@@ -198,12 +194,17 @@ void take_notices(Frame& frame) {
   if (taken > log.size()) taken = log.size() - std::min<std::size_t>(1, log.size());
   for (; taken < log.size(); ++taken) {
     const app::LogLine& line = log[taken];
-    if (line.kind != app::LogLine::Kind::kError) continue;
+    auto settings = settings_of(line.hint);
+    // A warning is for the log and the panels, but where a click cures what it warns of
+    // and the picture has room for it.
+    const bool curable = line.kind == app::LogLine::Kind::kWarning && !settings.empty() &&
+                         frame.ui.places.canvas.height >= frame.px(kRoomForWarnings);
+    if (line.kind != app::LogLine::Kind::kError && !curable) continue;
     auto& notices = frame.ui.notices;
     std::string text = sentence(line.text, line.hint);
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });
     notices.push_back(
-        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, settings_of(line.hint)});
+        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, std::move(settings)});
     if (notices.size() > kMaxNotices) notices.erase(notices.begin());
   }
 }

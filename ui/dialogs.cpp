@@ -105,8 +105,12 @@ void draw_keys_dialog(Frame& frame) {
   const ListColumn columns[] = {{{"View", "Sources", "A and B"}, 40},
                                 {{"Tools", "File", "Edit", "Window"}, 105},
                                 {{"Camera", "Set sources", "Sculpt", "Figures"}, 205}};
-  if (ImGui::BeginTable("columns", 3, ImGuiTableFlags_SizingStretchProp)) {
-    for (const float share : {0.9F, 1.0F, 1.3F}) ImGui::TableSetupColumn("", 0, share);
+  // In a small window the columns stand below each other.
+  const bool narrow = ImGui::GetContentRegionAvail().x < frame.px(760);
+  if (ImGui::BeginTable("columns", narrow ? 1 : 3, ImGuiTableFlags_SizingStretchProp)) {
+    for (const float share : {0.9F, 1.0F, 1.3F}) {
+      if (!narrow) ImGui::TableSetupColumn("", 0, share);
+    }
     for (const ListColumn& column : columns) {
       ImGui::TableNextColumn();
       for (const std::string_view group : column.groups) draw_group(frame, group, column.keys);

@@ -41,6 +41,7 @@ struct SourcesForm {
   std::string ids, error;
   int count = 5;
   int pointed = -1;  ///< the entry whose name the pointer is at; negative: none
+  std::optional<app::SourceSpec> chosen = {};  ///< whose name was clicked: Delete removes it
 };
 
 /// What the sculpting brush is set to.

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kTurnPerSecond = 20;   ///< degrees, while the model rotates
 constexpr double kLongestFrame = 0.25;  ///< seconds; after a pause the model goes on, not leaps
+constexpr double kSaysDrop = 12;        ///< seconds
 constexpr int kAwake = 3;  ///< frames that ImGui needs until it shows what a click has done
 
 struct KeyPlace {
@@ -65,6 +66,13 @@ bool is_active() {
 void take_drop(Frame& frame) {
   if (frame.ui.dropped.empty()) return;
   const std::string file = frame.ui.dropped.front();
+  if (const std::size_t count = frame.ui.dropped.size(); count > 1) {
+    const std::string name = std::filesystem::path(file).filename().string();
+    frame.ui.notices.push_back(
+        {std::to_string(count) +
+             " files were dropped. One is shown at a time: " + app::one_line(name) + " is opened.",
+         app::LogLine::Kind::kNote, ImGui::GetTime() + kSaysDrop});
+  }
   frame.ui.dropped.clear();
   if (std::filesystem::path(file).extension() == kSessionExtension) {
     frame.ui.write_question.send(frame, app::command::Run{file});
@@ -156,7 +164,8 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   take_notices(frame);
 
   begin_host();
-  ui.input.draw(frame);  // first: panels show what lies under the pointer now
+  ui.input.draw(frame);     // first: panels show what lies under the pointer now
+  ui.sources.pointed = -1;  // the list says so anew, where it is shown
   draw_menu_bar(frame);
   draw_side_bars(frame);
   draw_toolbar(frame);

@@ -92,7 +92,8 @@ void draw_figures(Frame& frame, const AccuracyReport& report) {
                "Where the error is largest: " + app::significant(e.max, 3) + " model units.");
   }
   draw_error_plot(frame, report.histogram);
-  draw_note(sentence(report), report.is_poor() ? frame.colours().warning : frame.colours().dim);
+  draw_advice(frame, sentence(report), report.advice,
+              report.is_poor() ? frame.colours().warning : frame.colours().dim);
 }
 
 /// Figures of a vertex are shown at a face that has it.

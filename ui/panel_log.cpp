@@ -118,7 +118,8 @@ void complete(ImGuiInputTextCallbackData* data, LogForm& form) {
   const std::size_t blank = line.rfind(' ');
   const std::size_t begun = line.size() - (blank == std::string_view::npos ? 0 : blank + 1);
   if (words.size() == 1) {
-    common += ' ';
+    // What follows a folder or a kind of source belongs to the same word.
+    if (!common.ends_with('/') && !common.ends_with(':')) common += ' ';
   } else {
     form.choices = app::joined(words, "  ");
   }

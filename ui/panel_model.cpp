@@ -99,7 +99,7 @@ void draw_report(Frame& frame, const app::ExploredModel& model) {
   draw_value(frame, "boundary", boundary_text(mesh), "", "Edges with one face.");
   draw_flaws(frame, mesh);
   for (const Warning& warning : model.warnings) {
-    draw_note(sentence(warning), frame.colours().warning);
+    draw_advice(frame, sentence(warning), warning.hint, frame.colours().warning);
   }
   if (draw_more(frame, "Size and triangles")) draw_details(frame, mesh);
 }
@@ -203,7 +203,7 @@ void draw_quality_panel(Frame& frame) {
     draw_dim(frame, "Quality is measured when nothing moves.");
   }
   for (const Warning& warning : answer->warnings) {
-    draw_note(sentence(warning), frame.colours().warning);
+    draw_advice(frame, sentence(warning), warning.hint, frame.colours().warning);
   }
 }
 

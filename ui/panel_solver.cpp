@@ -77,14 +77,23 @@ void draw_error_over_factor(Frame& frame) {
   const bool heat = answer != nullptr && answer->method->heat() != nullptr;
   if (!heat || frame.state().options.time_step.rule == TimeRule::kAbsolute) return;
   if (!draw_more(frame, "Error over m")) return;
-  frame.out.study = true;
   const app::SessionStudy& study = frame.session.error_study();
+  frame.out.study = !study.cancelled;
   const double factor = frame.state().options.time_step.factor;
   if (const auto chosen = draw_study_plot(frame, study, factor)) {
     frame.set("time-factor", app::significant(*chosen, 3));
   }
   if (!study.failure.empty()) return draw_note(study.failure, frame.colours().error);
-  if (study.points.size() < 2) return draw_dim(frame, "The error is being worked out.");
+  if (study.cancelled) {
+    draw_dim(frame, "Stopped before all factors were tried.");
+    frame.out.study =
+        draw_button(frame, "study again", "Begin again", true, ImGui::GetContentRegionAvail().x);
+  } else if (!study.running && frame.session.stale()) {
+    return draw_dim(frame, "The distances come first.");
+  } else if (study.points.size() < 2) {
+    return draw_dim(frame, "The error is being worked out.");
+  }
+  if (study.points.empty()) return;
   const auto best = std::ranges::min_element(study.points, {},
                                              [](const auto& point) { return point.mean_error; });
   draw_value(frame, "least error",
@@ -247,10 +256,16 @@ struct Stage {
   const char* name;
   double ms;
   const char* help;
+  bool reused = false;  ///< of an earlier change: no part of this one's time
 };
 
 /// A time with a bar behind it: its share of `whole`.
 void draw_stage(Frame& frame, const Stage& stage, double whole) {
+  if (stage.reused) {
+    const std::string help = std::string(stage.help) + " Kept from a change before this one.";
+    return draw_value(frame, stage.name, "reused, " + app::milliseconds(stage.ms), "ms", help,
+                      frame.colours().dim);
+  }
   if (whole > 0) draw_share(frame, stage.ms / whole);
   draw_value(frame, stage.name, app::milliseconds(stage.ms), "ms", stage.help);
 }
@@ -258,14 +273,23 @@ void draw_stage(Frame& frame, const Stage& stage, double whole) {
 void draw_setup(Frame& frame, const app::Answer& answer) {
   const SetupTiming& setup = answer.setup;
   draw_heading(frame, "Set-up");
-  // Stages that the last change has reused keep their times, which are no part of its own.
-  const double whole =
-      std::max({setup.setup, setup.operators + setup.analyze + setup.factorize, 1e-9});
+  // Stages that the last change has reused keep their times, which are no part of its own; what it
+  // did are the last of them.
+  constexpr double kAll = 0.98;  // the parts of a time add up to a little less than the whole
+  const double late = setup.analyze + setup.factorize, all = setup.operators + late;
+  const double whole = std::max(setup.setup, 1e-9);
   draw_stage(frame,
-             {"operators", setup.operators, "Cleaning, Delaunay flips, renumbering, assembly."},
+             {"operators", setup.operators, "Cleaning, Delaunay flips, renumbering, assembly.",
+              setup.setup < kAll * all},
              whole);
-  draw_stage(frame, {"analyze", setup.analyze, "Ordering and symbolic analysis."}, whole);
-  draw_stage(frame, {"factorize", setup.factorize, "Both numeric factorisations."}, whole);
+  draw_stage(
+      frame,
+      {"analyze", setup.analyze, "Ordering and symbolic analysis.", setup.setup < kAll * late},
+      whole);
+  draw_stage(frame,
+             {"factorize", setup.factorize, "Both numeric factorisations.",
+              setup.setup < kAll * setup.factorize},
+             whole);
   draw_stage(frame,
              {"set-up", setup.setup,
               "From mesh in memory to first query ready; after a change of settings what "

@@ -37,11 +37,31 @@ std::string with_commas(const std::string& typed) {
   return list;
 }
 
+}  // namespace
+
+std::optional<int> chosen_entry(const Frame& frame) {
+  const auto& sources = frame.state().sources;
+  if (!frame.ui.sources.chosen) return std::nullopt;
+  const auto at = std::ranges::find(sources, *frame.ui.sources.chosen);
+  if (at == sources.end()) return std::nullopt;
+  return static_cast<int>(at - sources.begin());
+}
+
+void remove_entry(Frame& frame, int entry) {
+  const auto several = std::ranges::count(frame.explored().places, entry, &app::SourcePlace::entry);
+  if (several > 1) {
+    offer_sources(frame, short_name(frame.state().sources[static_cast<std::size_t>(entry)]) +
+                             ": removed, " + std::to_string(several) + " sources at once.");
+  }
+  frame.send(app::command::RemoveSource{entry});
+}
+
+namespace {
+
 void draw_list(Frame& frame) {
   const auto& sources = frame.state().sources;
-  frame.ui.sources.pointed = -1;
   const auto place = frame.ui.input.pointed(frame);
-  const int lit = place ? frame.explored().places[*place].entry : -1;
+  const int lit = place ? frame.explored().places[*place].entry : chosen_entry(frame).value_or(-1);
   if (sources.empty()) {
     return draw_dim(frame, "No source: click on the model to set one.");
   }
@@ -72,10 +92,11 @@ void draw_list(Frame& frame) {
       ImGui::Dummy({corner - ImGui::GetCursorPosX() - space, line});
       frame.mark("source " + std::to_string(i));
       if (ImGui::IsItemHovered()) frame.ui.sources.pointed = i;
+      if (ImGui::IsItemClicked()) frame.ui.sources.chosen = source;
       draw_tip(frame, app::to_text(source));
       ImGui::SameLine(corner);
       const std::string key = "remove " + std::to_string(i);
-      if (draw_button(frame, key, "\u00d7", true, line)) frame.send(app::command::RemoveSource{i});
+      if (draw_button(frame, key, "\u00d7", true, line)) remove_entry(frame, i);
       draw_tip(frame, "Removes this source.");
       ImGui::PopID();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -46,6 +47,12 @@ void draw_setting_label(Frame& frame, const app::Setting& setting, std::string_v
 
 /// The whole row: a check box, a list of the values, or a field.
 void draw_setting(Frame& frame, const app::Setting& setting, std::string_view more = {});
+
+/// A button for each value of the settings that may help. True: one was taken.
+bool draw_remedies(Frame& frame, std::span<const SettingHint> settings);
+
+/// A sentence with what helps, and the buttons of that.
+void draw_advice(Frame& frame, const std::string& text, const Hint& hint, const ImVec4& colour);
 
 /// What stands before the colon of NAME:VALUE, and what stands after it.
 std::string name_part(const std::string& text);

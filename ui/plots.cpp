@@ -13,10 +13,8 @@ namespace {
 
 constexpr float kErrorHeight = 74;  ///< pixels at scale 1
 
-/// The ends of the range under the plot, 0 where it lies between them.
-void draw_ends(Frame& frame, const ErrorHistogram& histogram) {
-  const std::string low = app::significant(histogram.low, 3);
-  const std::string high = app::significant(histogram.high, 3);
+/// The ends of the range under the plot.
+void draw_ends(Frame& frame, const std::string& low, const std::string& high) {
   const float left = ImGui::GetCursorPosX();
   const float room = ImGui::GetContentRegionAvail().x;
   ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
@@ -65,7 +63,7 @@ void draw_error_plot(Frame& frame, const ErrorHistogram& histogram) {
     const float x = low.x + pad + share * (size.x - 2 * pad);
     list->AddLine({x, low.y + pad}, {x, bottom}, packed(frame.colours().text), frame.px(1));
   }
-  draw_ends(frame, histogram);
+  draw_ends(frame, app::significant(histogram.low, 3), app::significant(histogram.high, 3));
 }
 
 namespace {
@@ -119,6 +117,13 @@ std::optional<double> draw_study_plot(Frame& frame, const app::SessionStudy& stu
     draw_tip(frame, "m = " + app::significant(nearest->factor, 3) + ": mean error " +
                         percent_text(nearest->mean_error) + ". A click takes this factor.");
   }
+  const float line = ImGui::GetTextLineHeight();
+  list->AddText({low.x + pad, low.y + frame.px(1)}, packed(p.dim),
+                percent_text(most.mean_error).c_str());
+  list->AddText({low.x + pad, high.y - line - frame.px(1)}, packed(p.dim),
+                percent_text(least.mean_error).c_str());
+  draw_ends(frame, "m = " + app::significant(study.points.front().factor, 3),
+            app::significant(study.points.back().factor, 3));
   return clicked ? std::optional(nearest->factor) : std::nullopt;
 }
 

@@ -59,6 +59,29 @@ void draw_setting(Frame& frame, const app::Setting& setting, std::string_view mo
   if (typed && !typed->empty()) frame.set(setting.name, *typed);
 }
 
+bool draw_remedies(Frame& frame, std::span<const SettingHint> settings) {
+  bool taken = false;
+  for (const SettingHint& setting : settings) {
+    for (const std::string& value : setting.values) {
+      const std::string change = setting.name + ' ' + value;
+      if (!draw_button(frame, change, change.c_str())) continue;
+      frame.set(setting.name, value);
+      taken = true;
+    }
+  }
+  return taken;
+}
+
+void draw_advice(Frame& frame, const std::string& text, const Hint& hint, const ImVec4& colour) {
+  draw_note(text, colour);
+  // Sections of one bar may say the same.
+  ImGui::PushID(frame.section.c_str());
+  ImGui::PushID(text.c_str());
+  draw_remedies(frame, settings_of(hint));
+  ImGui::PopID();
+  ImGui::PopID();
+}
+
 std::string name_part(const std::string& text) { return text.substr(0, text.find(':')); }
 
 std::string value_part(const std::string& text) {
@@ -83,14 +106,23 @@ void draw_progress(Frame& frame, double share, float height) {
 }
 
 void draw_work_row(Frame& frame) {
-  if (frame.ui.input.is_dragging() || frame.ui.scrubs || frame.state().timeline.playing) {
-    return;  // a row that comes and goes with each answer would move those below
-  }
+  // What comes and goes with each answer of a drag says nothing.
+  const bool moves =
+      frame.ui.input.is_dragging() || frame.ui.scrubs || frame.state().timeline.playing;
   const app::SessionWork work = frame.session.work();
   const Palette& p = frame.colours();
-  if (!work.busy) {
-    if (frame.session.stale())
-      draw_note("stale: what is shown belongs to other settings", p.warning);
+  const float bar = frame.px(5);
+  if (moves || !work.busy) {
+    // As high as while work goes on, so that the rows below stay where they are.
+    const bool stale = !moves && frame.session.stale();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, stale ? p.warning : p.dim);
+    ImGui::TextUnformatted(moves            ? "live"
+                           : stale          ? "stale: of other settings"
+                           : frame.answer() ? "up to date"
+                                            : "nothing to do yet");
+    ImGui::PopStyleColor();
+    ImGui::Dummy({0, bar});
     return;
   }
   std::string text = work.stage.empty() ? "working" : work.stage;
@@ -102,7 +134,7 @@ void draw_work_row(Frame& frame) {
   const float width = frame.px(70);
   ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - width);
   if (draw_button(frame, "cancel", "Cancel", true, width)) frame.out.cancel = true;
-  draw_progress(frame, work.share, frame.px(5));
+  draw_progress(frame, work.share, bar);
 }
 
 }  // namespace geotherm::ui

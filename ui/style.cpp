@@ -29,7 +29,7 @@ const Palette kDark = {
     .good = rgb(0x7cc58a),
     .warning = rgb(0xe5b454),
     .error = rgb(0xf4807a),
-    .series = {rgb(0x52b8ad), rgb(0xe5b454), rgb(0x8fa3d9)},
+    .series = {rgb(0x52b8ad), rgb(0xe3bcdb), rgb(0x8fa3d9)},
 };
 const Palette kLight = {
     .window = rgb(0xe9ecef),
@@ -45,7 +45,7 @@ const Palette kLight = {
     .good = rgb(0x1c7a3a),
     .warning = rgb(0x8a5700),
     .error = rgb(0xb3261e),
-    .series = {rgb(0x0b7a75), rgb(0xc98a1b), rgb(0x5266a8)},
+    .series = {rgb(0x0b7a75), rgb(0xb873a8), rgb(0x5266a8)},
 };
 
 ImVec4 mixed(const ImVec4& a, const ImVec4& b, float share) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tools of the left button, above the picture.
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "app/text/text.h"
 #include "ui/action.h"
@@ -98,11 +99,13 @@ void draw_toolbar(Frame& frame) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + frame.px(8));
     ImGui::AlignTextToFramePadding();
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    ImGui::PushClipRect(low, {low.x + room, low.y + place.height}, true);
+    const float line = ImGui::GetFrameHeight();
     ImGui::PushStyleColor(ImGuiCol_Text, frame.colours().dim);
-    ImGui::TextUnformatted(hint.c_str());
+    ImGui::RenderTextEllipsis(
+        ImGui::GetWindowDrawList(), {low.x, low.y + ImGui::GetStyle().FramePadding.y},
+        {low.x + room, low.y + line}, low.x + room, low.x + room, hint.c_str(), nullptr, nullptr);
     ImGui::PopStyleColor();
-    ImGui::PopClipRect();
+    ImGui::Dummy({room, line});
     draw_tip(frame, hint);
   }
   ImGui::End();

@@ -13,6 +13,7 @@
 #include "app/text/text.h"
 #include "geotherm/io.h"
 #include "solver/distributed/mesh_block.h"
+#include "solver/method/mapped_method.h"
 
 namespace geotherm::app {
 namespace {
@@ -32,7 +33,6 @@ struct Law {
 constexpr Law kSetupSeconds = {0.359, 8.44};
 constexpr Law kQuerySeconds = {0.00658, 0.160};
 constexpr Law kRowSeconds = {0.00272, 0.0616};  ///< of a source in a block of sixteen
-constexpr Law kPeakBytes = {143 * kMegabyte, 2.62 * 1024 * kMegabyte};
 /// Two chunks of sixteen answers, of a thread each.
 constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
 
@@ -124,7 +124,7 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
                                          : rows * kRowSeconds.at(*vertices);
   const double bytes =
       shared ? share.bytes
-             : kPeakBytes.at(*vertices) + (*sources > 1 ? kAnswersOfVertex * *vertices : 0);
+             : heat_peak_bytes(*vertices) + (*sources > 1 ? kAnswersOfVertex * *vertices : 0);
   const auto file =
       static_cast<double>(npy_bytes_of(static_cast<std::uint64_t>(*sources),
                                        static_cast<std::uint64_t>(*vertices), NpyType::kFloat64));

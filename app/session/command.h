@@ -266,7 +266,11 @@ std::vector<std::string> completions(std::string_view line);
 struct ScriptLine {
   int number = 1;
   Command command;
+  bool unseen = false;  ///< below kSeenLine: for pictures without a window alone
 };
+
+/// Stands in saved sessions above the size and the letters that a window had.
+inline constexpr const char* kSeenLine = "# as it was seen; for pictures without a window";
 
 /// One command a line; blank lines and what follows a # (outside quotes) are skipped. Errors:
 /// kBadFile, "NAME: line N, column N: ..." with what was expected.

@@ -20,6 +20,8 @@
 namespace geotherm::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Nothing but blanks, a comment or the line that is there for shells.
 bool is_empty(std::string_view line) {
   line = trimmed(line);
@@ -38,16 +40,30 @@ Result<std::string> read_text(const std::string& path) {
   return Error{ErrorCode::kBadFile, one_line(path) + ": " + reason, {"name a file of commands"}};
 }
 
+/// What a command opens, where it lies in the script's folder and not in the current one.
+void look_beside(const fs::path& folder, Command& command) {
+  std::string* file = nullptr;
+  if (auto* const open = std::get_if<command::Open>(&command)) file = &open->model;
+  if (auto* const frames = std::get_if<command::ShowSequence>(&command)) file = &frames->path;
+  if (auto* const run = std::get_if<command::Run>(&command)) file = &run->path;
+  std::error_code unknown;
+  if (file == nullptr || folder.empty() || fs::exists(*file, unknown)) return;
+  const fs::path beside = folder / *file;
+  if (fs::is_regular_file(beside, unknown)) *file = beside.string();
+}
+
 }  // namespace
 
 Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::vector<ScriptLine> lines;
+  bool unseen = false;
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(text.size(), end == std::string_view::npos ? end : end + 1));
+    if (trimmed(line) == kSeenLine) unseen = true;
     if (is_empty(line)) continue;
     auto command = parse_command(line);
     if (!command) {
@@ -56,7 +72,7 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
           one_line(name) + ": line " + std::to_string(number) + ", " + command.error().message,
           command.error().hint};
     }
-    lines.push_back({number, *std::move(command)});
+    lines.push_back({number, *std::move(command), unseen});
   }
   return lines;
 }
@@ -64,7 +80,11 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
 Result<std::vector<ScriptLine>> read_script(const std::string& path) {
   const auto text = read_text(path);
   if (!text) return text.error();
-  return parse_script(*text, path);
+  auto lines = parse_script(*text, path);
+  if (!lines) return lines;
+  const fs::path folder = fs::path(path).parent_path();
+  for (ScriptLine& line : *lines) look_beside(folder, line.command);
+  return lines;
 }
 
 std::vector<std::string> files_written_by(const std::string& script) {
@@ -184,8 +204,6 @@ std::string CommandLog::script() const {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 Error bad(const std::string& path, const std::string& cause, const std::string& hint) {
   return {ErrorCode::kBadInput, one_line(path) + ": " + cause, {hint}};

@@ -189,6 +189,7 @@ void Session::State::pump(const Session& session) {
     }
     const auto [name, line] = std::move(script.front());
     script.pop_front();
+    if (line.unseen && hooks.seen) continue;  // a window has its own size and letters
     const auto done = submit(line.command, session, Giver::kScript);
     if (!done && !first_error) first_error = done.error();
     if (first_error) {

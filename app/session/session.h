@@ -49,6 +49,7 @@ struct SessionStudy {
   };
   std::vector<Point> points = {};  ///< by factor, as far as there are any yet
   std::string failure = {};        ///< why there are no more; empty: nothing went wrong
+  bool cancelled = false;          ///< the user stopped it; study() begins again
 };
 
 /// What a session is given to work with.
@@ -100,7 +101,8 @@ class Session {
   /// What is shown does not belong to the state: work goes on, or it failed.
   bool stale() const;
   SessionWork work() const;
-  void cancel();                       ///< what runs now
+  /// What runs now. A check alone ends without a failure: what is shown is right.
+  void cancel();
   const std::string& failure() const;  ///< of the last work; empty: it went well
   bool can_undo() const;
   bool can_redo() const;

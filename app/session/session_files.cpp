@@ -112,7 +112,7 @@ std::string size_seen(const ViewerState& state, const SessionHooks& hooks) {
       text += to_text(command::Set{name, value}) + '\n';
     }
   }
-  return text;
+  return text.empty() ? text : kSeenLine + ('\n' + text);
 }
 
 std::string session_text(const ViewerState& state) {

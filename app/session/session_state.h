@@ -79,6 +79,7 @@ struct Session::State {
 
   // session_work.cpp: what runs elsewhere.
   ExploreRequest wanted() const;
+  bool only_checks() const;
   void refresh();
   void start(const ExploreRequest& request);
   bool take();
@@ -91,6 +92,7 @@ struct Session::State {
   Result<void> start_compare(const command::Compare& command);
   ExploreRequest studied_request() const;
   void start_study();
+  void stop_study();
   bool works();
 
   // session_files.cpp: what is written.

@@ -49,7 +49,7 @@ ExploreRequest Session::State::studied_request() const {
 
 void Session::State::start_study() {
   const ExploreRequest request = studied_request();
-  if (studied && studied->covers(request) && request.covers(*studied)) return;
+  if (!study.cancelled && studied && studied->covers(request) && request.covers(*studied)) return;
   studied = request;
   study = {.running = true};
   const auto job = [this, number = ++studies, model = explored.model, set = explored.set,
@@ -64,6 +64,14 @@ void Session::State::start_study() {
   if (compare_worker) return compare_worker->start(job, true);
   job(hooks.progress);
   take();
+}
+
+/// What has been worked out so far stays to be seen; what is still said of it comes too late.
+void Session::State::stop_study() {
+  if (!study.running) return;
+  ++studies;
+  study.running = false;
+  study.cancelled = true;
 }
 
 void Session::study() {

@@ -74,6 +74,12 @@ bool Session::State::works() {
   return !inbox.empty() || compare.running || (worker && worker->status().busy);
 }
 
+/// Whether what was asked for last is shown and only held against a better method.
+bool Session::State::only_checks() const {
+  return requested && requested->check == Check::kOn && answered &&
+         answered->covers(without_check(*requested));
+}
+
 /// Starts what the state asks for and nobody works on.
 void Session::State::refresh() {
   if (state.model.empty()) return;
@@ -88,9 +94,7 @@ void Session::State::refresh() {
 
 void Session::State::start(const ExploreRequest& request) {
   // An answer that is shown and only checked gives way to the next one.
-  const bool only_checks = requested && requested->check == Check::kOn && answered &&
-                           answered->covers(without_check(*requested));
-  const bool cancel = only_checks || (requested && !requested->same_setup(request));
+  const bool cancel = only_checks() || (requested && !requested->same_setup(request));
   requested = request;
   failure.clear();
   const auto job = [this, request](const Progress& progress) {
@@ -193,7 +197,12 @@ void Session::State::take_answer(const ExploreRequest& request, Result<Explored>
   const bool is_last = requested && requested->covers(request) && request.covers(*requested);
   if (!answer) {
     if (!is_last) return;  // the request was superseded; its failure is not reported
-    const bool said = answer.error().code == ErrorCode::kCancelled && !failure.empty();
+    const bool cancelled = answer.error().code == ErrorCode::kCancelled;
+    if (cancelled && only_checks()) {
+      failure.clear();  // what is shown is right
+      return;
+    }
+    const bool said = cancelled && !failure.empty();
     if (!said) say_failure(answer.error());
     if (close_opening() && explored.model) refresh();
     return;
@@ -274,6 +283,12 @@ Result<void> Session::State::start_compare(const command::Compare& command) {
     }
   };
   if (compare_worker) {
+    // One after the other: a study that goes on gives way and begins again afterwards.
+    if (study.running) {
+      ++studies;
+      studied.reset();
+      study = {};
+    }
     compare_worker->start(job, true);
     return {};
   }
@@ -303,8 +318,11 @@ SessionWork Session::work() const {
 void Session::cancel() {
   State& s = *state_;
   if (s.compare_worker) s.compare_worker->cancel();
+  s.stop_study();
+  s.compare.running = false;  // one that waited says nothing any more
   if (!s.worker || !s.worker->status().busy) return;
   s.worker->cancel();
+  if (s.only_checks()) return s.note(LogLine::Kind::kNote, "the check was cancelled");
   s.close_opening();
   // What waited says nothing any more, so it is said here.
   s.first_error = Error{

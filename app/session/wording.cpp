@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/session/progress.h"
 #include "app/text/text.h"
 #include "geotherm/accuracy.h"
 #include "geotherm/heat_method.h"
@@ -122,7 +123,7 @@ std::string mesh_in_words(const MeshSummary& mesh) {
 
 std::string refined_in_words(Index faces, int times) {
   const std::int64_t all = refined_faces(faces, times);
-  return grouped(all) + " faces, " + significant(least_refined_bytes(all) / 1e6, 2) + " MB or more";
+  return grouped(all) + " faces, about " + bytes_in_words(refined_bytes(all));
 }
 
 Warning crack_note(const CrackReport& cracks) {

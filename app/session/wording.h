@@ -63,7 +63,7 @@ std::string refinement_in_words(const RefinementCounts& refinement);
 /// "2,002 vertices, 4,000 faces, 1 component, no boundary".
 std::string mesh_in_words(const MeshSummary& mesh);
 
-/// "799,840 faces, 320 MB or more": a mesh whose faces are cut into four so often.
+/// "799,840 faces, about 436 MB": a mesh whose faces are cut into four so often.
 std::string refined_in_words(Index faces, int times);
 
 /// What closes the cracks. Precondition: there are some.

@@ -154,7 +154,8 @@ void WindowLoop::name_window() {
 }
 
 void WindowLoop::remember_layout() {
-  if (clock_.frame_is_due() || interface_->layout() == saved_layout_) return;
+  // While an edge is dragged, it changes with each frame.
+  if (ImGui::IsAnyMouseDown() || interface_->layout() == saved_layout_) return;
   saved_layout_ = interface_->layout();
   [[maybe_unused]] const bool saved = ui::save_layout(layout_path_, saved_layout_);
 }

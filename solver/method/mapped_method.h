@@ -17,8 +17,12 @@ inline std::int64_t refined_faces(Index faces, int times) {
   return std::int64_t{faces} << (2 * std::clamp(times, 0, 16));
 }
 
-/// That a mesh of so many faces and any method on it take at least.
-double least_refined_bytes(std::int64_t faces);
+/// Memory at the peak of reading a closed surface of so many vertices, setting the heat method up
+/// and one query: the power law through what was measured.
+double heat_peak_bytes(double vertices);
+
+/// The same of a mesh that was refined to so many faces.
+double refined_bytes(std::int64_t faces);
 
 /// What leads from a mesh to the one that is solved on: its faces cut into four (subdivide()), and
 /// vertices that are one (TriangleMesh::same_as()). Immutable.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 #include <set>
@@ -286,7 +288,15 @@ TEST(Completions, AreSecondWordsAndValues) {
   EXPECT_EQ(completions("view con"), Words{"contours"});
   EXPECT_EQ(completions("bar o"), (Words{"on", "off"}));
   EXPECT_EQ(completions("target "), Words{});
-  EXPECT_EQ(completions("open bun"), Words{});
+  EXPECT_EQ(completions("open gargo"), Words{"gargoyle"});
+  EXPECT_EQ(completions("source set ra"), Words{"random:"});
+  EXPECT_EQ(completions("source add 3 bou"), Words{"boundary"});
+  const std::string folder = testing::TempDir() + "geotherm_completions/";
+  std::filesystem::create_directories(folder + "inner");
+  std::ofstream(folder + "walk.geotherm") << "reset\n";
+  EXPECT_EQ(completions("run " + folder), (Words{folder + "inner/", folder + "walk.geotherm"}));
+  std::filesystem::remove_all(folder);
+  EXPECT_EQ(completions("open bun"), Words{"bunny"});
 }
 
 }  // namespace

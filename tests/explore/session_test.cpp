@@ -210,6 +210,31 @@ TEST_F(SessionTest, ASavedSessionLeadsThereFromAnyState) {
   EXPECT_EQ(session.state(), saved);
 }
 
+TEST_F(SessionTest, ASessionFindsTheModelThatLiesBesideIt) {
+  const std::string name = std::filesystem::path(small_model()).filename().string();
+  write(folder() + "s.geotherm", "open " + name + "\nsource set 5\n");
+  run({"run " + folder() + "s.geotherm"});
+  EXPECT_EQ(session.state().model, folder() + name);
+}
+
+TEST_F(SessionTest, AWindowKeepsItsSizeAndLettersWhenItRunsASession) {
+  SessionHooks hooks;
+  hooks.seen = [] {
+    PictureSettings seen;
+    seen.width = 640;
+    seen.height = 480;
+    return seen;
+  };
+  Session window(hooks);
+  ASSERT_TRUE(window.submit(command::Open{small_model()}));
+  ASSERT_TRUE(window.submit(command::SaveSession{folder() + "s.geotherm"}));
+  const ViewerState saved = window.state();
+  ASSERT_TRUE(window.submit(command::Run{folder() + "s.geotherm"}));
+  EXPECT_EQ(window.state(), saved);
+  run({"run " + folder() + "s.geotherm"});
+  EXPECT_EQ(session.state().picture.width, 640) << "without a window, as it was seen";
+}
+
 TEST_F(SessionTest, ALogWithAModelThatDidNotOpenReplays) {
   run({"open " + small_model(), "source set 5", "view smooth"});
   EXPECT_FALSE(session.submit(command::Open{folder() + "none.obj"}));

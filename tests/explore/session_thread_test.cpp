@@ -162,6 +162,45 @@ TEST_F(SessionThread, CancelEndsTheWorkAndTheNextCommandStartsItAgain) {
   EXPECT_EQ(threaded.failure(), "");
 }
 
+TEST_F(SessionThread, CancelOfACheckLeavesTheDistancesAndIsNoFailure) {
+  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  while (threaded.stale()) {
+    std::this_thread::sleep_for(1ms);
+    threaded.update();
+  }
+  ASSERT_TRUE(threaded.work().busy) << "the check takes longer than the answer";
+  threaded.cancel();
+  EXPECT_TRUE(threaded.finish());
+  EXPECT_EQ(threaded.failure(), "");
+  EXPECT_FALSE(threaded.stale());
+  EXPECT_FALSE(threaded.explored().a->error);
+}
+
+TEST_F(SessionThread, AStudyThatWasCancelledSaysSoAndBeginsAgain) {
+  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  ASSERT_TRUE(threaded.finish());
+  threaded.study();
+  ASSERT_TRUE(threaded.error_study().running);
+  threaded.cancel();
+  EXPECT_TRUE(threaded.finish());
+  EXPECT_TRUE(threaded.error_study().cancelled);
+  EXPECT_FALSE(threaded.error_study().running);
+  threaded.study();
+  EXPECT_TRUE(threaded.error_study().running);
+}
+
+TEST_F(SessionThread, AStudyGivesWayToAComparison) {
+  ASSERT_TRUE(threaded.submit(command::Open{"terrain"}));
+  ASSERT_TRUE(threaded.finish());
+  threaded.study();
+  ASSERT_TRUE(threaded.submit(command::Compare{"native"}));
+  EXPECT_FALSE(threaded.error_study().running);
+  ASSERT_TRUE(threaded.finish());
+  EXPECT_EQ(threaded.compare().rows.size(), 1U);
+  threaded.study();
+  EXPECT_TRUE(threaded.error_study().running) << "it begins again";
+}
+
 TEST_F(SessionThread, CancelWhileAModelOpensLeavesNoneOpen) {
   ASSERT_TRUE(threaded.submit(command::Open{"gargoyle"}));
   threaded.cancel();

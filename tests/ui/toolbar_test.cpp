@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The tools above the picture, sources as things that can be pointed at, and what the panels say.
+#include "app/session/explored.h"
 #include "tests/ui/driver.h"
 #include "ui/canvas.h"
 #include "ui/key_map.h"
@@ -121,6 +122,59 @@ TEST_F(SourceThings, AreReplacedWithoutAWordWhereThereIsOne) {
   EXPECT_EQ(click_sends(), "source set face");
   frames(2);
   EXPECT_FALSE(is_drawn("Notices/bring back"));
+}
+
+TEST_F(SourceThings, ComeBackAfterTheMenuOfThePointReplacedThem) {
+  run("source set 0 40 80");
+  frame();
+  click(seen(0.5, 0.75).x, seen(0.5, 0.75).y, 1);
+  click_item("point menu/Source here");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Notices/bring back"));
+}
+
+TEST_F(SourceThings, ComeBackAfterARowOfSeveralWasRemoved) {
+  run("source set random:5:7");
+  frame();
+  click_item("Sources/remove 0");
+  frames(2);
+  EXPECT_TRUE(is_drawn("Notices/bring back"));
+}
+
+TEST_F(SourceThings, AreChosenInTheListAndDeleted) {
+  run("source set 3 40");
+  frames(2);
+  sent();
+  click_item("Sources/source 1");
+  move(5, 5);
+  key(kKeyDelete);
+  frame();
+  EXPECT_EQ(sent(), Texts{"source remove 1"});
+}
+
+using Said = Tools;
+
+TEST_F(Said, WithTheRemedyOfAPoorAnswer) {
+  run("source set 0");
+  run("time-factor 3000");
+  frames(3);
+  const auto& error = session_.explored().a->error;
+  ASSERT_TRUE(error && error->remedy);
+  const auto remedies = settings_of(error->advice);
+  ASSERT_FALSE(remedies.empty());
+  const std::string change = remedies[0].name + ' ' + remedies[0].values.at(0);
+  EXPECT_TRUE(is_drawn("Notices/" + change)) << change;
+  EXPECT_TRUE(is_drawn("Quality/" + change));
+  click_item("Exact error/" + change);
+  EXPECT_EQ(sent().back(), change);
+  frames(3);
+  EXPECT_FALSE(is_drawn("Exact error/" + change));
+}
+
+TEST_F(Said, WhichOfSeveralDroppedFilesIsOpened) {
+  panels_->drop({session_.state().model, "/no/other.obj"});
+  frames(2);
+  EXPECT_TRUE(is_drawn("Notices/close"));
 }
 
 TEST(SourceNames, AreShort) {
