@@ -37,9 +37,16 @@ constexpr Law kRowSeconds = {0.00272, 0.0616};  ///< of a source in a block of s
 constexpr double kAnswersOfVertex = 2 * 2 * 16 * sizeof(double);
 
 /// One mesh over ranks (docs/large_scale.md): what a rank has before, and of each vertex it owns;
-/// torus of a million faces, half a million vertices a rank, one thread.
+/// torus of a million faces, half a million vertices a rank.
 constexpr double kRankBytes = 56 * kMegabyte, kShareBytes = 1150;
-constexpr double kShareSetup = 4.4e-6, kShareQuery = 4.8e-6;  ///< seconds
+/// Seconds of a processor for a vertex of a rank, plane of 1.1M faces on one rank: to read and
+/// share out; blocks with their factors; one solve of a block; BoomerAMG, and an iteration with it.
+constexpr double kSharing = 1.0e-6, kBlocks = 3.2e-6, kBlockSolve = 0.2e-6, kAmg = 2.4e-6,
+                 kIteration = 0.25e-6;
+/// On good meshes 9 to 14.
+constexpr double kIterations = 15;
+/// How often a block solves: 4.4 times of 16 blocks, and as blocks^0.15 with more (6.7 of 256).
+double solves_of_block(double blocks) { return 4.4 * std::pow(blocks / 16, 0.15); }
 /// Numbers of PETSc have 32 bits.
 constexpr double kMaxShared = std::numeric_limits<Index>::max();
 
@@ -54,19 +61,25 @@ Result<double> whole_number(const std::string& text, const char* option) {
 }
 
 struct SharedPlan {
-  double own, blocks, rounds, bytes, setup, query;
+  double own, blocks, rounds, bytes;
+  double sharing, setup, heat, poisson;  ///< seconds; set-up without the sharing
 };
 
 /// One source on a mesh that ranks share.
 SharedPlan plan_shared(double vertices, double ranks) {
   const double own = std::ceil(vertices / ranks);
-  const double blocks = ranks * std::ceil(own / kMostOfBlock);
+  const double blocks_of_rank = std::ceil(own / kMostOfBlock), blocks = ranks * blocks_of_rank;
+  const double rounds = std::ceil(2 * std::sqrt(blocks) + 6);
+  // A round takes as long as a block at least, a rank as long as all its solves.
+  const double solves = std::max(rounds, blocks_of_rank * solves_of_block(blocks));
   return {.own = own,
           .blocks = blocks,
-          .rounds = std::ceil(2 * std::sqrt(blocks) + 6),
+          .rounds = rounds,
           .bytes = kRankBytes + kShareBytes * own,
-          .setup = kShareSetup * own,
-          .query = kShareQuery * own};
+          .sharing = kSharing * own,
+          .setup = kBlocks * own,
+          .heat = solves * kBlockSolve * own / blocks_of_rank,
+          .poisson = (kAmg + kIterations * kIteration) * own};
 }
 
 }  // namespace
@@ -101,11 +114,16 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   const bool shared = *sources == 1 && *ranks > 1;
   const double most_vertices = shared ? kMaxShared : kMaxVertices;
   if (*vertices > most_vertices) {
-    return Error{ErrorCode::kBadInput,
-                 std::string("--vertices: ") + (shared ? "ranks share" : "a process holds") +
-                     " meshes of up to " + grouped(static_cast<std::int64_t>(most_vertices)) +
-                     " vertices, not " + grouped(static_cast<std::int64_t>(*vertices)) +
-                     "; simplify the mesh first"};
+    return Error{
+        ErrorCode::kBadInput,
+        std::string("--vertices: ") + (shared ? "ranks share" : "a process holds") +
+            " meshes of up to " + grouped(static_cast<std::int64_t>(most_vertices)) +
+            " vertices, not " + grouped(static_cast<std::int64_t>(*vertices)) +
+            (shared || *vertices > kMaxShared
+                 ? "; simplify the mesh first"
+                 : "; rows of many sources are made by processes that hold all of it, while "
+                   "ranks share it for one row, from any number of sources (leave "
+                   "--sources out, and give --ranks)")};
   }
   Outputs outputs;
   if (!arguments.json.empty()) {
@@ -118,8 +136,8 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
   const double rows = std::min(16 * most, *sources);
   const double idle = shared ? 0.0 : std::max(0.0, *ranks - blocks);
   const SharedPlan share = plan_shared(*vertices, *ranks);
-  const double setup = shared ? share.setup : kSetupSeconds.at(*vertices);
-  const double queries = shared          ? share.query
+  const double setup = shared ? share.sharing + share.setup : kSetupSeconds.at(*vertices);
+  const double queries = shared          ? share.heat + share.poisson
                          : *sources == 1 ? kQuerySeconds.at(*vertices)
                                          : rows * kRowSeconds.at(*vertices);
   const double bytes =
@@ -144,6 +162,9 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
       json["plan"]["vertices_of_rank"] = share.own;
       json["plan"]["blocks"] = share.blocks;
       json["plan"]["rounds"] = share.rounds;
+      json["plan"]["sharing_seconds"] = share.sharing;
+      json["plan"]["heat_seconds"] = share.heat;
+      json["plan"]["poisson_seconds"] = share.poisson;
     }
     const auto written = outputs.write_text(arguments.json, report_text(json), out.text);
     if (!written) return written.error();
@@ -164,9 +185,14 @@ Result<CommandOutput> run_plan(const PlanArguments& arguments) {
                                       (idle > 0 ? "; " + count(idle) + " ranks have none" : "")});
   }
   table.add_row({"set-up", seconds_in_words(setup) +
-                               (shared ? ", one thread a rank" : ", two threads a rank")});
-  table.add_row(
-      {"queries", seconds_in_words(queries) + (shared ? ", without waiting for the network" : "")});
+                               (shared ? ", " + seconds_in_words(share.sharing) +
+                                             " of it to read and share out; one thread a rank"
+                                       : ", two threads a rank")});
+  table.add_row({"queries", seconds_in_words(queries) +
+                                (shared ? ", heat " + seconds_in_words(share.heat) + ", Poisson " +
+                                              seconds_in_words(share.poisson) +
+                                              "; without waiting for the network"
+                                        : "")});
   table.add_row({"array", bytes_in_words(file) + ", half of it as float32"});
   out.text = table.text();
   out.made = outputs.made();

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,6 +24,9 @@ namespace geotherm {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Follows the name of a file that is being written.
+constexpr const char* kBeside = ".tmp-";
 
 enum State : int { kFree, kTaken, kOpening, kOpen };
 
@@ -125,6 +129,28 @@ std::string target_of(const std::string& path) {
   return unresolved ? path : resolved;
 }
 
+/// Removes what programs that were killed have left of this file: each locks what it writes, and a
+/// lock ends with its owner.
+void remove_abandoned(const std::string& target) {
+  const fs::path path(target);
+  const std::string begin = path.filename().string() + kBeside;
+  std::error_code unknown;
+  std::vector<std::string> found;
+  fs::directory_iterator at(path.has_parent_path() ? path.parent_path() : ".", unknown);
+  for (; !unknown && at != fs::directory_iterator(); at.increment(unknown)) {
+    if (!at->path().filename().string().starts_with(begin)) continue;
+    // One without a byte may have been opened just now, and be locked next.
+    std::error_code gone;
+    if (at->is_regular_file(gone) && at->file_size(gone) > 0) found.push_back(at->path().string());
+  }
+  for (const std::string& name : found) {
+    const int file = ::open(name.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(name.c_str());
+    ::close(file);
+  }
+}
+
 }  // namespace
 
 /// Never freed: the handler of a signal may be reading the list at any moment.
@@ -181,7 +207,7 @@ struct GrowingFile::State {
   /// A file of a new name beside the target; 0, or the system's error code.
   int open_beside(std::optional<mode_t> mode) {
     constexpr int kMaxAttempts = 1000;
-    const std::string stem = target + ".tmp-" + std::to_string(::getpid()) + '-';
+    const std::string stem = target + kBeside + std::to_string(::getpid()) + '-';
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
       const std::string name = stem + std::to_string(attempt);
       unfinished.reset();  // before errno is set
@@ -190,6 +216,7 @@ struct GrowingFile::State {
       if (unfinished->descriptor() < 0) return errno;
       file = unfinished->descriptor();
       temporary = name;
+      ::flock(file, LOCK_EX | LOCK_NB);  // remove_abandoned()
       if (mode) ::fchmod(file, *mode & 07777);
       return 0;
     }
@@ -216,6 +243,7 @@ Result<GrowingFile> GrowingFile::open(const std::string& path) {
   }
   if (exists && ::access(path.c_str(), W_OK) != 0) return failure(path, errno);
   state->target = target_of(path);
+  remove_abandoned(state->target);
   const int code =
       state->open_beside(exists ? std::optional(status.st_mode) : std::optional<mode_t>());
   if (code != 0) return failure(path, code);
@@ -243,12 +271,14 @@ Result<void> GrowingFile::finish() {
     if (std::fflush(stdout) == 0) return {};
     return failure("standard output", errno);
   }
+  const int owned = ::dup(state_->file);  // keeps the lock until it has its name
   const int closed = ::close(std::exchange(state_->file, -1));
   int code = closed == 0 ? 0 : errno;
   if (code == 0 && !state_->temporary.empty()) {
     if (::rename(state_->temporary.c_str(), state_->target.c_str()) != 0) code = errno;
     if (code == 0) state_->temporary.clear();
   }
+  if (owned >= 0) ::close(owned);
   state_->abandon();
   return code == 0 ? Result<void>() : failure(state_->path, code);
 }

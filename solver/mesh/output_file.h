@@ -15,9 +15,10 @@ namespace geotherm {
 
 /// A file that is written piece by piece: beside its place until finish() renames it, so that it is
 /// there whole or not at all. Without finish(), or where a signal ends the program
-/// (remove_unfinished_files()), nothing is left. A link stays a link, and a device or a pipe is
-/// written to as it is. "-" is standard output, through the C stream. For one thread at a time.
-/// Errors (kBadFile) carry the path and the system's reason.
+/// (remove_unfinished_files()), nothing is left; what a program that was killed has left of the
+/// same file the next one removes. A link stays a link, and a device or a pipe is written to as it
+/// is. "-" is standard output, through the C stream. For one thread at a time. Errors (kBadFile)
+/// carry the path and the system's reason.
 class GrowingFile {
  public:
   static Result<GrowingFile> open(const std::string& path);

@@ -69,6 +69,16 @@ for signal in TERM INT; do
   for _ in $(seq 50); do [ -n "$(find . -name 'rows.npy*')" ] || break; sleep 0.1; done
   [ -z "$(find . -name 'rows.npy*')" ] || fail "$signal: something was left: $(ls)"
 done
+# What ranks that were killed have left, which nobody can remove then, the next run removes.
+mpirun --oversubscribe -q -n 2 "$program" solve many.ply -s random:9000 --each --no-check --threads 1 -o rows.npy >/dev/null 2>&1 &
+launcher=$!
+for _ in $(seq 300); do [ -z "$(find . -name 'rows.npy.*' -size +0)" ] || break; sleep 0.1; done
+for process in $(pgrep -P "$launcher"); do kill -KILL "$process" || true; done
+wait "$launcher" && fail "ranks were killed, and mpirun is content"
+[ -n "$(find . -name 'rows.npy.*')" ] || fail "nothing was left to be removed"
+ranks 2 "$program" solve many.ply -s random:20 --each --no-check --threads 1 -o rows.npy >/dev/null
+[ "$(find . -name 'rows.npy*' | wc -l)" = 1 ] || fail "what was abandoned is there still: $(ls)"
+rm rows.npy
 # Without the library of MPI.
 GEOTHERM_MPI_MODULE=none refused 2 'geotherm-mpi' "$program" solve bunny -s 0,1 --each -o rows.npy
 

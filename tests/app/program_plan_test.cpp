@@ -38,12 +38,26 @@ TEST_F(PlanProgram, SharesOneMeshOfOneSource) {
   EXPECT_EQ(plan["blocks"], 256 * 27);
   EXPECT_EQ(plan["rounds"], 173);  // 2 sqrt(6912) + 6, up
   const Json twice = this->plan({"--vertices", "1e9", "--ranks", "512"});
-  EXPECT_NEAR(plan["queries_seconds"], 2.0 * double{twice["queries_seconds"]}, 1e-3);
+  EXPECT_NEAR(plan["poisson_seconds"], 2.0 * double{twice["poisson_seconds"]}, 1e-3);
+  EXPECT_NEAR(plan["setup_seconds"], 2.0 * double{twice["setup_seconds"]}, 1e-3);
+  EXPECT_NEAR(plan["queries_seconds"],
+              double{plan["heat_seconds"]} + double{plan["poisson_seconds"]}, 1e-9);
   expect_refused({"plan", "--vertices", "1e10", "--ranks", "9"}, "2,147,483,647");
+}
+
+TEST_F(PlanProgram, CountsTheRoundsThatRanksWaitFor) {
+  const Json few = plan({"--vertices", "300000", "--ranks", "2"});
+  const Json many = plan({"--vertices", "1.5e8", "--ranks", "1000"});
+  ASSERT_EQ(few["vertices_of_rank"], many["vertices_of_rank"]);
+  EXPECT_EQ(few["poisson_seconds"], many["poisson_seconds"]);
+  const double more = double{many["rounds"]} / double{few["rounds"]};
+  EXPECT_NEAR(many["heat_seconds"], more * double{few["heat_seconds"]}, 1e-9);
 }
 
 TEST_F(PlanProgram, RefusesWhatNoProcessHoldsAndWhatIsNoCount) {
   expect_refused({"plan", "--vertices", "1e9"}, "715,827,882");
+  expect_refused({"plan", "--vertices", "1e9", "--ranks", "256", "--sources", "3"},
+                 "one row, from any number of sources");
   expect_refused({"plan", "--vertices", "many"}, "--vertices");
   expect_refused({"plan", "--vertices", "1e6", "--ranks", "0"}, "--ranks");
   expect_refused({"plan", "--vertices", "1e6", "--sources", "1.5"}, "--sources");

@@ -61,5 +61,33 @@ TEST(InterruptedWrite, LeavesWholeFilesAndNoOthers) {
   EXPECT_GT(written, 0);
 }
 
+/// SIGKILL leaves no time for anything: the next writer of the same file clears up, but only after
+/// those that have ended.
+TEST(InterruptedWrite, WhatWasKilledIsRemovedByTheNextWriter) {
+  const TemporaryDirectory folder;
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto file = GrowingFile::open(folder.path("a"));
+    const bool begun = file && file->append("half");
+    [[maybe_unused]] const auto told = ::write(ready[1], begun ? "x" : "", begun ? 1 : 0);
+    ::close(ready[1]);
+    for (;;) ::pause();
+  }
+  ::close(ready[1]);
+  char begun = 0;
+  ASSERT_EQ(::read(ready[0], &begun, 1), 1);
+  ::close(ready[0]);
+  EXPECT_TRUE(write_file(folder.path("a"), "whole"));
+  EXPECT_EQ(folder.names().size(), 2U);  // the child's, too
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(write_file(folder.path("a"), "whole"));
+  EXPECT_EQ(folder.names().size(), 1U);
+  EXPECT_EQ(bytes_of(folder.path("a")), "whole");
+}
+
 }  // namespace
 }  // namespace geotherm::test
