@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "app/cli/commands.h"
+#include "app/cli/many_work.h"
 #include "app/cli/vertex_columns.h"
 #include "app/picture/direction_picture.h"
 #include "app/session/model.h"
@@ -152,6 +153,7 @@ void add_log_map_options(CLI::App& command, LogMapArguments& arguments) {
                      true);
   add_line_picture_options(command, arguments.settings);
   add_max_distance_option(command, arguments.max_distance);
+  add_target_option(command, arguments.targets, "the places");
   add_setting_options(command, arguments.settings, {"method"});
   add_quiet_option(command, arguments.quiet);
   command.footer(
@@ -181,6 +183,9 @@ Result<CommandOutput> run_log_map(const LogMapArguments& arguments, const Progre
   const auto work = begin(arguments.model, asked->reading, *source, "log maps are", progress);
   if (!work) return work.error();
   const TriangleMesh& mesh = *work->model.mesh;
+  auto targets = targets_of(arguments.targets, work->model);
+  if (!targets) return targets.error();
+  options.targets = *std::move(targets);
   const Stopwatch watch;
   const auto map = work->directions->log_map(work->point, options, part_of(progress, 0.2, 1));
   if (!map) return about_model(work->model.name, map.error());

@@ -152,15 +152,7 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
                    "which source is the nearest, in .csv and .npy as well; .ply and .vtp have it "
                    "wherever there are several sources");
   add_max_distance_option(command, arguments.max_distance);
-  command
-      .add_option("--target", arguments.targets,
-                  "asks for the distances of these vertices alone, given as sources are; may be "
-                  "repeated; the methods but heat end when they have them")
-      ->type_name("VERTICES")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Reach");
+  add_target_option(command, arguments.targets, "the distances");
   add_many_options(command, arguments);
   add_sequence_options(command, arguments.sequence);
   add_quiet_option(command, arguments.quiet);

@@ -239,7 +239,8 @@ struct LogMapArguments {
   std::string model;
   SettingArguments settings;
   std::string source;
-  std::string max_distance;  ///< empty: all of the surface
+  std::string max_distance;          ///< empty: all of the surface
+  std::vector<std::string> targets;  ///< none: all vertices
   std::vector<std::string> outputs;
   std::string json;
   bool quiet = false;

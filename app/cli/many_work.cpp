@@ -113,15 +113,19 @@ Result<Reach> reach_of(const SolveArguments& arguments, const Model& model) {
   const auto most = max_distance_in(arguments.max_distance);
   if (!most) return most.error();
   reach.max_distance = *most;
-  if (arguments.targets.empty()) return reach;
-  const auto named = sources_of({arguments.targets, {}, false});
+  auto targets = targets_of(arguments.targets, model);
+  if (!targets) return targets.error();
+  reach.targets = *std::move(targets);
+  return reach;
+}
+
+Result<std::vector<Index>> targets_of(const std::vector<std::string>& texts, const Model& model) {
+  if (texts.empty()) return std::vector<Index>();
+  const auto named = sources_of({texts, {}, false});
   if (!named) return about("--target", named.error());
   const auto each = resolve_each(*named, model);
   if (!each) return about("--target", each.error());
-  auto vertices = vertices_of_each(*each, "--target: number");
-  if (!vertices) return vertices.error();
-  reach.targets = *std::move(vertices);
-  return reach;
+  return vertices_of_each(*each, "--target: number");
 }
 
 namespace {

@@ -78,6 +78,9 @@ using TakeRow = std::function<Result<void>(std::size_t row, const DistanceResult
 /// What `--max-distance` and `--target` ask for. Errors: kBadInput, with the option.
 Result<Reach> reach_of(const SolveArguments& arguments, const Model& model);
 
+/// The vertices that --target names; none: there are no texts. Errors: the same.
+Result<std::vector<Index>> targets_of(const std::vector<std::string>& texts, const Model& model);
+
 /// The vertices of sources that are one each. `option`: for messages. Errors: kBadInput.
 Result<std::vector<Index>> vertices_of_each(const EachSource& each, const std::string& option);
 

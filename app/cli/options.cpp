@@ -211,6 +211,20 @@ void add_max_distance_option(CLI::App& command, std::string& text) {
       ->group("Reach");
 }
 
+void add_target_option(CLI::App& command, std::vector<std::string>& texts,
+                       const std::string& what) {
+  command
+      .add_option("--target", texts,
+                  "asks for " + what +
+                      " of these vertices alone, given as sources are; may be repeated; the "
+                      "methods but heat end when they have them")
+      ->type_name("VERTICES")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Reach");
+}
+
 Result<double> max_distance_in(const std::string& text) {
   if (text.empty()) return kUnreached;
   const auto most = number_in<double>(text);

@@ -62,6 +62,8 @@ void add_source_options(CLI::App& command, SourceArguments& arguments);
 void add_quiet_option(CLI::App& command, bool& quiet);
 /// --max-distance, and what it says. Errors: kBadInput.
 void add_max_distance_option(CLI::App& command, std::string& text);
+/// `what`: "the distances", for the help.
+void add_target_option(CLI::App& command, std::vector<std::string>& texts, const std::string& what);
 Result<double> max_distance_in(const std::string& text);
 
 /// The files that these name, which no output may replace.

@@ -46,6 +46,11 @@ TEST_F(Program, LogMapByWavesEndsWhereItIsTold) {
       EXPECT_NEAR(near["log_map"]["distances"][v].get<double>(), d, 1e-3) << v;
     }
   }
+  const Json at =
+      json({"logmap", "bunny", "-s", "17", "--target", "900,3", "--target", "5", "--json", "-"});
+  EXPECT_EQ(at["reached"], 3);
+  EXPECT_EQ(at["log_map"]["directions"][900], exact["log_map"]["directions"][900]);
+  expect_refused({"logmap", "bunny", "-s", "17", "--target", "5000"}, "--target");
   expect_refused({"logmap", "bunny", "-s", "17", "--method", "heat"}, "heat");
   expect_refused({"logmap", "bunny", "-s", "17", "--max-distance", "0"}, "--max-distance");
 }
