@@ -39,7 +39,7 @@ for argument in "$@"; do
     --dev) packages+=(ccache clang-format locales vulkan-validationlayers xvfb xauth xdotool
       assimp-testmodels zsh fish help2man man-db lintian desktop-file-utils appstream
       shared-mime-info pkg-config mmdebstrap python3-numpy python3-scipy python3-pytest python3-pip
-      python3-venv mypy chromium python3-jsonschema "${site[@]}" "${cluster[@]}") ;;
+      python3-venv mypy chromium python3-jsonschema python3-meshio "${site[@]}" "${cluster[@]}") ;;
     --mpi) packages+=("${cluster[@]}") ;;
     --site) packages+=("${site[@]}") ;;
     --package) packages+=(help2man dpkg-dev) ;;
