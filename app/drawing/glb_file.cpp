@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,12 +7,14 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 
 #include "app/drawing/picture_scene.h"
 #include "app/drawing/scene_files.h"
 #include "app/drawing/scene_mesh.h"
 #include "engine/scene/colours.h"
 #include "engine/scene/line_set.h"
+#include "solver/mesh/io/scene_reader.h"
 
 namespace geotherm::app {
 namespace {
@@ -100,6 +103,18 @@ class ModelSpace {
   Vec3 centre_, translation_ = Vec3::Zero();
 };
 
+/// The turn to the y that is up in glTF, of models whose up is another axis.
+Eigen::Quaterniond turn_of(UpAxis up) {
+  const auto axes = axes_of(up);
+  Eigen::Matrix3d turn;
+  for (int row = 0; row < 3; ++row) {
+    for (int k = 0; k < 3; ++k) {
+      turn(row, k) = axes[static_cast<std::size_t>(row)][static_cast<std::size_t>(k)];
+    }
+  }
+  return Eigen::Quaterniond(turn);
+}
+
 /// glTF multiplies light in linear colours.
 std::uint16_t linear_short(float srgb) {
   const double x = std::clamp(static_cast<double>(srgb), 0.0, 1.0);
@@ -115,6 +130,15 @@ Colour16 linear_colour(const glm::vec3& c) {
 bool paints_faces(const PictureData& data, const PictureSettings& settings) {
   return scene_of(data, settings, picture_scale(data, settings)).surface.paint ==
          engine::Paint::kFaces;
+}
+
+/// On the colour map, 0 to 1 between the ends.
+float place_on(const engine::SurfaceStyle& style, float value) {
+  const float width = style.range_max - style.range_min;
+  if (!(width > 0)) return 0;
+  if (!style.log) return (value - style.range_min) / width;
+  return value > 0 ? std::log(value / style.range_min) / std::log(style.range_max / style.range_min)
+                   : 0;
 }
 
 /// What the view paints, one colour a vertex.
@@ -139,8 +163,7 @@ std::vector<Colour16> colours_of(const SceneMesh& mesh, const PictureData& shown
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const float value = style.paint == engine::Paint::kFaces ? shown.face_values[i / 3]
                                                              : shown.values[mesh.origin[i]];
-    const float width = style.range_max - style.range_min;
-    const float place = width > 0 ? (value - style.range_min) / width : 0;
+    const float place = place_on(style, value);
     colours[i] =
         linear_colour(value == kNoPictureValue ? engine::kNoValueColour
                                                : engine::colour_at(*map, place, settings.reverse));
@@ -263,6 +286,15 @@ Result<std::string> glb_file(const PictureData& shown, const PictureData& whole,
              std::move(extras));
   }
   add_node("paths", paths_mesh(shown, space, buffer), {});
+
+  const UpAxis up = settings.camera.up == UpAxis::kAuto ? whole.up : settings.camera.up;
+  if (up != UpAxis::kAuto && up != UpAxis::kY && !nodes.empty()) {
+    const Eigen::Quaterniond turn = turn_of(up);
+    nodes.push_back({{"name", std::string(io::kTurnedRoot) + geotherm::to_text(up)},
+                     {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
+                     {"children", std::move(roots)}});
+    roots = GlbJson::array({nodes.size() - 1});
+  }
 
   GlbJson extras = GlbJson::object();
   for (const FileText& text : texts) extras[text.keyword] = text.text;

@@ -5,6 +5,7 @@
 
 #include <assimp/BaseImporter.h>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 
@@ -19,7 +20,9 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solver/core/text.h"
@@ -225,6 +228,22 @@ int collada_up_axis(std::string_view text, int otherwise) {
   return axis >= 'X' && axis <= 'Z' ? axis - 'X' : otherwise;
 }
 
+/// The axis, 0 to 2, that the root of a scene of `render` turns to y; absent: another scene.
+std::optional<int> turned_axis(const aiScene& scene) {
+  constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+  aiString program;
+  if (scene.mMetaData == nullptr || scene.mRootNode == nullptr ||
+      !scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, program) ||
+      std::string_view(program.C_Str()) != "geotherm") {
+    return std::nullopt;
+  }
+  const std::string_view name = scene.mRootNode->mName.C_Str();
+  if (!name.starts_with(kTurnedRoot)) return std::nullopt;
+  const auto* const axis = std::ranges::find(kAxes, name.substr(kTurnedRoot.size()));
+  if (axis == kAxes.end()) return std::nullopt;
+  return static_cast<int>(axis - kAxes.begin());
+}
+
 }  // namespace
 
 RawMesh read_scene_here(std::string_view bytes, std::string_view format,
@@ -245,8 +264,10 @@ RawMesh read_scene_here(std::string_view bytes, std::string_view format,
   }
   const std::unique_ptr<const aiScene> scene(importer->ReadFile(&all, name, &files));
   if (!scene) fail_in_assimp(*importer);
-  RawMesh raw = SceneMesh(*scene).read(known->keeps_root);
-  raw.up_axis = format == "dae" ? collada_up_axis(bytes, known->up_axis) : known->up_axis;
+  const std::optional<int> turned = turned_axis(*scene);
+  RawMesh raw = SceneMesh(*scene).read(known->keeps_root && !turned);
+  raw.up_axis =
+      format == "dae" ? collada_up_axis(bytes, known->up_axis) : turned.value_or(known->up_axis);
   return raw;
 }
 

@@ -8,6 +8,10 @@
 
 namespace geotherm::io {
 
+/// The name of the root of a glTF scene that turns a model to y up, before the model's own axis,
+/// such as "z"; the reader takes the turn back.
+inline constexpr std::string_view kTurnedRoot = "up is ";
+
 /// What Assimp reads, in this process. `folder`: with its slash, where files that the model names
 /// are; empty: nowhere. Throws ReadFailure and std::bad_alloc; what is damaged may end the process.
 RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder);
