@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -104,15 +104,16 @@ class ModelSpace {
 };
 
 /// The turn to the y that is up in glTF, of models whose up is another axis.
-Eigen::Quaterniond turn_of(UpAxis up) {
+glm::dquat turn_of(UpAxis up) {
   const auto axes = axes_of(up);
-  Eigen::Matrix3d turn;
+  glm::dmat3 turn;  // by columns
   for (int row = 0; row < 3; ++row) {
-    for (int k = 0; k < 3; ++k) {
-      turn(row, k) = axes[static_cast<std::size_t>(row)][static_cast<std::size_t>(k)];
-    }
+    const auto& [x, y, z] = axes[static_cast<std::size_t>(row)];
+    turn[0][row] = x;
+    turn[1][row] = y;
+    turn[2][row] = z;
   }
-  return Eigen::Quaterniond(turn);
+  return glm::quat_cast(turn);
 }
 
 /// glTF multiplies light in linear colours.
@@ -289,9 +290,9 @@ Result<std::string> glb_file(const PictureData& shown, const PictureData& whole,
 
   const UpAxis up = settings.camera.up == UpAxis::kAuto ? whole.up : settings.camera.up;
   if (up != UpAxis::kAuto && up != UpAxis::kY && !nodes.empty()) {
-    const Eigen::Quaterniond turn = turn_of(up);
+    const glm::dquat turn = turn_of(up);
     nodes.push_back({{"name", std::string(io::kTurnedRoot) + geotherm::to_text(up)},
-                     {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
+                     {"rotation", {turn.x, turn.y, turn.z, turn.w}},
                      {"children", std::move(roots)}});
     roots = GlbJson::array({nodes.size() - 1});
   }
