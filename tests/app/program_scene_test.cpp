@@ -158,7 +158,11 @@ TEST_F(ProgramScene, GltfStandsUprightAndReadsBack) {
   }
   std::filesystem::rename(folder.path("a.glb"), folder.path("b.glb"));
   const Glb again = glb({"b.glb", "--view", "smooth"});
-  EXPECT_EQ(bounds(again), bounds(plain));
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(bounds(again)[end][k].get<double>(), bounds(plain)[end][k].get<double>(), 1e-6);
+    }
+  }
   EXPECT_EQ(again.json["nodes"], turned.json["nodes"]);
 }
 
