@@ -87,9 +87,11 @@ struct RenderRow {
   Index triangles = 0;
   int samples = 0;
   double frame_ms = kNotMeasured;
+  double form_ms = kNotMeasured;  ///< the same view shaded by its form
   double fill_ms = kNotMeasured;  ///< the same mesh as a bare shaded fill
 
   double ratio() const { return frame_ms / fill_ms; }
+  double form_ratio() const { return form_ms / frame_ms; }
 };
 
 struct RenderBench {

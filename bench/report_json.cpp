@@ -125,7 +125,9 @@ std::string to_json(const BenchRun& run) {
                              {"samples", row.samples},
                              {"frame_ms", value(row.frame_ms)},
                              {"fill_ms", value(row.fill_ms)},
-                             {"fill_ratio", value(row.ratio())}});
+                             {"fill_ratio", value(row.ratio())},
+                             {"form_ms", value(row.form_ms)},
+                             {"form_ratio", value(row.form_ratio())}});
   }
   if (!run.render.rows.empty()) {
     out["render_device"] = {{"name", run.render.device}, {"peak_mb", run.render.peak_mb}};

@@ -125,13 +125,16 @@ std::string moving_text(const MovingRow& row) {
 std::string render_text(const RenderBench& bench) {
   std::string text;
   if (!bench.rows.empty()) {
-    text += format("\nDrawing on %s, 1280x720; ratio to a bare shaded fill\n%-15s",
-                   bench.device.c_str(), "view");
-    text += format("%10s%9s%10s%8s\n", "triangles", "samples", "ms", "ratio");
+    text += format(
+        "\nDrawing on %s, 1280x720, plain; ratio to a bare shaded fill, and of shading "
+        "by form to that\n%-15s",
+        bench.device.c_str(), "view");
+    text += format("%10s%9s%10s%8s%8s\n", "triangles", "samples", "ms", "ratio", "form");
   }
   for (const RenderRow& row : bench.rows) {
     text += format("%-15s%10d%9d", row.view.c_str(), row.triangles, row.samples) +
-            milliseconds(row.frame_ms, 10) + number(row.ratio(), 8, 2, "x") + "\n";
+            milliseconds(row.frame_ms, 10) + number(row.ratio(), 8, 2, "x") +
+            number(row.form_ratio(), 8, 2, "x") + "\n";
   }
   if (bench.peak_mb > 0) text += format("Device memory at most %.0f MB\n", bench.peak_mb);
   if (!bench.failure.empty()) text += "Drawing was not measured: " + bench.failure + "\n";

@@ -53,6 +53,12 @@ vec3 map_colour(float x) {
   return colour_number(int(clamp(x, 0.0, 1.0) * float(kColourSteps - 1) + 0.5));
 }
 
+// On the colour map, 0 to 1 between its ends.
+float place_of(float value) {
+  float measure = (features & kLogarithmic) != 0 ? log2(max(value, 1e-37)) : value;
+  return measure * frame.range.x + frame.range.y;
+}
+
 #include "regions.glsl"
 
 // Lines so close that they are only their mean leave the colours readable.
@@ -63,14 +69,15 @@ const float kDensest = 0.5;
 float varies(float change, float value) { return change > 1e-12 * value * value ? 1.0 : 0.0; }
 
 // Share of the pixel that isolines cover; `phase` is the value in spacings, and lines are the zeros of
-// sin(pi phase) but the one at 0, where the sources are.
-float isolines(float phase) {
+// sin(pi phase) but the one at 0, where the sources are. `line`: the value of the nearest.
+float isolines(float phase, out float line) {
   float dx = dFdx(phase);
   float dy = dFdy(phase);
   float change = dx * dx + dy * dy;
   float square = change + 1e-30;
   float apart = inversesqrt(square);  // pixels from line to line
-  float away = abs(phase - max(round(phase), 1.0)) * apart;
+  line = max(round(phase), 1.0);
+  float away = abs(phase - line) * apart;
   float width = frame.line.w;
   float cover = clamp(0.5 * width + 0.5 - away, 0.0, 1.0);
   float mean = min(width * (square * apart), kDensest);
@@ -78,16 +85,18 @@ float isolines(float phase) {
 }
 
 // The same of lines at chosen values, measured from the nearest of them.
-float level_lines(float value) {
+float level_lines(float value, out float line) {
   float dx = dFdx(value);
   float dy = dFdy(value);
   float change = dx * dx + dy * dy;
   float pixels = inversesqrt(change + 1e-30);  // of a value of 1
-  float away = kLargestValue;
+  line = kLargestValue;
   for (int i = 0; i < int(frame.level_count.x); ++i) {
-    away = min(away, abs(value - frame.levels[i / 4][i % 4]));
+    float level = frame.levels[i / 4][i % 4];
+    line = abs(value - level) < abs(value - line) ? level : line;
   }
-  return varies(change, value) * clamp(0.5 * frame.line.w + 0.5 - away * pixels, 0.0, 1.0);
+  float away = abs(value - line) * pixels;
+  return varies(change, value) * clamp(0.5 * frame.line.w + 0.5 - away, 0.0, 1.0);
 }
 
 // Share of the pixel that the triangle's edges cover. b: distance from each side over its height.
@@ -138,17 +147,17 @@ void main() {
   float value = eye_and_value.w;
   // Computed first and chosen from then: cheaper than branches.
   bool known = abs(value) < kLargestValue;
-  // On the colour map.
-  float measure = (features & kLogarithmic) != 0 ? log2(max(value, 1e-37)) : value;
-  float place = measure * frame.range.x + frame.range.y;
+  float place = place_of(value);
   if ((features & kMapped) != 0) {
     vec3 mapped = map_colour(place);
     c = known ? mapped : kNoValueColour;
   }
   if ((features & kRegions) != 0) c = region_colour();
   if ((features & (kIsolines | kLevels)) != 0) {
-    float cover = (features & kLevels) != 0 ? level_lines(value) : isolines(value);
-    bool within = (features & kMapped) == 0 || abs(place - 0.5) < 0.5001;  // the map's range
+    float line;
+    float cover = (features & kLevels) != 0 ? level_lines(value, line) : isolines(value, line);
+    // A line at an end of the map's range is whole.
+    bool within = (features & kMapped) == 0 || abs(place_of(line) - 0.5) < 0.5001;
     lines = known && within ? cover : 0.0;
   }
   float wire = 0.0;

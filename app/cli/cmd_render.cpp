@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -90,6 +91,33 @@ Result<std::vector<Source>> targets_of(const std::vector<std::string>& texts) {
   return targets;
 }
 
+/// Of several models --grid 2x1 says columns and rows; what the values of a grid mean, which it
+/// says otherwise, stays where it is. Errors: kBadInput (another number of rows).
+Result<RenderArguments> with_grid_of_models(RenderArguments arguments) {
+  const auto typed = arguments.settings.texts.find("grid");
+  if (arguments.more_models.empty() || typed == arguments.settings.texts.end()) return arguments;
+  const std::string text = typed->second;
+  const std::size_t cross = std::min(text.find('x'), text.size());
+  const auto columns = number_in<int>(text.substr(0, cross));
+  const auto rows = number_in<int>(text.substr(std::min(cross + 1, text.size())));
+  if (!columns || !rows) return arguments;
+  const int models = 1 + static_cast<int>(arguments.more_models.size());
+  if (!arguments.columns.empty()) {
+    return Error{ErrorCode::kBadInput,
+                 "--grid and --columns both say how models are placed; leave one of them out"};
+  }
+  if (*columns < 1 || *columns > models || (models + *columns - 1) / *columns != *rows) {
+    const int most = std::clamp(*columns, 1, models);
+    return Error{ErrorCode::kBadInput,
+                 "--grid: '" + one_line(text) + "' is no grid of " + std::to_string(models) +
+                     " models, columns before rows; give " + std::to_string(most) + 'x' +
+                     std::to_string((models + most - 1) / most) + ", or --columns N"};
+  }
+  arguments.columns = std::to_string(*columns);
+  arguments.settings.texts.erase(typed);
+  return arguments;
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
@@ -101,7 +129,8 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("");
   command
       .add_option("--columns", arguments.columns,
-                  "of several models, default as many as suit the picture's shape")
+                  "of several models, default as many as suit the picture's shape; with the rows "
+                  "--grid 2x1")
       ->type_name("N");
   command
       .add_option(
@@ -154,8 +183,11 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
       "  geotherm render body.obj --sequence walk.pc2 -s 17 -o 'walk_%04d.png'");
 }
 
-Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& drawing,
+Result<CommandOutput> run_render(const RenderArguments& typed, Drawing& drawing,
                                  const Progress& progress) {
+  const auto placed = with_grid_of_models(typed);
+  if (!placed) return placed.error();
+  const RenderArguments& arguments = *placed;
   const std::vector<std::string> colour_maps = drawing.colour_maps();
   const auto asked = settings_in(arguments.settings);
   if (!asked) return asked.error();
@@ -233,8 +265,12 @@ Result<CommandOutput> run_render(const RenderArguments& arguments, Drawing& draw
     note_unused_settings(arguments.settings, options, figures.solve->warnings);
     out.warnings = figures.solve->warnings;
   }
-  figures.scale = picture_scale(*data, *settings);
-  if (format == SceneFormat::kGlb) figures.scale.spacing = 0;  // lines have no place there
+  if (format == SceneFormat::kGlb) figures.settings.bands = 0;  // nor have lines a place there
+  figures.scale = picture_scale(*data, figures.settings);
+  if (format == SceneFormat::kGlb) {
+    figures.scale.spacing = 0;
+    figures.scale.levels.clear();
+  }
   data->caption = caption_of(figures);
   note_picture(arguments, figures, *data, drawing, out.warnings);
   if (outputs.uses_stdout() && figures.device.software && !arguments.quiet) {

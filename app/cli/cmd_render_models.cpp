@@ -81,9 +81,10 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
                                         const RenderPlaces& places, DrawingDevice device,
                                         Drawing& drawing, Outputs& outputs,
                                         const Progress& progress) {
-  if (figure_format(arguments.output) || scene_format(arguments.output)) {
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(arguments.output) +
-                                           " shows one model; for several give -o FILE.png"};
+  if (scene_format(arguments.output)) {
+    return Error{ErrorCode::kBadInput,
+                 "--output: " + one_line(arguments.output) +
+                     " shows one model; for several give -o FILE.png, FILE.pdf or FILE.svg"};
   }
   const auto columns = columns_of(arguments, asked.settings);
   if (!columns) return columns.error();
@@ -131,7 +132,7 @@ Result<CommandOutput> run_render_models(const RenderArguments& arguments, const 
   note_picture(arguments, all.front(), cells.front(), drawing, out.warnings);
 
   FrameWriter writer(arguments, outputs, all.front(), part_of(progress, 0.9, 1), out.text);
-  Result<void> drawn = drawing.draw_cells(cells, *columns, shared, writer.taker());
+  Result<void> drawn = drawing.draw_cells(cells, *columns, shared, writer.taker(), writer.as());
   if (drawn) drawn = writer.finish();
   if (!drawn) {
     outputs.remove_written();

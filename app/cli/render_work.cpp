@@ -70,6 +70,22 @@ Result<void> draw_paths(const std::vector<Source>& targets, ModelSolver& solver,
   return {};
 }
 
+/// Says that no isoline is there of the values that were asked for.
+void note_values(const PictureFigures& figures, const PictureData& data,
+                 std::vector<Warning>& warnings) {
+  const PictureScale& scale = figures.scale;
+  if (figures.settings.line_values.empty() || scale.levels.empty() || !scale.coloured) return;
+  const double low = std::max(scale.min, data.smallest_value * data.value_unit);
+  const double high = std::min(scale.max, data.greatest_value * data.value_unit);
+  const bool some = std::ranges::any_of(
+      scale.levels, [&](double level) { return level >= low && level <= high; });
+  if (some) return;
+  warnings.push_back({"there is no isoline: none of --values " +
+                      values_text(figures.settings.line_values) + " lies between " +
+                      significant(low) + " and " + significant(high) +
+                      ", which the picture shows"});
+}
+
 void note_scale(const PictureFigures& figures, std::vector<Warning>& warnings) {
   const std::optional<double>& asked = figures.settings.line_spacing;
   const bool drawn = figures.scale.spacing > 0 || !figures.scale.levels.empty();
@@ -126,6 +142,16 @@ void note_figure(const RenderArguments& arguments, const PictureFigures& figures
   if (!figures.settings.slice) note({"slice-at"}, "nothing is sliced");
   if (arguments.targets.empty()) note({"path-kind"}, "no --path is drawn");
   const PictureSettings& s = figures.settings;
+  // Small pictures for screens have no legend, and nobody asked for one.
+  if (s.text_size || s.paper) {
+    const std::vector<std::string> left_out = drawing.left_out(data, s);
+    if (!left_out.empty()) {
+      warnings.push_back({"there is no room for " + joined(left_out) + " at " +
+                              std::to_string(s.width) + " x " + std::to_string(s.height) +
+                              " pixels",
+                          {"give a smaller ", SettingHint{"text-size"}}});
+    }
+  }
   for (const auto& [name, text] : {std::pair<const char*, std::string>{"--title", s.title},
                                    {"--bar-label", s.bar_label},
                                    {"--units", s.units},
@@ -157,6 +183,11 @@ Result<void> check_figure(const PictureSettings& settings, const MethodOptions& 
     return Error{ErrorCode::kBadInput,
                  "--colour-scale log: the errors of --view exact-error have both signs and no "
                  "logarithm; choose diverging, or another view"};
+  }
+  if (!is_error && !settings.line_values.empty() && settings.line_values.front() <= 0) {
+    return Error{ErrorCode::kBadInput, "--values: " + number_text(settings.line_values.front()) +
+                                           " is no distance of an isoline; give numbers above 0, "
+                                           "in model units, such as 0.1,0.2,0.5"};
   }
   if (settings.line_spacing && !settings.line_values.empty()) {
     return Error{ErrorCode::kBadInput,
@@ -267,6 +298,7 @@ Result<PictureData> prepare_picture(const RenderArguments& arguments, const View
 void note_picture(const RenderArguments& arguments, const PictureFigures& figures,
                   const PictureData& data, const Drawing& drawing, std::vector<Warning>& warnings) {
   note_scale(figures, warnings);
+  note_values(figures, data, warnings);
   note_figure(arguments, figures, data, drawing, warnings);
   note_empty(data, figures.settings, warnings);
 }

@@ -74,6 +74,12 @@ class EngineDrawing final : public Drawing {
     return out;
   }
 
+  std::vector<std::string> left_out(const PictureData& data,
+                                    const PictureSettings& settings) const override {
+    const engine::Legend legend = legend_of(data, settings, picture_scale(data, settings));
+    return engine::lay_out(legend, glm::vec2(settings.width, settings.height)).left_out;
+  }
+
   Result<Colours> colours(const std::string& name) const override {
     const engine::ColourMap* map = engine::find_colour_map(name);
     if (map == nullptr) {
@@ -153,10 +159,11 @@ class EngineDrawing final : public Drawing {
   }
 
   Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
-                          const PictureSettings& settings, const TakeFrame& frame) override {
+                          const PictureSettings& settings, const TakeFrame& frame,
+                          DrawAs as) override {
     if (!renderer_) return Error{ErrorCode::kNoDevice, "no device has been opened to draw on"};
     for (int i = 0; i < frame_count(settings); ++i) {
-      auto picture = draw_table(cells, columns, settings, i);
+      auto picture = draw_table(cells, columns, settings, i, as);
       if (!picture) {
         if (picture.error().code == ErrorCode::kNoDevice) close();
         return picture.error();
@@ -182,17 +189,9 @@ class EngineDrawing final : public Drawing {
   }
 
  private:
-  /// The model, or what a cut leaves of it. `positions`: those of the data.
-  Result<void> upload(const PictureData& data, const PictureSettings& settings,
-                      const std::vector<glm::vec3>& positions) {
-    if (!is_cut(data, settings)) return upload_picture(*renderer_, data, settings, positions);
-    const PictureData cut = cut_picture(data, settings).data;
-    return upload_picture(*renderer_, cut, settings, scene_vectors(cut.positions));
-  }
-
   /// One frame of cells: what is written about all of them, and each in its place.
   Result<DrawnPicture> draw_table(const std::vector<PictureData>& cells, int columns,
-                                  const PictureSettings& settings, int frame) {
+                                  const PictureSettings& settings, int frame, DrawAs as) {
     const PictureData words = words_about(cells);
     const PictureScale scale = picture_scale(words, settings);
     const glm::vec2 extent(settings.width, settings.height);
@@ -203,8 +202,12 @@ class EngineDrawing final : public Drawing {
     blank.background = scene_of(words, settings, scale).background;
     blank.surface.visible = blank.markers.visible = blank.lines.visible = false;
     blank.camera = engine::make_camera({}, {}, extent);
-    auto whole = engine::draw_picture(*device_, *renderer_, blank, layout.overlay);
+    const bool apart = as == DrawAs::kFigure;
+    auto whole = engine::draw_picture(*device_, *renderer_, blank,
+                                      apart ? engine::Overlay() : layout.overlay);
     if (!whole) return whole.error();
+    auto figure = std::make_shared<Figure>();
+    if (apart) figure->append(FigureShapes().of(words, blank, layout.overlay));
 
     const int rows = (static_cast<int>(cells.size()) + columns - 1) / columns;
     const glm::ivec2 corner(glm::ceil(glm::vec2(layout.insets.left, layout.insets.top)));
@@ -218,7 +221,11 @@ class EngineDrawing final : public Drawing {
     const glm::vec2 room(one.width, one.height);
     for (std::size_t k = 0; k < cells.size(); ++k) {
       const std::vector<glm::vec3> positions = scene_vectors(cells[k].positions);
-      if (auto done = upload(cells[k], one, positions); !done) return done.error();
+      std::optional<PictureData> cut;
+      if (is_cut(cells[k], one)) cut = cut_picture(cells[k], one).data;
+      const PictureData& shown = cut ? *cut : cells[k];
+      const auto places = cut ? scene_vectors(cut->positions) : positions;
+      if (auto done = upload_picture(*renderer_, shown, one, places); !done) return done.error();
       const PictureScale own = picture_scale(cells[k], one);  // the same, without a bar
       engine::Legend label = legend_of(cells[k], one, own);
       if (label.line_height <= 0) label.line_height = usual_line(extent);
@@ -226,10 +233,17 @@ class EngineDrawing final : public Drawing {
       engine::Scene scene = scene_of(cells[k], one, own);
       scene.camera =
           camera_of(cells[k], frame_camera(settings, frame), positions, room, below.insets);
-      const auto image = engine::draw_picture(*device_, *renderer_, scene, below.overlay);
-      if (!image) return image.error();
       const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
       const glm::ivec2 place = corner + glm::ivec2(column * one.width, row * one.height);
+      if (apart) {
+        const auto shapes = FigureShapes::build(shown, scene.surface);
+        if (!shapes) return shapes.error();
+        figure->append(shapes->of(shown, scene, below.overlay), {place.x, place.y});
+        scene = FigureShapes::rest_of(scene);
+      }
+      const auto image = engine::draw_picture(*device_, *renderer_, scene,
+                                              apart ? engine::Overlay() : below.overlay);
+      if (!image) return image.error();
       for (int y = 0; y < image->height; ++y) {
         const auto from = image->pixels.begin() + std::ptrdiff_t{4} * y * image->width;
         const auto to =
@@ -237,7 +251,9 @@ class EngineDrawing final : public Drawing {
         std::copy_n(from, std::ptrdiff_t{4} * image->width, to);
       }
     }
-    return DrawnPicture{whole->width, whole->height, std::move(whole->pixels)};
+    DrawnPicture picture{whole->width, whole->height, std::move(whole->pixels)};
+    if (apart) picture.figure = std::move(figure);
+    return picture;
   }
 
   void close() {

@@ -3,15 +3,18 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <string>
 
 #include "app/drawing/picture_scene.h"
 #include "app/drawing/scene_files.h"
 #include "app/drawing/scene_mesh.h"
 #include "engine/scene/colours.h"
 #include "engine/scene/line_set.h"
+#include "solver/mesh/io/scene_reader.h"
 
 namespace geotherm::app {
 namespace {
@@ -100,6 +103,19 @@ class ModelSpace {
   Vec3 centre_, translation_ = Vec3::Zero();
 };
 
+/// The turn to the y that is up in glTF, of models whose up is another axis.
+glm::dquat turn_of(UpAxis up) {
+  const auto axes = axes_of(up);
+  glm::dmat3 turn;  // by columns
+  for (int row = 0; row < 3; ++row) {
+    const auto& [x, y, z] = axes[static_cast<std::size_t>(row)];
+    turn[0][row] = x;
+    turn[1][row] = y;
+    turn[2][row] = z;
+  }
+  return glm::quat_cast(turn);
+}
+
 /// glTF multiplies light in linear colours.
 std::uint16_t linear_short(float srgb) {
   const double x = std::clamp(static_cast<double>(srgb), 0.0, 1.0);
@@ -115,6 +131,15 @@ Colour16 linear_colour(const glm::vec3& c) {
 bool paints_faces(const PictureData& data, const PictureSettings& settings) {
   return scene_of(data, settings, picture_scale(data, settings)).surface.paint ==
          engine::Paint::kFaces;
+}
+
+/// On the colour map, 0 to 1 between the ends.
+float place_on(const engine::SurfaceStyle& style, float value) {
+  const float width = style.range_max - style.range_min;
+  if (!(width > 0)) return 0;
+  if (!style.log) return (value - style.range_min) / width;
+  return value > 0 ? std::log(value / style.range_min) / std::log(style.range_max / style.range_min)
+                   : 0;
 }
 
 /// What the view paints, one colour a vertex.
@@ -139,8 +164,7 @@ std::vector<Colour16> colours_of(const SceneMesh& mesh, const PictureData& shown
   for (std::size_t i = 0; i < colours.size(); ++i) {
     const float value = style.paint == engine::Paint::kFaces ? shown.face_values[i / 3]
                                                              : shown.values[mesh.origin[i]];
-    const float width = style.range_max - style.range_min;
-    const float place = width > 0 ? (value - style.range_min) / width : 0;
+    const float place = place_on(style, value);
     colours[i] =
         linear_colour(value == kNoPictureValue ? engine::kNoValueColour
                                                : engine::colour_at(*map, place, settings.reverse));
@@ -263,6 +287,15 @@ Result<std::string> glb_file(const PictureData& shown, const PictureData& whole,
              std::move(extras));
   }
   add_node("paths", paths_mesh(shown, space, buffer), {});
+
+  const UpAxis up = settings.camera.up == UpAxis::kAuto ? whole.up : settings.camera.up;
+  if (up != UpAxis::kAuto && up != UpAxis::kY && !nodes.empty()) {
+    const glm::dquat turn = turn_of(up);
+    nodes.push_back({{"name", std::string(io::kTurnedRoot) + geotherm::to_text(up)},
+                     {"rotation", {turn.x, turn.y, turn.z, turn.w}},
+                     {"children", std::move(roots)}});
+    roots = GlbJson::array({nodes.size() - 1});
+  }
 
   GlbJson extras = GlbJson::object();
   for (const FileText& text : texts) extras[text.keyword] = text.text;

@@ -21,7 +21,7 @@ class NoDrawing final : public Drawing {
     return no_renderer();
   }
   Result<void> draw_cells(const std::vector<PictureData>&, int, const PictureSettings&,
-                          const TakeFrame&) override {
+                          const TakeFrame&, DrawAs) override {
     return no_renderer();
   }
   Result<std::string> scene_file(SceneFormat, const PictureData&, const PictureSettings&,

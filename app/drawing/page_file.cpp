@@ -22,6 +22,7 @@
 #include "engine/scene/arrows.h"
 #include "engine/scene/line_set.h"
 #include "engine/scene/uniforms.h"
+#include "solver/core/text.h"
 
 namespace geotherm::app {
 namespace {
@@ -319,12 +320,13 @@ Result<std::string> page_file(const PictureData& shown, const PictureData& whole
                           embedded::page_legend_js(), embedded::page_page_js()}) {
     script += text_in(part);
   }
-  return filled(text_in(embedded::page_page_html()),
-                {{"title", title == texts.end() ? "geotherm" : html_text(title->text)},
-                 {"style", std::string(text_in(embedded::page_page_css()))},
-                 {"scene", std::move(head)},
-                 {"data", base64(*data)},
-                 {"script", std::move(script)}});
+  return filled(
+      text_in(embedded::page_page_html()),
+      {{"title", title == texts.end() ? "geotherm" : html_text(geotherm::printable(title->text))},
+       {"style", std::string(text_in(embedded::page_page_css()))},
+       {"scene", std::move(head)},
+       {"data", base64(*data)},
+       {"script", std::move(script)}});
 }
 
 }  // namespace geotherm::app

@@ -57,6 +57,12 @@ class Drawing {
   /// The letters of a text that pictures show as a box, such as "'x' (U+1234)", each once. Needs no
   /// device.
   virtual std::vector<std::string> missing_letters(const std::string& /*text*/) const { return {}; }
+  /// What is written about a picture and has no room in it, such as "the colour bar". Needs no
+  /// device.
+  virtual std::vector<std::string> left_out(const PictureData& /*data*/,
+                                            const PictureSettings& /*settings*/) const {
+    return {};
+  }
   /// The colours of a map, near to far, as sRGB bytes. Needs no device. Errors: kNotAvailable (no
   /// such map), kNoDevice (this build has no renderer).
   using Colours = std::vector<std::array<std::uint8_t, 3>>;
@@ -80,7 +86,8 @@ class Drawing {
   /// colour bar for all. Preconditions: open(), 1 <= columns, some cells; the settings give all of
   /// them one scale.
   virtual Result<void> draw_cells(const std::vector<PictureData>& cells, int columns,
-                                  const PictureSettings& settings, const TakeFrame& frame) = 0;
+                                  const PictureSettings& settings, const TakeFrame& frame,
+                                  DrawAs as = DrawAs::kPixels) = 0;
 
   /// The bytes of a file of what draw() would show. `texts`: what it says about itself. Needs no
   /// device. Errors: kBadInput (coordinates beyond what the format holds), kOutOfMemory, kNoDevice

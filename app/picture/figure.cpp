@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace geotherm::app {
 namespace {
@@ -24,7 +25,7 @@ using Context = std::unique_ptr<cairo_t, Destroy<cairo_destroy>>;
 using Gradient = std::unique_ptr<cairo_pattern_t, Destroy<cairo_pattern_destroy>>;
 using FontFace = std::unique_ptr<cairo_font_face_t, Destroy<cairo_font_face_destroy>>;
 
-constexpr double kPointsAPixel = 0.75;  // 96 pixels an inch
+constexpr int kUsualDpi = 96;
 
 cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), count);
@@ -163,12 +164,37 @@ void describe(cairo_surface_t* pdf, const std::vector<FileText>& texts) {
 
 }  // namespace
 
+void Figure::append(Figure other, const Eigen::Vector2d& by) {
+  for (Stroke& stroke : other.strokes) {
+    for (Outline& part : stroke.parts) {
+      for (Eigen::Vector2d& point : part) point += by;
+    }
+    strokes.push_back(std::move(stroke));
+  }
+  for (Box& box : other.boxes) {
+    box.min += by;
+    box.max += by;
+    boxes.push_back(std::move(box));
+  }
+  for (Letters& text : other.letters) {
+    text.base += by;
+    letters.push_back(std::move(text));
+  }
+  font = other.font;
+}
+
 Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
-                                 const std::vector<FileText>& texts) {
+                                 const std::vector<FileText>& texts, std::optional<int> dpi) {
   const MemoryFont font(picture.figure->font);
   if (font.face() == nullptr) return Error{ErrorCode::kBadFile, "the font cannot be read"};
   std::string bytes;
-  const double scale = format == FigureFormat::kPdf ? kPointsAPixel : 1;
+  // Of a PDF points; of an SVG millimetres on paper, and pixels elsewhere.
+  double scale = 1;
+  if (format == FigureFormat::kPdf) {
+    scale = 72.0 / dpi.value_or(kUsualDpi);
+  } else if (dpi) {
+    scale = 25.4 / *dpi;
+  }
   const double width = scale * picture.width, height = scale * picture.height;
   Surface page;
   if (format == FigureFormat::kPdf) {
@@ -176,7 +202,7 @@ Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat forma
     describe(page.get(), texts);
   } else {
     page.reset(cairo_svg_surface_create_for_stream(append, &bytes, width, height));
-    cairo_svg_surface_set_document_unit(page.get(), CAIRO_SVG_UNIT_PX);
+    cairo_svg_surface_set_document_unit(page.get(), dpi ? CAIRO_SVG_UNIT_MM : CAIRO_SVG_UNIT_PX);
   }
   const Context context(cairo_create(page.get()));
   cairo_scale(context.get(), scale, scale);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct Figure {
   std::vector<Box> boxes;
   std::vector<Letters> letters;
   std::span<const std::byte> font;  ///< a TrueType file
+
+  /// Puts all of another one on top, so far from the corner.
+  void append(Figure other, const Eigen::Vector2d& by = Eigen::Vector2d::Zero());
 };
 
 /// The same picture has the same bytes.
@@ -45,10 +49,11 @@ enum class FigureFormat { kSvg, kPdf };
 /// Dashes and the gaps between them, of what it is from dash to dash.
 inline constexpr double kDashShare = 0.6;
 
-/// A file with the picture's pixels as an image and its shapes over it, one page of its size at 96
-/// pixels an inch. `texts`: Title, Description and others, which a PDF holds.
+/// A file with the picture's pixels as an image and its shapes over it, one page. `texts`: Title,
+/// Description and others, which a PDF holds. `dpi`: pixels an inch, which say how large the page
+/// is; absent: 96 in a PDF, and an SVG is as large as its pixels.
 /// Precondition: picture.figure. Errors: kOutOfMemory, kBadFile (the font).
 Result<std::string> figure_bytes(const DrawnPicture& picture, FigureFormat format,
-                                 const std::vector<FileText>& texts);
+                                 const std::vector<FileText>& texts, std::optional<int> dpi = {});
 
 }  // namespace geotherm::app

@@ -153,6 +153,19 @@ std::vector<const Tick*> ticks_in_row(const std::vector<Tick>& ticks, float leng
   return kept;
 }
 
+/// Words that no-break spaces join are parted where they would be cut.
+std::vector<std::string> title_lines(const GlyphAtlas& atlas, std::string title, float width,
+                                     std::size_t most) {
+  auto lines = wrapped_lines(atlas, title, width, most);
+  const auto is_cut = [](const std::string& line) { return line.ends_with(kEllipsis); };
+  if (std::none_of(lines.begin(), lines.end(), is_cut)) return lines;
+  constexpr std::string_view kJoint = "\u00a0";
+  for (auto at = title.find(kJoint); at != std::string::npos; at = title.find(kJoint, at)) {
+    title.replace(at, kJoint.size(), " ");
+  }
+  return wrapped_lines(atlas, title, width, most);
+}
+
 void draw_title(const std::vector<std::string>& title, glm::vec2 corner, const glm::vec4& ink,
                 Overlay& overlay) {
   float base = corner.y + overlay.atlas.ascent();
@@ -178,7 +191,7 @@ BarPlace draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, 
   for (const Tick& tick : legend.ticks) labels = std::max(labels, atlas.width_of(tick.label));
   float width = label_offset + labels;
   const float title_width = std::max(width, std::min(7.5F * m.line, 0.3F * extent.x));
-  const auto title = wrapped_lines(atlas, legend.title, title_width, 3);
+  const auto title = title_lines(atlas, legend.title, title_width, 3);
   for (const std::string& line : title) width = std::max(width, atlas.width_of(line));
   const float left = extent.x - m.margin - width;
 
@@ -190,7 +203,7 @@ BarPlace draw_column(const Legend& legend, const Measures& m, glm::vec2 extent, 
   const float below = legend.below ? std::max(half_line, arrow) : half_line;
   const float free = bottom - top;
   const float height = std::floor(std::min(18 * m.line, free - above - below));
-  if (height < 4 * m.line || width > 0.45F * extent.x) return {};
+  if (height < 3 * m.line || width > 0.45F * extent.x) return {};
   const float title_top = top + std::floor((free - above - height - below) / 2);
   const Bar bar{{left, title_top + above}, {left + bar_width, title_top + above + height}};
 
@@ -222,7 +235,7 @@ BarPlace draw_row(const Legend& legend, const Measures& m, glm::vec2 extent, flo
   const float arrow = legend.below || legend.above ? arrow_length(m.line) : 0;
   const float side = m.margin + std::max(half_label, arrow);
   const float length = std::floor(std::min(24 * m.line, extent.x - 2 * side));
-  const auto title = wrapped_lines(atlas, legend.title, length, 2);
+  const auto title = title_lines(atlas, legend.title, length, 2);
   const float title_room =
       title.empty() ? 0 : title_height(title, m, atlas) - std::round(0.3F * m.line);
   const float height = title_room + m.line + tick_length + atlas.line_height();

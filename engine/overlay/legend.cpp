@@ -12,6 +12,8 @@ namespace {
 /// Below this smaller side a bar would leave nothing to the model.
 constexpr float kSmallestForBar = 160;
 constexpr float kSmallestForCaption = 90;
+/// Of keys, in lines: how wide the colour is, and where the words begin.
+constexpr float kSwatch = 1.6F, kKeyOffset = 1.3F * kSwatch;
 
 Measures measures_of(const Legend& legend, glm::vec2 extent) {
   // A line is 1/38 of the smaller side: 19 pixels of 720. Letters below 13 are hard to read.
@@ -72,24 +74,58 @@ float draw_heading(const Legend& legend, const Measures& m, glm::vec2 extent, Ov
   return height + std::round(0.4F * m.line);
 }
 
-/// Height of what was drawn from `top` on, 0 where there is no room.
-float draw_keys(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
-                Overlay& overlay) {
-  const float swatch = 1.6F * m.line;
+glm::vec2 size_of_keys(const Legend& legend, const Measures& m, const GlyphAtlas& atlas) {
   float width = 0;
-  for (const Key& key : legend.keys) width = std::max(width, overlay.atlas.width_of(key.label));
-  width += 1.3F * swatch;
-  const float height = overlay.atlas.line_height() * static_cast<float>(legend.keys.size());
-  if (legend.keys.empty() || width > extent.x - 2 * m.margin || height > 0.25F * extent.y) return 0;
-  draw_paper(legend, {m.margin, top}, {m.margin + width, top + height}, m.margin, overlay);
+  for (const Key& key : legend.keys) width = std::max(width, atlas.width_of(key.label));
+  return {width + kKeyOffset * m.line,
+          atlas.line_height() * static_cast<float>(legend.keys.size())};
+}
+
+/// In the upper left corner, from `top` on.
+void draw_keys(const Legend& legend, const Measures& m, glm::vec2 size, float top,
+               Overlay& overlay) {
+  draw_paper(legend, {m.margin, top}, {m.margin + size.x, top + size.y}, m.margin, overlay);
   for (const Key& key : legend.keys) {
     const float middle = std::round(top + 0.55F * overlay.atlas.line_height());
-    draw_swatch(key, {m.margin, middle}, swatch, m, overlay);
-    overlay.add_text({m.margin + 1.3F * swatch, top + overlay.atlas.ascent()}, key.label,
+    draw_swatch(key, {m.margin, middle}, kSwatch * m.line, m, overlay);
+    overlay.add_text({m.margin + kKeyOffset * m.line, top + overlay.atlas.ascent()}, key.label,
                      glm::vec4(legend.ink, 1));
     top += overlay.atlas.line_height();
   }
-  return height;
+}
+
+/// The bar, and the keys beside it or, where that has no room, above it. Returns the height of the
+/// keys, 0 where they have no room.
+float draw_bar_and_keys(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
+                        float bottom, LegendLayout& layout, BarPlace& bar) {
+  Overlay& overlay = layout.overlay;
+  const bool wanted = legend.bar && legend.colours.size() >= 2;
+  const bool has_bar = wanted && std::min(extent.x, extent.y) >= kSmallestForBar;
+  const glm::vec2 keys = size_of_keys(legend, m, overlay.atlas);
+  const float below = keys.y + std::round(0.4F * m.line);
+  const bool has_keys =
+      !legend.keys.empty() && keys.x <= extent.x - 2 * m.margin && keys.y <= 0.25F * extent.y;
+  const std::size_t vertices = overlay.vertices.size(), boxes = overlay.boxes.size(),
+                    texts = overlay.texts.size();
+  const auto draw_from = [&](float from) {
+    overlay.vertices.resize(vertices);
+    overlay.boxes.resize(boxes);
+    overlay.texts.resize(texts);
+    if (has_bar) bar = draw_colour_bar(legend, m, extent, from, bottom, overlay);
+    return bar.max.x > 0;
+  };
+  bool drawn = draw_from(top);
+  const bool beside = keys.x <= extent.x - m.margin - std::max(bar.insets.right, m.margin);
+  // A row lies below whatever stands here.
+  bool room = has_keys && beside;
+  if (has_keys && !beside) {
+    room = draw_from(top + below);
+    drawn = room || draw_from(top);
+  }
+  if (room) draw_keys(legend, m, keys, top, overlay);
+  if (wanted && !drawn) layout.left_out.emplace_back("the colour bar");
+  if (!legend.keys.empty() && !room) layout.left_out.emplace_back("the keys of the colours");
+  return room ? below : 0;
 }
 
 }  // namespace
@@ -113,17 +149,18 @@ LegendLayout lay_out(const Legend& legend, glm::vec2 extent) {
     overlay.add_text({m.margin, top + overlay.atlas.ascent()}, caption, glm::vec4(legend.ink, 1));
     bottom = top - std::round(0.4F * m.line);
     layout.insets.bottom = extent.y - bottom;
+  } else if (!legend.caption.empty()) {
+    layout.left_out.emplace_back("the caption");
   }
   const float top = m.margin + draw_heading(legend, m, extent, overlay);
-  const float keys = draw_keys(legend, m, extent, top, overlay);
+  if (!legend.heading.empty() && top == m.margin) layout.left_out.emplace_back("the title");
+  BarPlace bar;
+  const float keys = draw_bar_and_keys(legend, m, extent, top, bottom, layout, bar);
   if (keys > 0 || top > m.margin) layout.insets.top = top + keys;
-  if (legend.bar && legend.colours.size() >= 2 && side >= kSmallestForBar) {
-    const BarPlace bar = draw_colour_bar(legend, m, extent, top, bottom, overlay);
-    layout.insets.right = bar.insets.right;
-    layout.insets.bottom = std::max(layout.insets.bottom, bar.insets.bottom);
-    layout.bar_min = bar.min;
-    layout.bar_max = bar.max;
-  }
+  layout.insets.right = bar.insets.right;
+  layout.insets.bottom = std::max(layout.insets.bottom, bar.insets.bottom);
+  layout.bar_min = bar.min;
+  layout.bar_max = bar.max;
   return layout;
 }
 

@@ -138,14 +138,15 @@ struct LegendLayout {
   Overlay overlay;
   Insets insets;   ///< what the legend takes of the picture's sides; 0 where it has nothing
   float line = 0;  ///< height of a line of text that letters and bar are sized by, pixels
-  glm::vec2 bar_min{0}, bar_max{0};  ///< corners of the bar; the same where there is none
+  glm::vec2 bar_min{0}, bar_max{0};     ///< corners of the bar; the same where there is none
+  std::vector<std::string> left_out{};  ///< parts of the legend that have no room
 };
 
 /// Lays the legend out for a picture of this size. Letters grow with the smaller side of the
 /// picture. The bar is a column at the right side, or a row along the lower edge of what is higher
 /// than wide, or the other one where that has no room; ticks whose labels would touch are thinned
-/// out; a picture that is too small for a bar or a caption has none. Cost: the glyphs'
-/// rasterisation, milliseconds.
+/// out. Keys stand beside the bar or above it. What the picture is too small for is left out. Cost:
+/// the glyphs' rasterisation, milliseconds.
 LegendLayout lay_out(const Legend& legend, glm::vec2 extent);
 
 }  // namespace geotherm::engine

@@ -68,8 +68,9 @@ class FakeDrawing final : public app::Drawing {
   }
 
   Result<void> draw_cells(const std::vector<app::PictureData>& cells, int,
-                          const app::PictureSettings& settings, const TakeFrame& frame) override {
-    return draw(cells.front(), settings, frame, app::DrawAs::kPixels);
+                          const app::PictureSettings& settings, const TakeFrame& frame,
+                          app::DrawAs as) override {
+    return draw(cells.front(), settings, frame, as);
   }
 
   Result<std::string> scene_file(app::SceneFormat format, const app::PictureData& what,

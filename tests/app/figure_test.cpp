@@ -62,6 +62,14 @@ TEST(Figures, AsSvgHoldOneImageAndShapes) {
   EXPECT_GE(count_of("<use", svg), 4U);  // letters
 }
 
+TEST(Figures, HaveTheSizeOfTheirPixelsAnInch) {
+  const auto pdf = app::figure_bytes(figured_picture(), FigureFormat::kPdf, {}, 300);
+  EXPECT_NE(pdf->find("/MediaBox [ 0 0 9.6 7.2 ]"), std::string::npos);
+  const auto svg = app::figure_bytes(figured_picture(), FigureFormat::kSvg, {}, 254);
+  EXPECT_NE(svg->find("width=\"4mm\" height=\"3mm\" viewBox=\"0 0 4 3\""), std::string::npos)
+      << svg->substr(0, 300);
+}
+
 TEST(Figures, HaveTheSameBytesEachTime) {
   EXPECT_EQ(figure_file(FigureFormat::kPdf), figure_file(FigureFormat::kPdf));
   EXPECT_EQ(figure_file(FigureFormat::kPdf).find("Date"), std::string::npos);

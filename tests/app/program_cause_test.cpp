@@ -137,6 +137,10 @@ TEST_F(Program, AllFieldsGoWhereTheyHaveAPlace) {
     EXPECT_EQ(done.err.find(file), std::string::npos) << done.err;
   }
   EXPECT_TRUE(bytes_of(folder.path("b.csv")).starts_with("vertex,distance,error\n"));
+  EXPECT_TRUE(bytes_of(folder.path("d.ply")).starts_with("ply\nformat ascii 1.0\n"))
+      << "readers of binary faces take no more than their corners";
+  EXPECT_EQ(json({"solve", "d.ply", "-s", "0", "--json", "-"})["distance"],
+            json({"solve", "bunny", "-s", "0", "--json", "-"})["distance"]);
   const auto said = [&done](const std::string& file) {
     const std::size_t at = done.err.find(file + " has no place for ");
     return at == std::string::npos ? std::string()

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Figures, several models in one picture, and films, from the built program.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <regex>
 
 #include "tests/app/png_reader.h"
 #include "tests/app/program_fixture.h"
@@ -112,6 +114,7 @@ TEST_F(ProgramFigure, RefusesWhatDoesNotGoTogether) {
   refused({"--bands", "1"}, "2 to 64");
   refused({"--fps", "20"}, "--fps is for films");
   refused({"--columns", "2"}, "several models");
+  refused({"--values", "-1,2"}, "numbers above 0");
   EXPECT_EQ(files(), 0U);
 }
 
@@ -123,7 +126,39 @@ TEST_F(ProgramFigure, SaysWhatIsNotUsedAndWhatCannotBeWritten) {
   EXPECT_NE(said({"--view", "smooth", "--units", "mm"}).find("--units is not used"),
             std::string::npos);
   EXPECT_NE(said({"--view", "smooth", "--title", "\u6f22"}).find("(U+6F22)"), std::string::npos);
+  EXPECT_NE(said({"-s", "17", "--values", "50,60"}).find("none of --values 50,60"),
+            std::string::npos);
   EXPECT_EQ(said({"--view", "smooth", "--title", "\u2207\u03c6"}), "");
+}
+
+TEST_F(ProgramFigure, HasItsSizeOnPaper) {
+  const auto file = [&](const std::string& name, std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "bunny", "--view", "smooth", "-o", name});
+    run(more);
+    return bytes_of(folder.path(name));
+  };
+  // 708.66 and 531.5 pixels, rounded.
+  EXPECT_NE(file("a.svg", {"--size", "6cmx4.5cm"}).find("width=\"60.02"), std::string::npos);
+  EXPECT_NE(file("a.pdf", {"--size", "600x300", "--dpi", "300"}).find("/MediaBox [ 0 0 144 72 ]"),
+            std::string::npos);
+}
+
+TEST_F(ProgramFigure, OfSeveralModelsHasShapesInEachCell) {
+  run({"render", "bunny", "cube", "-s", "17", "--size", "400x200", "--grid", "2x1", "--no-check",
+       "-o", "a.svg"});
+  const std::string svg = bytes_of(folder.path("a.svg"));
+  double least = 400, most = 0;  // of the strokes, which Cairo's versions write in two ways
+  const std::regex stroke("fill(:none;|=.none.)[^>]*? d=\"M ([0-9.]+)");
+  for (std::sregex_iterator at(svg.begin(), svg.end(), stroke), end; at != end; ++at) {
+    const double x = std::strtod((*at)[2].str().c_str(), nullptr);
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  EXPECT_LT(least, 150);
+  EXPECT_GT(most, 180);
+  EXPECT_LT(most, 400);
+  expect_refused({"render", "bunny", "cube", "-s", "17", "--grid", "2x2", "-o", "b.png"},
+                 "give 2x1");
 }
 
 TEST_F(ProgramFigure, OfSeveralModelsHasOneScale) {

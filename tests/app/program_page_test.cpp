@@ -60,6 +60,13 @@ TEST_F(ProgramPage, HoldsWhatThePictureHas) {
   EXPECT_NE(scene["about"].dump().find("render bunny"), std::string::npos);
 }
 
+TEST_F(ProgramPage, IsUtf8WhateverTheModelIsCalled) {
+  folder.write("caf\xe9.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string text = page({"caf\xe9.obj", "--view", "smooth"});
+  EXPECT_EQ(text.find('\xe9'), std::string::npos);
+  EXPECT_NE(text.find("<title>caf?"), std::string::npos) << between(text, "<title>", "</title>");
+}
+
 TEST_F(ProgramPage, HasTheViewsOfItsAnswer) {
   EXPECT_EQ(views_in(scene_in(page({"bunny", "--view", "triangle-quality"}))),
             (std::set<std::string>{"triangle-quality", "smooth", "flat", "wireframe"}));

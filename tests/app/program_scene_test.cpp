@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 
 #include "tests/app/program_fixture.h"
@@ -136,6 +137,50 @@ TEST_F(ProgramScene, GltfOfOtherViewsAndPaths) {
   EXPECT_EQ(path.json["materials"][0]["extensions"].count("KHR_materials_unlit"), 1U);
 }
 
+TEST_F(ProgramScene, GltfStandsUprightAndReadsBack) {
+  const auto bounds = [](const Glb& file) {
+    const int positions = file.primitive()["attributes"]["POSITION"];
+    const Json& of = file.json["accessors"][static_cast<std::size_t>(positions)];
+    return Json({of["min"], of["max"]});
+  };
+  const Glb plain = glb({"bunny", "--view", "smooth"});
+  EXPECT_EQ(plain.json["nodes"].size(), 1U);
+  const Glb turned = glb({"bunny", "--view", "smooth", "--up", "z"});
+  EXPECT_EQ(bounds(turned), bounds(plain));
+  ASSERT_EQ(turned.json["scenes"][0]["nodes"], Json::array({1}));
+  const Json& root = turned.json["nodes"][1];
+  EXPECT_EQ(root["children"], Json::array({0}));
+  const double half = std::sqrt(0.5);  // a quarter turn about x takes z to y
+  EXPECT_NEAR(root["rotation"][0].get<double>(), -half, 1e-12);
+  EXPECT_NEAR(root["rotation"][3].get<double>(), half, 1e-12);
+  if (run_program(folder.path("."), {"info", "a.glb"}).code != 0) {
+    GTEST_SKIP() << "this build reads no glTF";
+  }
+  std::filesystem::rename(folder.path("a.glb"), folder.path("b.glb"));
+  const Glb again = glb({"b.glb", "--view", "smooth"});
+  for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(bounds(again)[end][k].get<double>(), bounds(plain)[end][k].get<double>(), 1e-6);
+    }
+  }
+  EXPECT_EQ(again.json["nodes"], turned.json["nodes"]);
+}
+
+TEST_F(ProgramScene, GltfColoursAreThoseOfTheScale) {
+  const std::vector<std::string> scene = {"bunny", "-s", "17", "--range", "0.05:2"};
+  std::vector<std::string> log = scene;
+  log.insert(log.end(), {"--colour-scale", "log"});
+  const auto blue_of = [](const Glb& file) {  // of the vertex whose distance is next to 0.5
+    const Json& attributes = file.primitive()["attributes"];
+    const auto distances = file.numbers<float>(attributes["_DISTANCE"]);
+    const auto next = std::ranges::min_element(
+        distances, {}, [](float distance) { return std::abs(distance - 0.5F); });
+    const auto at = static_cast<std::size_t>(next - distances.begin());
+    return file.numbers<std::uint16_t>(attributes["COLOR_0"])[4 * at + 2];
+  };
+  EXPECT_GT(blue_of(glb(log)), blue_of(glb(scene))) << "0.62 of the way instead of 0.23";
+}
+
 TEST_F(ProgramScene, GltfIsValidForKhronos) {
   const char* const folder_of = std::getenv("GEOTHERM_GLTF_VALIDATOR");
   if (folder_of == nullptr) {
@@ -167,6 +212,10 @@ TEST_F(ProgramScene, ScenesSayWhatTheyHaveNoPlaceFor) {
       run({"render", "bunny", "-s", "0", "--azimuth", "5", "--no-bar", "-o", "a.glb"});
   EXPECT_NE(glb.err.find("no place for"), std::string::npos) << glb.err;
   EXPECT_NE(glb.err.find("azimuth"), std::string::npos) << glb.err;
+  const ProgramRun paths = run({"render", "bunny", "-s", "0", "--path", "9", "--path-kind", "all",
+                                "--colour-scale", "log", "--bands", "4", "-o", "a.glb"});
+  EXPECT_NE(paths.err.find("no place for bands\n"), std::string::npos) << paths.err;
+  EXPECT_EQ(paths.out.find("bands"), std::string::npos) << paths.out;
   EXPECT_NE(run({"render", "bunny", "--view", "wireframe", "-o", "a.glb"}).err.find("the edges"),
             std::string::npos);
   const ProgramRun page =

@@ -205,6 +205,41 @@ TEST(Legend, LeavesIsolinesOutThatWouldHideTheBar) {
   EXPECT_EQ(lay_out(legend, {1280, 720}).overlay.vertices.size(), none);
 }
 
+TEST(Legend, OfASmallPictureHasBarAndKeysInPlacesOfTheirOwn) {
+  Legend legend = sample();
+  legend.title = "distance (model\u00a0units)";
+  legend.caption = "two";
+  legend.line_height = 39;  // 8pt at 300 pixels an inch
+  legend.keys = {{.label = "not reached", .patches = {vec3(0.62F)}}};
+  for (const vec2 extent : {vec2(472, 472), vec2(945, 709), vec2(480, 700)}) {
+    const LegendLayout layout = lay_out(legend, extent);
+    EXPECT_TRUE(layout.left_out.empty());
+    EXPECT_GT(layout.bar_max.x, 0);
+    const std::vector<Box> letters = quads(layout.overlay, true);
+    const Box model{{0, layout.insets.top}, extent - vec2(layout.insets.right, 0)};
+    for (const Box& letter : letters) {
+      if (letter.max.y < extent.y / 2) EXPECT_FALSE(overlap(letter, model));
+    }
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      for (std::size_t k = i + 1; k < letters.size(); ++k) {
+        const Box shrunk{letters[k].min + vec2(1, 0), letters[k].max - vec2(1, 0)};
+        ASSERT_FALSE(overlap(letters[i], shrunk)) << extent.x << ": " << i << " " << k;
+      }
+    }
+    for (const Overlay::Text& text : layout.overlay.texts) {
+      EXPECT_FALSE(text.text.ends_with(kEllipsis)) << text.text;
+    }
+  }
+}
+
+TEST(Legend, SaysWhatHasNoRoom) {
+  Legend legend = sample();
+  EXPECT_TRUE(lay_out(legend, {1280, 720}).left_out.empty());
+  legend.line_height = 300;
+  const LegendLayout layout = lay_out(legend, {960, 720});
+  EXPECT_EQ(layout.left_out, (std::vector<std::string>{"the caption", "the colour bar"}));
+}
+
 TEST(Legend, CutsACaptionThatIsTooLong) {
   Legend legend;
   legend.caption = std::string(5000, 'm');

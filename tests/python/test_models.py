@@ -146,6 +146,24 @@ def test_meshio_objects():
         geotherm.Mesh(meshio.Mesh(V, [("tetra", tets)]))
 
 
+def test_meshio_reads_every_field(program, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"
+    (tmp_path / "two.obj").write_text(square + "v 2 0 0\nv 3 0 0\nv 2 1 0\nf 5 6 7\n")
+    outputs = ["-o", tmp_path / "d.ply", "-o", tmp_path / "d.npy"]
+    program("solve", tmp_path / "two.obj", "-s", "0", "--fields", "all", *outputs)
+    read = meshio.read(tmp_path / "d.ply")
+    distances = np.load(tmp_path / "d.npy")
+    assert np.isinf(distances).sum() == 3
+    assert np.array_equal(read.point_data["distance"], distances)
+    assert {"quality", "error"} <= set(read.point_data)
+    assert np.array_equal(read.cells[0].data, [[0, 1, 2], [0, 2, 3], [4, 5, 6]])
+    assert set(read.cell_data) == {
+        "eikonal_error", "gradient_angle", "lost_gradients", "triangle_quality", "non_delaunay"
+    }
+    assert np.array_equal(geotherm.Mesh(tmp_path / "d.ply").faces, read.cells[0].data)
+
+
 def test_welded_vertices_are_one():
     V, F, _ = grid_of(6)
     soup, loose = V[F].reshape(-1, 3), np.arange(F.size).reshape(-1, 3)

@@ -124,11 +124,11 @@ Result<void> check_distance_path(const std::string& path);
 /// Writes one distance per vertex, in the order of the file, model units, `inf` where unreached.
 /// The format is the extension's: `.csv` (`vertex,distance`, the fewest digits that read back
 /// equal),
-/// `.npy` (float64, shape V), `.ply` (binary little endian mesh with the vertex properties
-/// `double distance` and `float quality`, the same for MeshLab, where unreached vertices have the
-/// largest distance), `.vtp` (ParaView PolyData, point data `distance`). `path` "-" writes CSV to
-/// standard output. The file is written beside its place and renamed: it is there whole or not at
-/// all.
+/// `.npy` (float64, shape V), `.ply` (mesh, binary little endian but ASCII with fields of faces,
+/// with the vertex properties `double distance` and `float quality`, the same for MeshLab, where
+/// unreached vertices have the largest distance), `.vtp` (ParaView PolyData, point data
+/// `distance`). `path` "-" writes CSV to standard output. The file is written beside its place and
+/// renamed: it is there whole or not at all.
 ///
 /// With `nearest`, a number per vertex (DistanceResult::nearest_source), they have a third column
 /// `nearest_source`, shape V x 2, a property `int nearest_source` and point data of that name.

@@ -181,12 +181,46 @@ double largest_finite(std::span<const double> values) {
   return std::min(largest, double{std::numeric_limits<float>::max()});
 }
 
+/// The rows of a PLY file, as numbers or as text.
+class PlyRows {
+ public:
+  PlyRows(std::string& bytes, bool ascii) : bytes_(bytes), ascii_(ascii) {}
+
+  template <class T>
+  void add(T value) {
+    if (!ascii_) return io::append_little(bytes_, value);
+    append(bytes_, value);
+    bytes_ += ' ';
+  }
+  /// The value of one element in every field that has one there.
+  void add(std::span<const DataField> fields, DataField::Place place, std::size_t i) {
+    for (const DataField& field : fields) {
+      if (field.place != place) continue;
+      if (is_small(field)) {
+        add(static_cast<std::uint8_t>(field.values[i]));
+      } else {
+        add(field.values[i]);
+      }
+    }
+  }
+  void end() {
+    if (ascii_) bytes_.back() = '\n';
+  }
+
+ private:
+  std::string& bytes_;
+  bool ascii_;
+};
+
 }  // namespace
 
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distances,
                       std::span<const Index> nearest, std::span<const DataField> fields) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                      std::to_string(mesh.vertex_count()) +
+  // Readers that take binary faces one array after the other lose those with further properties.
+  const bool ascii =
+      std::ranges::any_of(fields, [](const DataField& field) { return field.place == kOnFaces; });
+  std::string bytes = std::string("ply\nformat ") + (ascii ? "ascii" : "binary_little_endian") +
+                      " 1.0\nelement vertex " + std::to_string(mesh.vertex_count()) +
                       "\nproperty double x\nproperty double y\nproperty double z\n";
   if (!distances.empty()) bytes += "property double distance\nproperty float quality\n";
   if (!nearest.empty()) bytes += "property int nearest_source\n";
@@ -198,19 +232,22 @@ std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> distance
   for (const DataField& field : fields) values += length_of(field);
   bytes.reserve(bytes.size() + 40 * mesh.positions().size() + 13 * mesh.faces().size() + values);
   const double largest = largest_finite(distances);
+  PlyRows rows(bytes, ascii);
   for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
-    append_little(bytes, mesh.positions()[v]);
+    for (int axis = 0; axis < 3; ++axis) rows.add(mesh.positions()[v][axis]);
     if (!distances.empty()) {
-      append_little(bytes, distances[v]);
-      append_little(bytes, static_cast<float>(std::min(distances[v], largest)));
+      rows.add(distances[v]);
+      rows.add(static_cast<float>(std::min(distances[v], largest)));
     }
-    if (!nearest.empty()) append_little(bytes, nearest[v]);
-    append_fields(bytes, fields, kOnVertices, v);
+    if (!nearest.empty()) rows.add(nearest[v]);
+    rows.add(fields, kOnVertices, v);
+    rows.end();
   }
   for (std::size_t f = 0; f < mesh.faces().size(); ++f) {
-    bytes += '\3';
-    append_faces(bytes, mesh.faces()[f]);
-    append_fields(bytes, fields, kOnFaces, f);
+    rows.add(std::uint8_t{3});
+    for (const Index corner : mesh.faces()[f]) rows.add(corner);
+    rows.add(fields, kOnFaces, f);
+    rows.end();
   }
   return bytes;
 }

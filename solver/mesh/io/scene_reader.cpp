@@ -5,6 +5,7 @@
 
 #include <assimp/BaseImporter.h>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
 #include <unistd.h>
@@ -21,7 +22,9 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -268,6 +271,22 @@ int collada_up_axis(std::string_view text, int otherwise) {
   return axis >= 'X' && axis <= 'Z' ? axis - 'X' : otherwise;
 }
 
+/// The axis, 0 to 2, that the root of a scene of `render` turns to y; absent: another scene.
+std::optional<int> turned_axis(const aiScene& scene) {
+  constexpr std::array<std::string_view, 3> kAxes = {"x", "y", "z"};
+  aiString program;
+  if (scene.mMetaData == nullptr || scene.mRootNode == nullptr ||
+      !scene.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, program) ||
+      std::string_view(program.C_Str()) != "geotherm") {
+    return std::nullopt;
+  }
+  const std::string_view name = scene.mRootNode->mName.C_Str();
+  if (!name.starts_with(kTurnedRoot)) return std::nullopt;
+  const auto* const axis = std::ranges::find(kAxes, name.substr(kTurnedRoot.size()));
+  if (axis == kAxes.end()) return std::nullopt;
+  return static_cast<int>(axis - kAxes.begin());
+}
+
 }  // namespace
 
 RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder,
@@ -289,12 +308,14 @@ RawMesh read_scene_here(std::string_view bytes, std::string_view format, const s
   const std::unique_ptr<const aiScene> scene(importer->ReadFile(&all, name, &files));
   if (!scene) fail_in_assimp(*importer);
   if (scene->mRootNode == nullptr) throw ReadFailure{"the scene is empty"};
-  SceneMesh mesh(*scene, known->keeps_root, frames != nullptr);
+  const std::optional<int> turned = turned_axis(*scene);
+  SceneMesh mesh(*scene, known->keeps_root && !turned, frames != nullptr);
   RawMesh raw = mesh.read();
   if (frames != nullptr) {
     frames->count = mesh.write_frames(frames->descriptor, raw.positions.size());
   }
-  raw.up_axis = format == "dae" ? collada_up_axis(bytes, known->up_axis) : known->up_axis;
+  raw.up_axis =
+      format == "dae" ? collada_up_axis(bytes, known->up_axis) : turned.value_or(known->up_axis);
   return raw;
 }
 

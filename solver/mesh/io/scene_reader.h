@@ -16,6 +16,10 @@ struct SceneFrames {
   std::int64_t count = 0;  ///< that were written
 };
 
+/// The name of the root of a glTF scene that turns a model to y up, before the model's own axis,
+/// such as "z"; the reader takes the turn back.
+inline constexpr std::string_view kTurnedRoot = "up is ";
+
 /// What Assimp reads, in this process. `folder`: with its slash, where files that the model names
 /// are; empty: nowhere. `frames`: null: none are wanted. Throws ReadFailure and std::bad_alloc;
 /// what is damaged may end the process.
