@@ -76,8 +76,8 @@ Result<void> FrameWriter::take(int frame, const DrawnPicture& picture) {
     const std::optional<FigureFormat> format = figure_format(arguments_.output);
     const auto texts = picture_texts(figures_, frame);
     const std::optional<int> dpi = said_dpi(figures_.settings);
-    auto bytes = format ? figure_bytes(picture, *format, texts, dpi)
-                        : png_bytes(picture, texts, dpi);
+    auto bytes =
+        format ? figure_bytes(picture, *format, texts, dpi) : png_bytes(picture, texts, dpi);
     if (!bytes) return bytes.error();
     const std::string& path = figures_.paths[static_cast<std::size_t>(frame)];
     auto written = outputs_.write_text(path, *std::move(bytes), standard_output_);
