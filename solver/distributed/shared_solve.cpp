@@ -13,6 +13,7 @@
 #include "solver/core/text.h"
 #include "solver/distributed/shared_heat.h"
 #include "solver/distributed/shared_poisson.h"
+#include "solver/distributed/shared_waves.h"
 #include "solver/geometry/clean_faces.h"
 #include "solver/geometry/tufted_cover.h"
 
@@ -25,6 +26,10 @@ constexpr double kRoundOffOfDistance = 1e-6;
 /// and the most of them.
 constexpr double kRings = 16;
 constexpr int kMostRings = 64;
+/// The same for waves: flips near a block's edge reach no farther.
+constexpr int kRingsOfWaves = 6;
+/// A band of waves, in mean edges: wider ones take fewer rounds, and fits see more old values.
+constexpr double kBand = 0.5;
 
 /// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
 class BlockFaces {
@@ -167,6 +172,23 @@ Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces
   return assessed;
 }
 
+/// How right the distances are.
+AccuracyReport verdict_on(const SharedTask& task, std::span<const double> distances,
+                          const Result<SharedWaves>& waves, double milliseconds) {
+  if (task.options.laplacian == LaplacianKind::kCotan) {
+    auto report = unmeasured(MethodKind::kHeat, "waves need Delaunay triangles, and did not check");
+    report.advice = {"use ", SettingHint{"laplacian", {"intrinsic-delaunay"}}};
+    return report;
+  }
+  if (waves) {
+    return hold_over_ranks(task.ranks, task.part, distances, waves->distances, milliseconds);
+  }
+  auto report =
+      unmeasured(MethodKind::kHeat, "the distances were not checked: " + waves.error().message);
+  report.failed = true;
+  return report;
+}
+
 /// Distances of own vertices to those who have their share of the file.
 void hand_over(const RankGroup& ranks, const MeshPart& part, const std::vector<double>& distances,
                SharedAnswer& out) {
@@ -259,7 +281,8 @@ Result<std::vector<char>> place(const RankGroup& ranks, const MeshPart& part,
 
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress) {
+                                      const MethodOptions& options, bool check,
+                                      const Progress& progress) {
   auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
   SharedAnswer out;
   report(progress, "reading", 0.0);
@@ -278,9 +301,11 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.share_ms = lap();
 
   report(progress, "operators", 0.2);
-  const BlockRules rules = {.flip = options.laplacian != LaplacianKind::kCotan,
-                            .rings = rings_for(options.time_step, components.mean_edge),
-                            .threads = thread_count(options.threads)};
+  const bool is_heat = options.method == MethodKind::kHeat;
+  const BlockRules rules = {
+      .flip = !is_heat || options.laplacian != LaplacianKind::kCotan,
+      .rings = is_heat ? rings_for(options.time_step, components.mean_edge) : kRingsOfWaves,
+      .threads = thread_count(options.threads)};
   auto blocks = build_blocks(ranks, rules, part);
   if (!blocks) return blocks.error();
   components.of.resize(static_cast<std::size_t>(part.size()), kNoIndex);
@@ -310,11 +335,38 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
                            .reached = {reached.begin(), reached.end()},
                            .threads = rules.threads};
   double flips = 0;
+  for (const MeshBlock& block : *blocks) flips += block.surface ? block.surface->flips : 0;
+  out.vertices = part.vertices;
+  out.faces = part.faces;
+  out.components = static_cast<Index>(components.sizes.size());
+  out.mean_edge = components.mean_edge;
+  for (const ComponentSize& size : components.sizes) out.area += size.area;
+  out.flips = static_cast<Index>(ranks.sum(flips));
+  out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
+  if (!is_heat) {
+    out.set_up_ms = lap();
+    report(progress, "solve", 0.5);
+    const auto waves =
+        wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+    if (!waves) return waves.error();
+    hand_over(ranks, part, distances_of(task, waves->distances, out), out);
+    out.timing.query = lap();
+    out.rounds = waves->rounds;
+    out.quality = waves->quality;
+    out.warnings = notes;
+    return out;
+  }
+  Result<SharedWaves> waves = SharedWaves();
+  double waves_ms = 0;
+  if (check && rules.flip) {
+    lap();
+    waves = wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+    waves_ms = lap();
+  }
   std::vector<SourceAnchors> anchors(blocks->size());
   for (std::size_t k = 0; k < blocks->size(); ++k) {
     MeshBlock& block = (*blocks)[k];
     if (!block.surface) continue;
-    flips += block.surface->flips;
     anchors[k] = anchors_in(task, block);
     block.surface = faces_alone(*block.surface, true);
   }
@@ -348,6 +400,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
   const std::vector<double> distances = distances_of(task, *phi, out);
+  if (check) out.error = verdict_on(task, distances, waves, waves_ms);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);
@@ -355,15 +408,8 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
 
-  out.vertices = part.vertices;
-  out.faces = part.faces;
-  out.components = static_cast<Index>(components.sizes.size());
-  out.mean_edge = components.mean_edge;
-  for (const ComponentSize& size : components.sizes) out.area += size.area;
   out.t = times->model_t;
   out.relative_t = times->relative_t;
-  out.flips = static_cast<Index>(ranks.sum(flips));
-  out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
   out.rings = rules.rings;
   out.rounds = heat->rounds;
   out.row_residual = heat->row_residual;
