@@ -28,8 +28,7 @@ constexpr double kRings = 16;
 constexpr int kMostRings = 64;
 /// The same for waves: flips near a block's edge reach no farther.
 constexpr int kRingsOfWaves = 6;
-/// A band of waves, in mean edges: wider ones take fewer rounds, and fits see more old values.
-constexpr double kBand = 0.5;
+constexpr double kBand = 0.5;  // of waves, in mean edges: in wider ones fits see more old values
 
 /// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
 class BlockFaces {
@@ -170,23 +169,6 @@ Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces
   const auto assessed = assess_heat(task.options, task.times.extreme, cells, result);
   out.warnings = std::move(result.warnings);
   return assessed;
-}
-
-/// How right the distances are.
-AccuracyReport verdict_on(const SharedTask& task, std::span<const double> distances,
-                          const Result<SharedWaves>& waves, double milliseconds) {
-  if (task.options.laplacian == LaplacianKind::kCotan) {
-    auto report = unmeasured(MethodKind::kHeat, "waves need Delaunay triangles, and did not check");
-    report.advice = {"use ", SettingHint{"laplacian", {"intrinsic-delaunay"}}};
-    return report;
-  }
-  if (waves) {
-    return hold_over_ranks(task.ranks, task.part, distances, waves->distances, milliseconds);
-  }
-  auto report =
-      unmeasured(MethodKind::kHeat, "the distances were not checked: " + waves.error().message);
-  report.failed = true;
-  return report;
 }
 
 /// Distances of own vertices to those who have their share of the file.
@@ -345,7 +327,6 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
   if (!is_heat) {
     out.set_up_ms = lap();
-    report(progress, "solve", 0.5);
     const auto waves =
         wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
     if (!waves) return waves.error();
@@ -400,7 +381,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
   const std::vector<double> distances = distances_of(task, *phi, out);
-  if (check) out.error = verdict_on(task, distances, waves, waves_ms);
+  if (check) out.error = verdict_over_ranks(ranks, part, rules.flip, distances, waves, waves_ms);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);

@@ -239,4 +239,21 @@ AccuracyReport hold_over_ranks(const RankGroup& ranks, const MeshPart& part,
   return report;
 }
 
+AccuracyReport verdict_over_ranks(const RankGroup& ranks, const MeshPart& part, bool flipped,
+                                  std::span<const double> distances,
+                                  const Result<SharedWaves>& waves, double milliseconds) {
+  if (flipped && waves) {
+    return hold_over_ranks(ranks, part, distances, waves->distances, milliseconds);
+  }
+  if (!flipped) {
+    auto report = unmeasured(MethodKind::kHeat, "waves need Delaunay triangles, and did not check");
+    report.advice = {"use ", SettingHint{"laplacian", {"intrinsic-delaunay"}}};
+    return report;
+  }
+  auto report =
+      unmeasured(MethodKind::kHeat, "the distances were not checked: " + waves.error().message);
+  report.failed = true;
+  return report;
+}
+
 }  // namespace geotherm

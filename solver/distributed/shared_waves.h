@@ -39,4 +39,9 @@ AccuracyReport hold_over_ranks(const RankGroup& ranks, const MeshPart& part,
                                std::span<const double> distances, std::span<const double> waves,
                                double milliseconds);
 
+/// The same of waves that may have failed, or where blocks are not `flipped` were not run.
+AccuracyReport verdict_over_ranks(const RankGroup& ranks, const MeshPart& part, bool flipped,
+                                  std::span<const double> distances,
+                                  const Result<SharedWaves>& waves, double milliseconds);
+
 }  // namespace geotherm
