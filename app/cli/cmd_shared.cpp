@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `geotherm solve` of one mesh that several ranks hold together (mpirun, backend petsc).
+// `geotherm solve` of one mesh that several ranks hold together (mpirun, backend petsc or
+// method wavefront).
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "app/cli/many_work.h"
 #include "app/cli/rows_file.h"
 #include "app/session/answer.h"
+#include "app/session/check.h"
 #include "app/session/machine.h"
 #include "app/session/ranks.h"
 #include "app/session/report.h"
@@ -31,7 +33,10 @@ struct SharedWork {
   std::vector<GlobalIndex> sources;
   NpyType type = NpyType::kFloat64;
   MeshCounts counts;
+  CheckSettings check;
   Outputs outputs;
+
+  bool is_heat() const { return asked.options.method == MethodKind::kHeat; }
 };
 
 /// Names the first thing that was asked for and that one process alone does. Errors: kBadInput.
@@ -48,7 +53,8 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
   const bool other_domain =
       reading.domain != ModelDomain::kAuto && reading.domain != ModelDomain::kTriangles;
   const std::pair<bool, const char*> kept[] = {
-      {options.method != MethodKind::kHeat, "--method other than heat"},
+      {options.method != MethodKind::kHeat && options.method != MethodKind::kWavefront,
+       "--method other than heat and wavefront"},
       {options.refine > 0, "--refine"},
       {options.constraint != usual.constraint, "--constraint other than pin-sources"},
       {options.heat != usual.heat, "--heat other than unit"},
@@ -60,7 +66,7 @@ Result<void> refuse_what_one_does(const SolveArguments& a, const ViewerState& as
       {reading.weld.has_value(), "--weld"},
       {!reading.mask.empty(), "--mask"},
       {a.check.check, "--check"},
-      {!a.check.on_poor.empty(), "--on-poor"},
+      {a.check.on_poor == "better", "--on-poor better"},
       {!a.fields.empty(), "--fields"},
       {!a.bake.empty(), "--bake-colours"},
       {a.labels, "--labels"},
@@ -130,6 +136,9 @@ Result<SharedWork> begin_shared(const SolveArguments& arguments, bool first) {
   const auto type = number_type(arguments);
   if (!type) return type.error();
   work.type = *type;
+  const auto check = check_settings(arguments.check);
+  if (!check) return check.error();
+  work.check = *check;
   work.path = arguments.model;
   if (is_bundled(work.path)) {
     auto file = bundled_file(work.path);
@@ -194,87 +203,100 @@ Json shared_json(const SharedWork& work, const SharedAnswer& answer, int ranks, 
   Json options;
   const ViewerState used = settings_used(work.asked);
   for (const Setting& setting : settings()) {
-    if (setting.group == SettingGroup::kMethod) {
-      options[key_of(setting)] = setting_json(setting, used);
-    }
+    if (setting.group != SettingGroup::kMethod) continue;
+    const bool unused = !work.is_heat() && setting.of_heat;
+    options[key_of(setting)] = unused ? Json(nullptr) : setting_json(setting, used);
   }
   options["threads"] = thread_count(used.options.threads);
   if (used.options.time_step.rule == TimeRule::kAbsolute) options["time_factor"] = nullptr;
-  options["t"] = answer.t;
+  const auto of_heat = [&work](auto value) { return work.is_heat() ? Json(value) : Json(nullptr); };
+  options["t"] = of_heat(answer.t);
   options["flips"] = answer.flips;
-  return {{"model",
-           {{"name", std::filesystem::path(work.path).stem().string()},
-            {"path", std::filesystem::absolute(work.path).string()},
-            {"vertices", answer.vertices},
-            {"faces", answer.faces},
-            {"components", answer.components},
-            {"mean_edge_length", answer.mean_edge},
-            {"area", answer.area}}},
-          {"options", options},
-          {"sources", work.sources},
-          {"distance",
-           {{"min", answer.least},
-            {"max", answer.most},
-            {"mean", answer.mean},
-            {"unreached", answer.unreached}}},
-          {"timing_ms",
-           {{"load", answer.read_ms},
-            {"share", answer.share_ms},
-            {"setup", answer.set_up_ms},
-            {"diffuse", answer.timing.diffuse},
-            {"gradient", answer.timing.gradient},
-            {"poisson", answer.timing.poisson},
-            {"query", answer.timing.query}}},
-          {"memory_mb", {{"factor", answer.factor_mb}, {"peak_rss", peak_mb}}},
-          {"quality", quality_json(answer.quality, true)},
-          {"error", nullptr},  // ranks hold distances against no other method
-          {"warnings", told(answer.warnings)},
-          {"ranks", ranks},
-          {"shared",
-           {{"blocks", answer.blocks},
-            {"rings", answer.rings},
-            {"rounds", answer.rounds},
-            {"row_residual", answer.row_residual}}}};
+  Json json = {{"model",
+                {{"name", std::filesystem::path(work.path).stem().string()},
+                 {"path", std::filesystem::absolute(work.path).string()},
+                 {"vertices", answer.vertices},
+                 {"faces", answer.faces},
+                 {"components", answer.components},
+                 {"mean_edge_length", answer.mean_edge},
+                 {"area", answer.area}}},
+               {"options", options},
+               {"sources", work.sources},
+               {"distance",
+                {{"min", answer.least},
+                 {"max", answer.most},
+                 {"mean", answer.mean},
+                 {"unreached", answer.unreached}}},
+               {"timing_ms",
+                {{"load", answer.read_ms},
+                 {"share", answer.share_ms},
+                 {"setup", answer.set_up_ms},
+                 {"diffuse", of_heat(answer.timing.diffuse)},
+                 {"gradient", of_heat(answer.timing.gradient)},
+                 {"poisson", of_heat(answer.timing.poisson)},
+                 {"query", answer.timing.query}}},
+               {"memory_mb", {{"factor", of_heat(answer.factor_mb)}, {"peak_rss", peak_mb}}},
+               {"quality", quality_json(answer.quality, work.is_heat())},
+               {"warnings", told(answer.warnings)},
+               {"ranks", ranks},
+               {"shared",
+                {{"blocks", answer.blocks},
+                 {"rings", of_heat(answer.rings)},
+                 {"rounds", answer.rounds},
+                 {"row_residual", of_heat(answer.row_residual)}}}};
+  if (answer.error) json["error"] = error_json(*answer.error);
+  return json;
 }
 
 std::string shared_table(const SharedWork& work, const SharedAnswer& a, int ranks, double peak_mb) {
-  const HeatOptions& options = settings_used(work.asked).options;
+  const MethodOptions options = settings_used(work.asked).options;
   const auto ms = [](double value) { return milliseconds(value) + " ms"; };
   TextTable table({{"", TextTable::Align::kLeft}, {"", TextTable::Align::kLeft}});
   table.add_row({"model", one_line(std::filesystem::path(work.path).stem().string()) + ": " +
                               counted(a.vertices, "vertex", "vertices") + ", " +
                               counted(a.faces, "face", "faces") + ", " +
                               counted(a.components, "component", "components")});
-  table.add_row({"ranks", std::to_string(ranks) + ", " + counted(a.blocks, "block", "blocks") +
-                              " with " + counted(a.rings, "ring", "rings") + " around"});
-  table.add_row({"t", significant(a.t) + " = " + significant(a.relative_t) + " h^2"});
-  table.add_row({"method", "pin-sources, heat unit, boundary neumann, " + to_text(options.variant) +
-                               ", " + to_text(options.precision) + " precision"});
-  table.add_row(
-      {"laplacian", to_text(options.laplacian) + (a.flips > 0 ? ", edges were flipped" : "")});
+  std::string blocks = std::to_string(ranks) + ", " + counted(a.blocks, "block", "blocks");
+  if (work.is_heat()) {
+    table.add_row({"ranks", blocks + " with " + counted(a.rings, "ring", "rings") + " around"});
+    table.add_row({"t", significant(a.t) + " = " + significant(a.relative_t) + " h^2"});
+    table.add_row({"method", "pin-sources, heat unit, boundary neumann, " +
+                                 to_text(options.variant) + ", " + to_text(options.precision) +
+                                 " precision"});
+    table.add_row(
+        {"laplacian", to_text(options.laplacian) + (a.flips > 0 ? ", edges were flipped" : "")});
+  } else {
+    table.add_row({"ranks", blocks + ", " + counted(a.rounds, "round", "rounds")});
+    table.add_row({"method", to_text(options.method)});
+  }
   table.add_row({"sources", counted(std::ssize(work.sources), "vertex", "vertices")});
   table.add_row({"read", ms(a.read_ms) + " + " + milliseconds(a.share_ms) + " to share it out"});
   table.add_row({"set-up", ms(a.set_up_ms)});
-  table.add_row({"query", ms(a.timing.query) + " = heat " + milliseconds(a.timing.diffuse) +
-                              " + gradient " + milliseconds(a.timing.gradient) + " + Poisson " +
-                              milliseconds(a.timing.poisson)});
-  table.add_row({"memory", milliseconds(a.factor_mb) + " MB factors, " + milliseconds(peak_mb) +
-                               " MB peak, of the largest rank"});
+  const std::string steps = " = heat " + milliseconds(a.timing.diffuse) + " + gradient " +
+                            milliseconds(a.timing.gradient) + " + Poisson " +
+                            milliseconds(a.timing.poisson);
+  table.add_row({"query", ms(a.timing.query) + (work.is_heat() ? steps : "")});
+  const std::string factors = work.is_heat() ? milliseconds(a.factor_mb) + " MB factors, " : "";
+  table.add_row({"memory", factors + milliseconds(peak_mb) + " MB peak, of the largest rank"});
   table.add_row(
       {"distance",
        significant(a.least) + " to " + significant(a.most) + ", mean " + significant(a.mean) +
            (a.unreached > 0 ? ", " + grouped(a.unreached) + " unreached" : std::string())});
-  table.add_row({"gradient", "| |grad d| - 1 | = " + significant(a.quality.eikonal_error_mean, 2) +
-                                 " on average, " +
-                                 counted(a.quality.zero_gradient_faces, "face", "faces") +
-                                 " without direction"});
+  std::string gradient =
+      "| |grad d| - 1 | = " + significant(a.quality.eikonal_error_mean, 2) + " on average";
+  if (!work.is_heat()) {
+    table.add_row({"gradient", gradient});
+    return table.text();
+  }
+  gradient += ", " + counted(a.quality.zero_gradient_faces, "face", "faces") + " without direction";
+  table.add_row({"gradient", gradient});
   table.add_row(
       {"residuals", "heat " + significant(a.quality.heat_residual, 2) + ", its worst row " +
                         significant(a.row_residual, 2) + ", after " +
                         counted(a.rounds, "round", "rounds") + "; Poisson " +
                         significant(a.quality.poisson_residual, 2) + ", after " +
                         counted(a.quality.iterations_poisson, "iteration", "iterations")});
-  table.add_row({"check", "against straight lines and edges alone, not another method"});
+  if (a.error) table.add_row({"error", told(accuracy_line(*a.error))});
   return table.text();
 }
 
@@ -283,7 +305,10 @@ std::string shared_table(const SharedWork& work, const SharedAnswer& a, int rank
 bool is_shared(const SolveArguments& arguments) {
   if (arguments.each || arguments.pairs || !has_launcher()) return false;
   const auto typed = arguments.settings.texts.find("backend");
-  return typed != arguments.settings.texts.end() && typed->second == "petsc";
+  if (typed != arguments.settings.texts.end()) return typed->second == "petsc";
+  const auto method = arguments.settings.texts.find("method");
+  return launched_as().count > 1 && method != arguments.settings.texts.end() &&
+         method->second == "wavefront";
 }
 
 Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress& progress) {
@@ -298,8 +323,13 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   const RankGroup group(**module, *started,
                         [&ranks](const Result<void>& mine) { return ranks->agree(mine); });
   const auto answer =
-      solve_over_ranks(group, work->path, work->sources, work->asked.options, progress);
+      solve_over_ranks(group, work->path, work->sources, work->asked.options,
+                       work->is_heat() && work->check.against != Check::kOff, progress);
   if (!answer) return answer.error();
+  const Warning line = answer->error ? accuracy_line(*answer->error) : Warning();
+  if (answer->error && work->check.on_poor == OnPoor::kFail) {
+    if (auto right = refuse_poor(*answer->error, line); !right) return right.error();
+  }
   for (const std::string& path : arguments.outputs) {
     const auto write = [&] { return write_shared(path, work->type, *ranks, *answer); };
     const auto written = ranks->is_first() ? work->outputs.write(path, write) : write();
@@ -314,6 +344,10 @@ Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress
   mesh.unreferenced_vertices = static_cast<Index>(answer->loose);
   for (Warning& note : unreached_notes(mesh, static_cast<Index>(answer->unreached))) {
     out.warnings.push_back(std::move(note));
+  }
+  if (answer->error) {
+    if (auto poor = accuracy_warning(*answer->error, line)) out.warnings.push_back(*poor);
+    out.note = accuracy_note(arguments.json, work->outputs, arguments.quiet, *answer->error, line);
   }
   if (!arguments.json.empty()) {
     const auto json = shared_json(*work, *answer, ranks->count(), peak_mb);

@@ -170,7 +170,8 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments) {
       "  geotherm solve bunny -s 17 --target 3,99 --method exact -o -\n"
       "  geotherm solve bunny -s 3,99,512 --pairs -o matrix.csv\n"
       "  geotherm solve body.obj --sequence 'frame_%04d.obj' -s 17 -o rows.npy\n"
-      "  mpirun -n 8 geotherm solve huge.ply -s 17 --backend petsc -o distances.npy");
+      "  mpirun -n 8 geotherm solve huge.ply -s 17 --backend petsc -o distances.npy\n"
+      "  mpirun -n 8 geotherm solve huge.ply -s 17 --method wavefront -o distances.npy");
 }
 
 namespace {

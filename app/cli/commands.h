@@ -111,7 +111,8 @@ void add_many_options(CLI::App& command, SolveArguments& arguments);
 Result<CommandOutput> run_solve(const SolveArguments& arguments, const Drawing& drawing,
                                 const Progress& progress = {}, const Announce& announce = {});
 
-/// Whether it is one mesh over the ranks of a launcher (--backend petsc), and its distances.
+/// Whether it is one mesh over the ranks of a launcher (--backend petsc, or --method
+/// wavefront as one of several), and its distances.
 bool is_shared(const SolveArguments& arguments);
 Result<CommandOutput> run_shared(const SolveArguments& arguments, const Progress& progress);
 

@@ -6,15 +6,12 @@
 #include <span>
 
 namespace geotherm {
-namespace {
 
-/// Mean of | |grad d| - 1 | by area, over the faces whose corners are all reached; 0 where there is
-/// none; edges that are too steep are counted. `distances`: V, in the units of the mesh. Cost:
-/// O(F).
-double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> distances,
-                          SteepSides& steep) {
-  double sum = 0, area = 0;
+SlopeSums sum_slopes(const IntrinsicMesh& mesh, std::span<const double> distances,
+                     SteepSides& steep, std::span<const char> some) {
+  SlopeSums sums;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!some.empty() && !some[f]) continue;
     const auto [a, b, c] = mesh.faces[f];
     const double da = distances[a], db = distances[b] - da, dc = distances[c] - da;
     if (!std::isfinite(db) || !std::isfinite(dc)) continue;
@@ -23,8 +20,8 @@ double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> dis
     const double slope_y = (dc - slope_x * layout.x) / layout.height;
     const double twice_area = layout.base * layout.height;
     const double slope = std::hypot(slope_x, slope_y);
-    sum += twice_area * std::abs(slope - 1);
-    area += twice_area;
+    sums.error += twice_area * std::abs(slope - 1);
+    sums.area += twice_area;
     if (!steep.may_be_steep(slope)) continue;
     const double differences[3] = {db, dc - db, dc};
     for (int k = 0; k < 3; ++k) {
@@ -34,10 +31,8 @@ double eikonal_error_mean(const IntrinsicMesh& mesh, std::span<const double> dis
       steep.add(differences[k], length, alone ? 1.0 : 0.5);
     }
   }
-  return area > 0 ? sum / area : 0;
+  return sums;
 }
-
-}  // namespace
 
 void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet& sources,
                   const SourceSeeds& seeds, DistanceResult& result) {
@@ -49,7 +44,7 @@ void assess_waves(MethodKind method, const WaveSurface& surface, const SourceSet
   const BoundTolerance tolerance = bound_tolerance(method);
   SteepSides steep(tolerance);
   result.quality.eikonal_error_mean =
-      eikonal_error_mean(surface.base.intrinsic, result.distances, steep);
+      sum_slopes(surface.base.intrinsic, result.distances, steep).mean();
   steep.write_to(result.quality);
   check_straight_lines(surface.base, sources, surface.base.length_unit(), tolerance, 1, result);
   add_bound_warnings(method, result);

@@ -77,7 +77,10 @@ void note_needs(double large, double obtuse, std::vector<Warning>& notes) {
 
 std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
                               const SharedComponents& components, std::span<const MeshBlock> blocks,
-                              const HeatOptions& options, double repeated) {
+                              const MethodOptions& options, double repeated) {
+  // Waves need neither more vertices nor a cover.
+  const bool as_one_would =
+      options.method != MethodKind::kHeat || options.laplacian != LaplacianKind::kAuto;
   double lengthened = 0, covers = 0, duplicates = 0;
   std::array<double, 2> needs{};
   for (const MeshBlock& block : blocks) {
@@ -87,7 +90,7 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
     const Index vertices = block.surface->mesh->vertex_count();
     if (!faces_that_need_cover(*block.surface->kept, vertices).empty()) covers = 1;
     if (block.surface->kept->duplicate > 0) duplicates = 1;
-    if (options.laplacian != LaplacianKind::kAuto) continue;
+    if (as_one_would) continue;
     const NeedCounts more = count_needs(part, components, block, options.threads);
     needs[0] += more.large;
     needs[1] += more.obtuse;
@@ -107,7 +110,7 @@ std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
   }
   ranks.combine(needs, RankGroup::Combination::kSum);
   note_needs(needs[0], needs[1], notes);
-  if (ranks.most(covers) > 0 && options.laplacian == LaplacianKind::kAuto) {
+  if (ranks.most(covers) > 0 && !as_one_would) {
     notes.push_back(
         {"the surface is no oriented manifold everywhere: edges there are not flipped, "
          "where one process would take the tufted Laplacian"});

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "geotherm/build_method.h"
 #include "geotherm/distance_method.h"
-#include "geotherm/options.h"
 #include "solver/distributed/mesh_block.h"
 #include "solver/distributed/shared_heat.h"
 
@@ -17,7 +17,7 @@ namespace geotherm {
 /// faces still. `repeated`: faces of this rank's slice that repeat a corner.
 std::vector<Warning> notes_of(const RankGroup& ranks, const MeshPart& part,
                               const SharedComponents& components, std::span<const MeshBlock> blocks,
-                              const HeatOptions& options, double repeated);
+                              const MethodOptions& options, double repeated);
 
 /// Holds the distances of own vertices (`result.distances`, in MeshPart::unit) against the straight
 /// lines from the sources; the figures are those of all ranks, clamped_reach in model units.

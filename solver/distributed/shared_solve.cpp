@@ -14,6 +14,7 @@
 #include "solver/distributed/shared_heat.h"
 #include "solver/distributed/shared_notes.h"
 #include "solver/distributed/shared_poisson.h"
+#include "solver/distributed/shared_waves.h"
 
 namespace geotherm {
 namespace {
@@ -24,6 +25,9 @@ constexpr double kRoundOffOfDistance = 1e-6;
 /// and the most of them.
 constexpr double kRings = 16;
 constexpr int kMostRings = 64;
+/// The same for waves: flips near a block's edge reach no farther.
+constexpr int kRingsOfWaves = 6;
+constexpr double kBand = 0.5;  // of waves, in mean edges: in wider ones fits see more old values
 
 /// What is asked of a block's faces after the heat step: its divergence, and figures at the end.
 class BlockFaces {
@@ -252,8 +256,8 @@ void to_model_units(double unit, SharedAnswer& out) {
 
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress,
-                                      Index most_of_block) {
+                                      const MethodOptions& options, bool check,
+                                      const Progress& progress, Index most_of_block) {
   auto lap = [&ranks, watch = Stopwatch()]() mutable { return ranks.most(watch.lap()); };
   SharedAnswer out;
   report(progress, "reading", 0.0);
@@ -275,10 +279,13 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.share_ms = lap();
 
   report(progress, "operators", 0.2);
-  const BlockRules rules = {.flip = options.laplacian != LaplacianKind::kCotan,
-                            .rings = rings_for(options.time_step, components.mean_edge * part.unit),
-                            .most = most_of_block,
-                            .threads = thread_count(options.threads)};
+  const bool is_heat = options.method == MethodKind::kHeat;
+  const double model_edge = components.mean_edge * part.unit;
+  const BlockRules rules = {
+      .flip = !is_heat || options.laplacian != LaplacianKind::kCotan,
+      .rings = is_heat ? rings_for(options.time_step, model_edge) : kRingsOfWaves,
+      .most = most_of_block,
+      .threads = thread_count(options.threads)};
   auto blocks = build_blocks(ranks, rules, part);
   if (!blocks) return blocks.error();
   fetch_halo(ranks, part, kNoIndex, components.of);
@@ -305,11 +312,40 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
                            .reached = {reached.begin(), reached.end()},
                            .threads = rules.threads};
   double flips = 0;
+  for (const MeshBlock& block : *blocks) flips += block.surface ? block.surface->flips : 0;
+  out.vertices = part.vertices;
+  out.faces = part.faces;
+  out.components = static_cast<Index>(components.sizes.size());
+  out.mean_edge = components.mean_edge;
+  for (const ComponentSize& size : components.sizes) out.area += size.area;
+  out.flips = static_cast<Index>(ranks.sum(flips));
+  out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
+  const auto loose = std::count(components.of.begin(), components.of.begin() + part.own, kNoIndex);
+  out.loose = static_cast<GlobalIndex>(ranks.sum(static_cast<double>(loose)));
+  if (!is_heat) {
+    out.set_up_ms = lap();
+    const auto waves =
+        wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+    if (!waves) return waves.error();
+    hand_over(ranks, part, distances_of(task, waves->distances, out), out);
+    out.timing.query = lap();
+    out.rounds = waves->rounds;
+    out.quality = waves->quality;
+    out.warnings = notes;
+    to_model_units(part.unit, out);
+    return out;
+  }
+  Result<SharedWaves> waves = SharedWaves();
+  double waves_ms = 0;
+  if (check && rules.flip) {
+    lap();
+    waves = wave_over_ranks(ranks, part, *blocks, *is_source, kBand * components.mean_edge);
+    waves_ms = lap();
+  }
   std::vector<SourceAnchors> anchors(blocks->size());
   for (std::size_t k = 0; k < blocks->size(); ++k) {
     MeshBlock& block = (*blocks)[k];
     if (!block.surface) continue;
-    flips += block.surface->flips;
     anchors[k] = anchors_in(task, block);
     block.surface = faces_alone(*block.surface, true);
   }
@@ -342,7 +378,8 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "poisson", 0.7);
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
-  std::vector<double> distances = distances_of(task, *phi, out);
+  const std::vector<double> distances = distances_of(task, *phi, out);
+  if (check) out.error = verdict_over_ranks(ranks, part, rules.flip, distances, waves, waves_ms);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);
@@ -350,18 +387,8 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
 
-  out.vertices = part.vertices;
-  out.faces = part.faces;
-  out.components = static_cast<Index>(components.sizes.size());
-  out.mean_edge = components.mean_edge;
-  for (const ComponentSize& size : components.sizes) out.area += size.area;
-  double loose = 0;
-  for (Index v = 0; v < part.own; ++v) loose += components.of[v] == kNoIndex ? 1 : 0;
-  out.loose = static_cast<GlobalIndex>(ranks.sum(loose));
   out.t = times->model_t;
   out.relative_t = times->relative_t;
-  out.flips = static_cast<Index>(ranks.sum(flips));
-  out.blocks = static_cast<int>(ranks.sum(static_cast<double>(blocks->size())));
   out.rings = rules.rings;
   out.rounds = heat->rounds;
   out.row_residual = heat->row_residual;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "geotherm/accuracy.h"
 #include "geotherm/distance_method.h"
 #include "geotherm/options.h"
 #include "geotherm/progress.h"
@@ -29,6 +31,7 @@ struct SharedAnswer {
   double row_residual = 0;  ///< SharedHeat::row_residual
   double factor_mb = 0;     ///< of the heat step, the rank that has most
   Quality quality;
+  std::optional<AccuracyReport> error;  ///< against wavefront; without values and histogram
   std::vector<Warning> warnings;
   double read_ms = 0, share_ms = 0, set_up_ms = 0;  ///< the slowest rank's
   QueryTiming timing;                               ///< likewise
@@ -36,13 +39,16 @@ struct SharedAnswer {
 
 /// Distances from vertices of a binary .ply of triangles that no rank holds as a whole. The heat
 /// step is solved by blocks (shared_heat.h), the Poisson step by PETSc: conjugate gradients with
-/// BoomerAMG, phi = 0 on every source. `sources`: numbers in the file. Of the options what is not
-/// the default is refused, but for: time step, Laplacian (kAuto is kIntrinsicDelaunay), variant,
-/// precision, threads. `most_of_block`: BlockRules::most. Errors, the same on all ranks: kBadFile,
-/// kBadInput, kNumericalFailure. All ranks call it. Precondition: MPI is started.
+/// BoomerAMG, phi = 0 on every source; the answer is held against waves where `check` says so. The
+/// method wavefront is shared_waves.h alone. `sources`: numbers in the file. The caller has refused
+/// other methods, and of the options what is not the default, but for: time step, Laplacian (kAuto
+/// is kIntrinsicDelaunay), variant, precision, threads. `most_of_block`: BlockRules::most. Errors,
+/// the same on all ranks: kBadFile, kBadInput, kNumericalFailure. All ranks call it. Precondition:
+/// MPI is started.
 Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string& path,
                                       std::span<const GlobalIndex> sources,
-                                      const HeatOptions& options, const Progress& progress = {},
+                                      const MethodOptions& options, bool check,
+                                      const Progress& progress = {},
                                       Index most_of_block = kMostOfBlock);
 
 }  // namespace geotherm

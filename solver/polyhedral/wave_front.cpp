@@ -8,18 +8,11 @@
 namespace geotherm {
 namespace {
 
-/// Bucket numbers are capped at this, since offsets can be of any size.
-constexpr double kLast = 1e18;
-constexpr std::int64_t kMinBuckets = 64;
-
 /// A bucket's width in mean sides, and what the ring spans in longest sides: a wave never puts an
 /// edge further ahead.
 constexpr double kBucketWidth = 0.5;
 constexpr double kRingSpan = 4;
-/// What lies this far behind the front, in longest sides of the faces that were crossed, has its
-/// final distance. Values lag behind the front by up to a side where a wave has to wait for the far
-/// end of an edge, and by as much again where that was known too large at first.
-constexpr double kSettled = 4;
+
 /// Visits between two calls of progress: a few milliseconds.
 constexpr std::size_t kVisitsBetweenCalls = 1 << 14;
 /// A wave ends as kEndless after so many visits for each edge, and at least so many in all. Broken
@@ -29,74 +22,6 @@ constexpr std::size_t kMaxVisits = 500, kMaxOfFew = 1 << 20;
 using Point2 = Eigen::Vector2d;
 
 }  // namespace
-
-BucketRing::BucketRing(double width, double span) : per_length_(1 / width) {
-  std::int64_t count = kMinBuckets;
-  while (count < kMax && static_cast<double>(count) * width < span) count *= 2;
-  buckets_.resize(static_cast<std::size_t>(count));
-  storage_.resize(buckets_.size());
-}
-
-void BucketRing::begin(WavePass& pass) {
-  for (std::size_t i = 0; i < buckets_.size(); ++i) {
-    buckets_[i] = {storage_[i].data(), 0, static_cast<Index>(storage_[i].size())};
-  }
-  outside_.clear();
-  let_in_ = 0;
-  pass.buckets = buckets_.data();
-  pass.bucket_mask = static_cast<std::int64_t>(buckets_.size()) - 1;
-  pass.current = -1;
-  pass.waiting = 0;
-  pass.per_length = per_length_;
-  pass.floor = -kUnreached;
-  pass.longest = 0;
-  pass.place = 0;
-  pass.context = this;
-  pass.grow = [](void* ring, WaveBucket& bucket) { static_cast<BucketRing*>(ring)->grow(bucket); };
-}
-
-void BucketRing::add_seeds(const std::vector<std::pair<double, Index>>& seeds) {
-  for (const auto& [key, edge] : seeds) {
-    outside_.emplace_back(static_cast<std::int64_t>(std::min(key * per_length_, kLast)), edge);
-  }
-  std::ranges::sort(outside_);
-}
-
-bool BucketRing::advance(WavePass& pass) {
-  const double front = static_cast<double>(pass.current) / per_length_;
-  pass.floor = std::max(pass.floor, front - kSettled * pass.longest);
-  ++pass.current;
-  if (pass.waiting == 0) {
-    if (let_in_ == outside_.size()) return false;
-    pass.current = std::max(pass.current, outside_[let_in_].first);
-  }
-  let_in(pass);
-  while (buckets_[static_cast<std::size_t>(pass.current & pass.bucket_mask)].size == 0 &&
-         pass.waiting > 0) {
-    ++pass.current;
-    let_in(pass);
-  }
-  return true;
-}
-
-void BucketRing::let_in(WavePass& pass) {
-  WaveBucket& bucket = buckets_[static_cast<std::size_t>(pass.current & pass.bucket_mask)];
-  for (; let_in_ < outside_.size() && outside_[let_in_].first <= pass.current; ++let_in_) {
-    const Index edge = outside_[let_in_].second;
-    if (pass.queued[edge] != 0) continue;
-    if (bucket.size == bucket.capacity) grow(bucket);
-    bucket.edges[bucket.size++] = edge;
-    pass.queued[edge] = 1;
-    ++pass.waiting;
-  }
-}
-
-void BucketRing::grow(WaveBucket& bucket) {
-  auto& edges = storage_[static_cast<std::size_t>(&bucket - buckets_.data())];
-  edges.resize(std::max<std::size_t>(2 * edges.size(), 16));
-  bucket.edges = edges.data();
-  bucket.capacity = static_cast<Index>(edges.size());
-}
 
 WaveFront::WaveFront(const WaveTables& tables, int samples, InstructionSet set)
     : tables_(tables),
@@ -114,24 +39,86 @@ WaveFront::WaveFront(const WaveTables& tables, WaveFront&& spare)
 
 WaveFront::Outcome WaveFront::run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
                                   const Progress& progress, const WaveReach& reach) {
-  reset(labels);
-  WavePass pass = this->pass();
-  ring_.begin(pass);
-  seed(surface, seeds);
-  has_ = 0;
+  start(surface, seeds, labels);
   const auto edges = static_cast<std::size_t>(tables_.edge_count());
   std::size_t next_call = kVisitsBetweenCalls;
-  while (ring_.advance(pass) && !has_all(pass, reach)) {
+  while (ring_.advance(pass_) && !has_all(pass_, reach)) {
     do {
-      visits_ += visit_current_bucket(pass, samples_, kVisitsBetweenCalls, set_);
+      visits_ += visit_current_bucket(pass_, samples_, kVisitsBetweenCalls, set_);
       if (visits_ < next_call) continue;
       next_call = visits_ + kVisitsBetweenCalls;
       const double share = std::min(static_cast<double>(visits_) / static_cast<double>(edges), 1.0);
       if (!report(progress, "solve", share)) return Outcome::kCancelled;
       if (visits_ > kMaxOfFew + kMaxVisits * edges) return Outcome::kEndless;
-    } while (pass.place > 0);
+    } while (pass_.place > 0);
   }
   return Outcome::kDone;
+}
+
+void WaveFront::start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels) {
+  reset(labels);
+  pass_ = pass();
+  ring_.begin(pass_);
+  seed(surface, seeds);
+  has_ = 0;
+}
+
+void WaveFront::begin(const WaveSurface& surface, const SourceSeeds& seeds) {
+  start(surface, seeds, false);
+  keys_.clear();
+  pass_.longest = tables_.longest_side;  // others cross faces, too
+}
+
+WaveFront::Outcome WaveFront::go_on(double from, double until) {
+  const auto edges = static_cast<std::size_t>(tables_.edge_count());
+  ring_.go_back(pass_, from);
+  while (ring_.advance_within(pass_, from, until)) {
+    do {
+      visits_ += visit_current_bucket(pass_, samples_, kVisitsBetweenCalls, set_);
+      if (visits_ > kMaxOfFew + kMaxVisits * edges) return Outcome::kEndless;
+    } while (pass_.place > 0);
+  }
+  ring_.go_back(pass_, from);
+  return Outcome::kDone;
+}
+
+void WaveFront::hear(std::span<const Heard> vertices, std::span<const Heard> edges,
+                     const std::vector<char>& is_shared) {
+  for (const auto& [rank, value] : vertices) {
+    const double before = distance_[rank];
+    if (!(value < before)) continue;
+    distance_[rank] = value;
+    for (const SideCode code : tables_.corners_at(rank)) {
+      const WaveFace& face = tables_.faces[face_of_code(code)];
+      for (const int k : {corner_of_code(code), previous_corner(corner_of_code(code))}) {
+        if (!(value < before - kNotice * face.length[k])) continue;
+        const int corner = corner_of_code(code), other = k == corner ? next_corner(k) : k;
+        if ((face.touching >> corner & 1U) != 0) {  // a visit of any edge hands it on
+          lower(distance_[face.vertex[other]], nullptr, value + face.length[k], kNoIndex);
+          lower(sample_[face.edge[k]], nullptr, value + face.length[k] / 2, kNoIndex);
+        } else if (!is_shared[face.edge[k]]) {
+          continue;
+        }
+        keys_.emplace_back(0.0, face.edge[k]);
+      }
+    }
+  }
+  for (const auto& [edge, value] : edges) {
+    const SideCode code = tables_.sides[edge][0];
+    const double length = tables_.faces[face_of_code(code)].length[corner_of_code(code)];
+    if (value < sample_[edge] - kNotice * length) keys_.emplace_back(0.0, edge);
+    lower(sample_[edge], nullptr, value, kNoIndex);
+  }
+}
+
+void WaveFront::wake() {
+  for (auto& [key, edge] : keys_) key = key_of(edge);
+  std::ranges::sort(keys_);
+  keys_.erase(std::ranges::unique(keys_).begin(), keys_.end());
+  for (const auto& [key, edge] : keys_) {
+    if (key < kUnreached) ring_.add(pass_, key, edge);
+  }
+  keys_.clear();
 }
 
 /// Whether no later visit can change what is within reach.
@@ -244,13 +231,16 @@ void WaveFront::seed(const WaveSurface& surface, const SourceSeeds& seeds) {
     }
   }
   for (const auto& piece : seeds.pieces) seed_face(surface, piece);
-  for (auto& [key, edge] : keys_) {
-    const WaveFace& face = tables_.faces[face_of_code(tables_.sides[edge][0])];
-    const int k = corner_of_code(tables_.sides[edge][0]);
-    key = std::max({distance_[face.vertex[k]], distance_[face.vertex[next_corner(k)]],
-                    sample_[samples_ * edge + samples_ / 2]});
-  }
+  for (auto& [key, edge] : keys_) key = key_of(edge);
   ring_.add_seeds(keys_);
+}
+
+/// By which it waits: the largest of the distances at its ends and in its middle.
+double WaveFront::key_of(Index edge) const {
+  const WaveFace& face = tables_.faces[face_of_code(tables_.sides[edge][0])];
+  const int k = corner_of_code(tables_.sides[edge][0]);
+  return std::max({distance_[face.vertex[k]], distance_[face.vertex[next_corner(k)]],
+                   sample_[samples_ * edge + samples_ / 2]});
 }
 
 /// Lowers the distances at the vertices and samples of the piece's face to the straight ones.

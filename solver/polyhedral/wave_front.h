@@ -7,41 +7,11 @@
 #include <vector>
 
 #include "geotherm/progress.h"
+#include "solver/polyhedral/bucket_ring.h"
 #include "solver/polyhedral/wave_kernels.h"
 #include "solver/polyhedral/wave_tables.h"
 
 namespace geotherm {
-
-/// A queue of edges by distance: a ring of buckets, each first in, first out. A last-in bucket
-/// would visit edges more often and, by measurement, give a third more error. Keys beyond the ring
-/// go to its last bucket.
-class BucketRing {
- public:
-  /// `width` of a bucket; the ring spans at least `span`, or kMax buckets.
-  BucketRing(double width, double span);
-
-  /// Empties the ring and connects it to a pass, which then holds its state.
-  void begin(WavePass& pass);
-
-  /// Adds edges with their keys; those beyond the ring wait outside of it.
-  void add_seeds(const std::vector<std::pair<double, Index>>& seeds);
-
-  /// Goes on to the next bucket that holds something, or to what waits outside; false when all is
-  /// empty. Precondition: the current bucket is empty.
-  bool advance(WavePass& pass);
-
- private:
-  static constexpr std::int64_t kMax = 1 << 20;
-
-  void let_in(WavePass& pass);
-  void grow(WaveBucket& bucket);
-
-  double per_length_;
-  std::vector<WaveBucket> buckets_;
-  std::vector<std::vector<Index>> storage_;
-  std::vector<std::pair<std::int64_t, Index>> outside_;  ///< bucket number, edge; ascending
-  std::size_t let_in_ = 0;                               ///< of `outside_`, so many are in
-};
 
 /// How far a wave runs. Lengths in units of the intrinsic mesh.
 struct WaveReach {
@@ -70,6 +40,26 @@ class WaveFront {
   Outcome run(const WaveSurface& surface, const SourceSeeds& seeds, bool labels,
               const Progress& progress, const WaveReach& reach = {});
 
+  /// A wave in steps, over a piece of a surface of which others have the rest: begin() instead of
+  /// run(), then go_on() and hear() in turn, for bands of keys that ascend. No labels.
+  void begin(const WaveSurface& surface, const SourceSeeds& seeds);
+  /// Visits what waits with keys below `until`. What was heard and what will be has keys of `from`
+  /// and more.
+  Outcome go_on(double from, double until);
+  /// At most the least key that waits, kUnreached where nothing does.
+  double next_key() const { return ring_.next(pass_); }
+  /// Values that others found, of a vertex by its rank or of an edge's only sample. `is_shared`: of
+  /// each edge: others see where it falls; at vertices that do not hand their distance on by
+  /// themselves no other edge waits again.
+  struct Heard {
+    Index at;
+    double value;
+  };
+  void hear(std::span<const Heard> vertices, std::span<const Heard> edges,
+            const std::vector<char>& is_shared);
+  /// Lets the edges wait at which something fell since the last call.
+  void wake();
+
   /// A vertex that a wave has reached, with what distances() and labels() say.
   struct Reached {
     Index rank;
@@ -97,6 +87,7 @@ class WaveFront {
  private:
   using Keys = std::vector<std::pair<double, Index>>;
 
+  void start(const WaveSurface& surface, const SourceSeeds& seeds, bool labels);
   void reset(bool labels);
   bool has_all(const WavePass& pass, const WaveReach& reach);
   bool take_corner(Index rank, std::vector<Reached>& out);
@@ -104,12 +95,14 @@ class WaveFront {
   void seed(const WaveSurface& surface, const SourceSeeds& seeds);
   void seed_face(const WaveSurface& surface, const SourceSeeds::Piece& piece);
   void lower(double& value, Index* label, double candidate, Index group);
+  double key_of(Index edge) const;
   WavePass pass();
 
   const WaveTables& tables_;
   int samples_;
   InstructionSet set_;
   BucketRing ring_;
+  WavePass pass_{};
   std::vector<double> distance_, sample_;
   std::vector<Index> label_, sample_label_;
   std::vector<std::uint8_t> queued_;

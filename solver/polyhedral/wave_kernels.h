@@ -10,6 +10,9 @@
 
 namespace geotherm {
 
+/// An edge is visited again when one of its values fell by this share of the face's longest side.
+inline constexpr double kNotice = 1e-4;
+
 /// Edges that wait, first in, first out.
 struct WaveBucket {
   Index* edges;

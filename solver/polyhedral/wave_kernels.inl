@@ -12,8 +12,6 @@ using WaveKernel = std::size_t (*)(WavePass&, std::size_t);
 namespace geotherm::GEOTHERM_KERNEL_NAMESPACE {
 namespace {
 
-/// An edge is visited again when one of its values fell by this share of the face's longest side.
-constexpr double kNotice = 1e-4;
 /// Where a face is lower than this share of its edge, values behind the edge are at least the least
 /// one of the edge. A fitted wave may be lower between the samples; passed round a ring of such
 /// faces, values would fall for ever.

@@ -79,6 +79,15 @@ if sys.argv[1] == "make":
     write("strip.ply", *plane(1500, 3))
     write("wide.ply", *plane(90, 70, size=1e200))
     write("twice.ply", *plane(90, 70, repeated=50))
+    # A sheet that stands on another: edges with three faces.
+    points, faces = plane(60, 50)
+    sheet = len(points)
+    points += [(x, y, z) for z in range(1, 20) for x, y, _ in points[25 * 60:26 * 60]]
+    at = lambda x, z: 25 * 60 + x if z == 0 else sheet + (z - 1) * 60 + x
+    for z in range(19):
+        for x in range(59):
+            faces += [(at(x, z), at(x + 1, z), at(x + 1, z + 1)), (at(x, z), at(x + 1, z + 1), at(x, z + 1))]
+    write("book.ply", points, faces)
     write("range.ply", *plane(90, 70), last=(0, 1, 6300))
     write("square.ply", *plane(30, 20))
 else:

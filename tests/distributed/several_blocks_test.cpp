@@ -39,7 +39,9 @@ class SeveralBlocks : public testing::Test {
     const auto ranks = start_mpi();
     if (!ranks) return ranks.error();
     const RankGroup alone(**mpi_module(), *ranks, [](const Result<void>& mine) { return mine; });
-    return solve_over_ranks(alone, path, {&source, 1}, options, {}, kOfBlock);
+    MethodOptions heat;
+    static_cast<HeatOptions&>(heat) = options;
+    return solve_over_ranks(alone, path, {&source, 1}, heat, false, {}, kOfBlock);
   }
 
   /// Rounding of the sums, the bar of Poisson's iterations and kNews.
