@@ -378,7 +378,7 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   report(progress, "poisson", 0.7);
   const auto phi = solve_poisson(task, *blocks, b, out.quality.iterations_poisson);
   if (!phi) return phi.error();
-  const std::vector<double> distances = distances_of(task, *phi, out);
+  std::vector<double> distances = distances_of(task, *phi, out);
   if (check) out.error = verdict_over_ranks(ranks, part, rules.flip, distances, waves, waves_ms);
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
