@@ -107,6 +107,14 @@ const std::vector<View>& views() {
          s.surface.paint = Paint::kMap;
          s.surface.line_spacing = 0.05F;
        }},
+      {"log", kLines,  // the ends of the range, which are lines, lie within the surface
+       [](Scene& s) {
+         s.surface.paint = Paint::kMap;
+         s.surface.log = true;
+         s.surface.range_min = 0.1F;
+         s.surface.range_max = 0.8F;
+         s.surface.levels = {0.05F, 0.1F, 0.2F, 0.4F, 0.8F, 0.9F};
+       }},
       {"lines", kLines,
        [](Scene& s) {
          s.markers.visible = s.lines.visible = true;
@@ -144,6 +152,43 @@ TEST_P(GoldenView, LooksAsItDid) {
   }
   expect_golden(stage.draw(), GetParam().name, GetParam().share);
 }
+
+/// What stands around a model in bands whose range leaves something out at both ends.
+Legend legend_of_bands() {
+  Legend legend;
+  legend.bar = true;
+  constexpr int kBands = 4, kColours = 64;
+  for (int i = 0; i <= kColours; ++i) {
+    const float band = static_cast<float>(std::min(i * kBands / kColours, kBands - 1));
+    legend.colours.emplace_back(0.2F + 0.2F * band, 0.5F, 0.9F - 0.2F * band);
+  }
+  legend.ticks = {{0, "0.5"}, {0.25F, "1"}, {0.5F, "1.5"}, {0.75F, "2"}, {1, "2.5"}};
+  legend.lines = {0.25F, 0.5F, 0.75F};
+  legend.title = "distance (mm)";
+  legend.below = legend.above = true;
+  legend.caption = "bunny";
+  legend.keys = {{.label = "not reached", .patches = {glm::vec3(0.62F)}},
+                 {.colour = {1, 0.84F, 0.1F}, .label = "geodesic", .rim = glm::vec3(0)}};
+  return legend;
+}
+
+class GoldenLegend : public GpuTest, public testing::WithParamInterface<glm::vec2> {};
+
+TEST_P(GoldenLegend, LooksAsItDid) {
+  Solved solved = solve_bunny();
+  Stage stage(device(), std::move(solved.model), 4);
+  const LegendLayout layout = lay_out(legend_of_bands(), GetParam());
+  stage.scene.light = Light::kThreePoint;
+  stage.scene.camera = make_camera({}, stage.model.positions, GetParam(), layout.insets);
+  const bool upright = GetParam().y > GetParam().x;
+  expect_golden(stage.draw(layout.overlay), upright ? "legend-row" : "legend-column", kLines);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, GoldenLegend,
+                         testing::Values(glm::vec2(320, 240), glm::vec2(240, 320)),
+                         [](const auto& test) {
+                           return std::string(test.param.y > test.param.x ? "Row" : "Column");
+                         });
 
 INSTANTIATE_TEST_SUITE_P(All, GoldenView, testing::ValuesIn(views()), [](const auto& test) {
   std::string name = test.param.name;
