@@ -254,6 +254,7 @@ Result<ManyFigures> solve_share(const ManySources& work, const SolveArguments& a
                           " about the first " +
                           counted(static_cast<std::int64_t>(work.chunk), "source", "sources")});
   }
+  if (work.model.space) name_rival(*work.model.space, of_answers);
   add_warnings(figures.warnings, of_answers);
   note_unused_settings(arguments.settings, work.options, figures.warnings);
   return figures;

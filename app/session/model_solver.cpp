@@ -26,7 +26,8 @@ const ReadyMethod* find_in(const std::vector<ReadyMethod>& all, const MethodOpti
   return known == all.end() ? nullptr : &*known;
 }
 
-/// The library names methods of surfaces as a way out; in a space its own is one.
+}  // namespace
+
 void name_rival(const Space& space, std::vector<Warning>& warnings) {
   for (Warning& warning : warnings) {
     for (auto& part : warning.hint) {
@@ -37,8 +38,6 @@ void name_rival(const Space& space, std::vector<Warning>& warnings) {
     }
   }
 }
-
-}  // namespace
 
 ModelSolver::ModelSolver(Model model, Use use) : model_(std::move(model)), use_(use) {}
 

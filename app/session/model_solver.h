@@ -47,6 +47,9 @@ inline bool exact_leads_tree(std::size_t paths, const Model& model) {
   return paths >= kMinPaths && model.mesh->face_count() <= kMaxFaces;
 }
 
+/// The library names methods of surfaces as a way out; in a space its own is one.
+void name_rival(const Space& space, std::vector<Warning>& warnings);
+
 /// Answers questions about one model. Every command and the viewer ask here. It keeps what later
 /// questions can use: factors, the wave surface, the last reference. What is done beside it (rows
 /// in a stream, samples, paths, timed queries) asks the methods that prepare() returns. For one

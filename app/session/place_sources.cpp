@@ -114,7 +114,7 @@ class Resolver {
     if (space_.space != nullptr) return add_in_space(point.position, point.offset);
     const auto found = closest_point(mesh_, point.position);
     if (!found) return found.error();
-    note_distance("surface", found->distance);
+    note_distance("the closest point of the surface", found->distance);
     if (found->point.is_vertex()) return add_vertex(found->point.vertex, point.offset);
     set_.add(found->point, point.offset);
     return {};
@@ -182,7 +182,10 @@ class Resolver {
     auto found = space_.space->closest_point(position);
     if (!found) return found.error();
     const SpaceWords& words = space_.space->words();
-    note_distance(words.body, found->distance);
+    note_distance(found->vertex == kNoIndex  // polygons and grids take no others
+                      ? "the closest point of the " + std::string(words.body)
+                      : "vertex " + std::to_string(found->vertex) + ", which stands for it,",
+                  found->distance);
     if (found->vertex != kNoIndex) return add_vertex(found->vertex, offset);
     if (offset > 0) {
       return misplaced("a point inside a " + std::string(words.cell) + " takes no offset",
@@ -192,11 +195,10 @@ class Resolver {
     return {};
   }
 
-  void note_distance(const std::string& of, double distance) {
+  void note_distance(const std::string& what, double distance) {
     if (!(distance > kFarAway * model_size())) return;
-    warnings_.push_back({where_ + ": the closest point of the " + of + " is " +
-                         significant(distance) + " away (the model's size is " +
-                         significant(model_size()) + ")"});
+    warnings_.push_back({where_ + ": " + what + " is " + significant(distance) +
+                         " away (the model's size is " + significant(model_size()) + ")"});
   }
 
   Result<void> add_vertex(Index v, double offset) {

@@ -246,9 +246,12 @@ std::string info_table(const Model& model, const MeshReport& mesh) {
   row("model", one_line(model.name));
   if (model.from_points) row("domain", "points; faces and edges are those between them");
   row("vertices", vertices_in_words(mesh, "face"));
-  row("faces", grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
-                   grouped(mesh.duplicate_faces) + " duplicate, " +
-                   grouped(mesh.inconsistent_faces) + " turned against their neighbours)");
+  row("faces",
+      grouped(mesh.faces) + " (" + grouped(mesh.degenerate_faces) + " degenerate, " +
+          grouped(mesh.duplicate_faces) + " duplicate" +
+          (model.from_points  // whose faces have no sides
+               ? ")"
+               : ", " + grouped(mesh.inconsistent_faces) + " turned against their neighbours)"));
   row("edges", grouped(mesh.edges) + " (" + grouped(mesh.boundary_edges) + " boundary, " +
                    grouped(mesh.nonmanifold_edges) + " non-manifold, " +
                    grouped(mesh.non_delaunay_edges) + " not Delaunay)");

@@ -110,13 +110,25 @@ std::vector<SpaceFigure> TetSpace::figures() const {
   out.push_back({"", "", "flat_tets", std::int64_t{clean.flat}});
   std::vector<Edge> edges;
   edges.reserve(6 * clean.tets.size());
-  double volume = 0;
+  double volume = 0, least_height = kUnreached;
+  std::int64_t slivers = 0;
   for (const Tet& tet : clean.tets) {
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < i; ++k) edges.push_back({tet[i], tet[k]});
     }
     const auto p = volume_->positions();
-    volume += tet_gradient(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]).volume;
+    const TetGradient element = tet_gradient(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]);
+    const double height = height_in_edges(*volume_, tet, element);
+    volume += element.volume;
+    least_height = std::min(least_height, height);
+    if (height < kSliverHeight) ++slivers;
+  }
+  if (!clean.tets.empty()) {
+    out.push_back({"slivers",
+                   grouped(slivers) + " (height below a fifth of the shortest edge; the least is " +
+                       significant(least_height) + " of it)",
+                   "slivers", slivers});
+    out.push_back({"", "", "least_height_in_shortest_edges", least_height});
   }
   const EdgeFigures lengths = measure_edges(std::move(edges), volume_->positions());
   out.push_back({"edges", grouped(lengths.count), "edges", lengths.count});

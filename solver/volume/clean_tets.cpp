@@ -65,6 +65,18 @@ TetGradient tet_gradient(const Vec3& p0, const Vec3& p1, const Vec3& p2, const V
   return out.volume > 0 && std::isfinite(out.volume) ? out : flat;
 }
 
+double height_in_edges(const TetMesh& mesh, const Tet& tet, const TetGradient& element) {
+  const std::span<const Vec3> positions = mesh.positions();
+  double steepest = 0, shortest = kUnreached;
+  for (std::size_t k = 0; k < 4; ++k) {
+    steepest = std::max(steepest, element.gradients[k].stableNorm());
+    for (std::size_t j = 0; j < k; ++j) {
+      shortest = std::min(shortest, (positions[tet[k]] - positions[tet[j]]).stableNorm());
+    }
+  }
+  return 1 / (steepest * shortest);
+}
+
 double orientation_of(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
   const TetEdges edges(p0, p1, p2, p3);
   if (!(edges.unit > 0)) return 0;

@@ -36,6 +36,13 @@ TetGradient tet_gradient(const Vec3& p0, const Vec3& p1, const Vec3& p2, const V
 /// sliver, once thickened, would take room that its neighbours have.)
 inline constexpr double kFlatHeight = 1e-6;
 
+/// The least height of a tet with a volume, in its shortest edges.
+double height_in_edges(const TetMesh& mesh, const Tet& tet, const TetGradient& element);
+
+/// The height_in_edges() below which a tet is a sliver. Not in longest edges: the tets of thin
+/// plates and rods are good. Chosen by measurement (docs/volumes.md).
+inline constexpr double kSliverHeight = 0.2;
+
 /// The tets that can carry an operator, and what was left out.
 struct CleanTets {
   std::vector<Tet> tets;        ///< positive: (p1 - p0) . ((p2 - p0) x (p3 - p0)) > 0

@@ -3,9 +3,55 @@
 #include <new>
 
 #include "geotherm/domains.h"
+#include "solver/core/sorting.h"
+#include "solver/core/text.h"
 #include "solver/volume/clean_tets.h"
 
 namespace geotherm {
+namespace {
+
+/// The stiffness that is left of a sliver, in that of a good tet: too little for an answer to show.
+constexpr double kSliverStiffness = 1e-6;
+
+/// Takes the weight from slivers: their large gradients would rule those of the good tets around
+/// them, and little room goes with them. They stay cells, so that sources may lie in them, and one
+/// that alone connects its vertices with others keeps its weight. `heights`: height_in_edges() of
+/// each.
+void weaken_slivers(const std::vector<Tet>& tets, std::span<const double> heights,
+                    CellComplex& cells) {
+  DisjointSets sets(static_cast<std::size_t>(cells.vertices));
+  const auto join = [&sets](const Tet& tet) {
+    bool joined = false;
+    for (std::size_t k = 1; k < 4; ++k) {
+      joined |= sets.root(tet[0]) != sets.root(tet[k]);
+      sets.join(tet[0], tet[k]);
+    }
+    return joined;
+  };
+  std::vector<std::size_t> slivers;
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    if (heights[t] < kSliverHeight) {
+      slivers.push_back(t);
+    } else {
+      join(tets[t]);
+    }
+  }
+  std::ranges::stable_sort(slivers, std::ranges::greater{},
+                           [&heights](std::size_t t) { return heights[t]; });
+  std::size_t weakened = 0;
+  for (const std::size_t t : slivers) {
+    if (join(tets[t])) continue;
+    cells.measures[t] *= kSliverStiffness * heights[t] * heights[t];
+    ++weakened;
+  }
+  if (weakened == 0) return;
+  cells.notes.push_back(
+      {counted_text(weakened, "sliver", "slivers") + " among " +
+       counted_text(tets.size(), "tetrahedron", "tetrahedra") +
+       ", with a height below a fifth of the shortest edge, left without weight"});
+}
+
+}  // namespace
 
 Result<CellComplex> cells_of(const TetMesh& mesh) try {
   CleanTets clean = clean_tets(mesh);
@@ -21,6 +67,7 @@ Result<CellComplex> cells_of(const TetMesh& mesh) try {
   cells.positions.assign(mesh.positions().begin(), mesh.positions().end());
   cells.start.push_back(0);
   const auto positions = mesh.positions();
+  std::vector<double> heights;
   for (const Tet& tet : clean.tets) {
     const TetGradient element =
         tet_gradient(positions[tet[0]], positions[tet[1]], positions[tet[2]], positions[tet[3]]);
@@ -36,7 +83,9 @@ Result<CellComplex> cells_of(const TetMesh& mesh) try {
     cells.start.push_back(std::ssize(cells.corners));
     cells.measures.push_back(element.volume);
     cells.widths.push_back(longest);
+    heights.push_back(height_in_edges(mesh, tet, element));
   }
+  weaken_slivers(clean.tets, heights, cells);
   cells.numbers = std::move(clean.original);
   cells.on_boundary.assign(static_cast<std::size_t>(mesh.vertex_count()), 0);
   const auto border = boundary(mesh);

@@ -66,6 +66,8 @@ TEST_F(ProgramOnSpaces, InfoHasTheFiguresOfTheSpace) {
   EXPECT_NEAR(box["volume"].get<double>(), 2 * 1.5 * 1, 1e-9);
   EXPECT_EQ(box["components"], 1);
   EXPECT_EQ(box["border_faces"], box["drawn"]["faces"]);
+  EXPECT_EQ(box["slivers"], 0);
+  EXPECT_GT(box["least_height_in_shortest_edges"], 0.5);
   EXPECT_FALSE(box.contains("faces"));
   // Euler's formula of a ball: V - E + F - T = 1, each tet having four faces.
   const auto whole = [&box](const char* key) { return box[key].get<int>(); };

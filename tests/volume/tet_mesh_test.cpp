@@ -9,6 +9,7 @@
 #include "bench/models/volumes.h"
 #include "geotherm/domains.h"
 #include "solver/volume/clean_tets.h"
+#include "tests/support/cells.h"
 #include "tests/support/dice.h"
 
 namespace geotherm::test {
@@ -95,6 +96,62 @@ TEST(TetCleaning, LeavesOutWhatCarriesNoOperatorAndSaysHowMany) {
           "1 tetrahedron with a repeated corner left out",
           "2 tetrahedra that stood there before left out", "1 tetrahedron without volume left out",
           "1 vertex in none of the tetrahedra that are left", "1 vertex in no tetrahedron"}));
+}
+
+/// A box whose border has a sliver on each square of its sides, as the hull of a Delaunay
+/// triangulation of points that lie there to round-off has.
+TetMesh box_with_slivers(const TetMesh& box) {
+  const std::vector<Face> faces = boundary(box)->faces;
+  std::vector<Vec3> positions(box.positions().begin(), box.positions().end());
+  std::vector<Tet> tets(box.tets().begin(), box.tets().end());
+  std::map<std::pair<Index, Index>, Index> beside;  // the longest edge of a face: its third corner
+  for (const Face& f : faces) {
+    for (int k = 0; k < 3; ++k) {
+      const Index a = f[k], b = f[(k + 1) % 3], c = f[(k + 2) % 3];
+      const double edge = (positions[a] - positions[b]).norm();
+      if (edge < (positions[a] - positions[c]).norm() ||
+          edge < (positions[b] - positions[c]).norm())
+        continue;
+      const auto [other, first] = beside.insert({std::minmax({a, b}), c});
+      if (!first) tets.push_back({a, b, c, other->second});
+    }
+  }
+  Dice dice(11);
+  for (const Vec3 middle = positions[0] / 2 + positions.back() / 2; Vec3 & p : positions) {
+    p += 1e-3 * dice.in_cube().x() * (p - middle);
+  }
+  return *TetMesh::build(std::move(positions), std::move(tets));
+}
+
+TEST(TetCells, OfSliversAreThereAndDoNotRuleTheDistances) {
+  const TetMesh box = make_box_tets(8, 8, 8, Vec3(1, 1, 1));
+  const TetMesh dirty = box_with_slivers(box);
+  const auto slivers = dirty.tet_count() - box.tet_count();
+  ASSERT_EQ(slivers, 6 * 8 * 8);
+  const CellsPtr cells = shared(cells_of(dirty)), clean = shared(cells_of(box));
+  EXPECT_TRUE(clean->notes.empty());
+  EXPECT_EQ(cells->cell_count(), dirty.tet_count());
+  ASSERT_EQ(cells->notes.size(), 1U);
+  EXPECT_EQ(cells->notes[0].message.substr(0, 11), "384 slivers");
+  const Vec3 corner = box.positions()[0];
+  const auto error = [&corner](const CellsPtr& of) {
+    return straight_error(*of, solve_cells(of, SourceSet::of_vertices({0})).distances, corner);
+  };
+  EXPECT_LT(error(cells), 1.1 * error(clean));
+  // A source in a sliver is one like any other.
+  const Tet& last = dirty.tets().back();
+  Vec3 middle = Vec3::Zero();
+  for (const Index v : last) middle += dirty.positions()[v] / 4;
+  SourceSet inside;
+  inside.cell_points.push_back({dirty.tet_count() - 1, {0.25, 0.25, 0.25, 0.25}});
+  EXPECT_LT(straight_error(*cells, solve_cells(cells, inside).distances, middle), 0.1);
+}
+
+TEST(TetCells, OfASliverThatAloneHoldsAVertexKeepItsWeight) {
+  const std::vector<Vec3> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, -0.01}};
+  const CellComplex cells = *cells_of(*TetMesh::build(positions, {{0, 1, 2, 3}, {0, 1, 2, 4}}));
+  EXPECT_NEAR(cells.measures[1], 0.01 / 6, 1e-12);
+  EXPECT_TRUE(cells.notes.empty());
 }
 
 /// Volume by the faces, each with the origin: outward they give the whole.
