@@ -6,6 +6,7 @@
 #include "geotherm/domains.h"
 #include "solver/mesh/io/format_writers.h"
 #include "tests/app/program_fixture.h"
+#include "tests/support/dice.h"
 
 namespace geotherm::test {
 namespace {
@@ -58,6 +59,31 @@ TEST_F(ProgramOnSpaces, WarningsNameMethodsThatThereAre) {
   const ProgramRun wrong = run({"solve", "box.npy", "-s", "0", "--time-factor", "3000"});
   EXPECT_NE(wrong.err.find("below the straight line"), std::string::npos) << wrong.err;
   EXPECT_EQ(wrong.err.find("wavefront"), std::string::npos) << wrong.err;
+  const ProgramRun rows = run({"solve", "box.npy", "-s", "0,5", "--each", "--no-check", "-o",
+                               "rows.npy", "--time-factor", "3000"});
+  EXPECT_NE(rows.err.find("use --method fast-marching"), std::string::npos) << rows.err;
+  EXPECT_EQ(rows.err.find("wavefront"), std::string::npos) << rows.err;
+}
+
+TEST_F(ProgramOnSpaces, APlaceOfASourceThatIsNoVertexOfPolygonsSaysWhichStandsForIt) {
+  folder.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const ProgramRun middle =
+      run({"solve", "square.obj", "--domain", "polygons", "-s", "xyz:0.5:0.5:0", "--no-check"});
+  EXPECT_NE(middle.err.find(", which stands for it, is 0.7071 away"), std::string::npos)
+      << middle.err;
+}
+
+TEST_F(ProgramOnSpaces, InfoOfPointsSaysNothingOfTheSidesOfFaces) {
+  std::string points;
+  Dice dice(4);
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 p = dice.in_cube();
+    points += std::to_string(p.x()) + ' ' + std::to_string(p.y()) + " 0\n";
+  }
+  folder.write("sheet.xyz", points);
+  const ProgramRun info = run({"info", "sheet.xyz"});
+  EXPECT_NE(info.out.find(" duplicate)"), std::string::npos) << info.out;
+  EXPECT_EQ(info.out.find("turned against"), std::string::npos) << info.out;
 }
 
 TEST_F(ProgramOnSpaces, InfoHasTheFiguresOfTheSpace) {
