@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "app/picture/picture_text.h"
@@ -327,28 +325,6 @@ std::vector<std::string> words_in(std::string_view arguments) {
 
 }  // namespace
 
-namespace {
-
-/// Files and folders whose path begins so; a name with a blank would have to be quoted.
-void add_files(std::string_view begun, std::vector<std::string>& all) {
-  const std::size_t slash = begun.rfind('/');
-  const std::string folder(slash == std::string_view::npos ? "" : begun.substr(0, slash + 1));
-  std::error_code unknown;
-  std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, unknown);
-  constexpr std::size_t kMostWords = 1000;
-  for (const auto end = std::filesystem::directory_iterator();
-       !unknown && entries != end && all.size() < kMostWords; entries.increment(unknown)) {
-    const std::string name = entries->path().filename().string();
-    const bool hidden = name.starts_with('.') && begun.substr(folder.size()).empty();
-    if (hidden || name.find_first_of(" \t\"'#\\") != std::string::npos) continue;
-    std::error_code none;
-    all.push_back(folder + name + (entries->is_directory(none) ? "/" : ""));
-  }
-  std::ranges::sort(all);
-}
-
-}  // namespace
-
 std::vector<std::string> completions(std::string_view line) {
   const std::size_t blank = line.rfind(' ');
   const bool first = blank == std::string_view::npos;
@@ -371,7 +347,9 @@ std::vector<std::string> completions(std::string_view line) {
     if (before == "open") {
       for (const BundledModel& model : bundled_models()) all.emplace_back(model.name);
     }
-    if (before == "open" || before == "run" || before == "sequence") add_files(begun, all);
+    if (before == "open" || before == "run" || before == "sequence") {
+      for (std::string& path : paths_that_begin(begun)) all.push_back(std::move(path));
+    }
     if (before.starts_with("source set") || before.starts_with("source add")) {
       all = {"random:", "boundary", "curve:", "face:", "xyz:"};
     }

@@ -2,7 +2,9 @@
 #include "app/session/command_words.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "app/session/command.h"
 #include "app/session/sources.h"
@@ -106,6 +108,26 @@ std::string command_word(const std::string& word) {
     rest.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out + '"';
+}
+
+std::vector<std::string> paths_that_begin(std::string_view begun) {
+  const std::size_t slash = begun.rfind('/');
+  const std::string folder(slash == std::string_view::npos ? "" : begun.substr(0, slash + 1));
+  std::vector<std::string> all;
+  std::error_code unknown;
+  std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, unknown);
+  constexpr std::size_t kMaxPaths = 1000;
+  for (const auto end = std::filesystem::directory_iterator();
+       !unknown && entries != end && all.size() < kMaxPaths; entries.increment(unknown)) {
+    const std::string name = entries->path().filename().string();
+    const bool hidden = name.starts_with('.') && begun.substr(folder.size()).empty();
+    if (hidden || name.find_first_of(" \t\"'#\\") != std::string::npos) continue;
+    std::error_code none;
+    std::string path = folder + name + (entries->is_directory(none) ? "/" : "");
+    if (path.starts_with(begun)) all.push_back(std::move(path));
+  }
+  std::ranges::sort(all);
+  return all;
 }
 
 Result<WordReader> WordReader::of(std::string_view line) {

@@ -22,6 +22,10 @@ inline constexpr const char* kShownNames[] = {"a", "b", "difference"};
 /// bytes that are no UTF-8 are \xNN, so that neither shells nor terminals act on them.
 std::string command_word(const std::string& word);
 
+/// Files and folders whose path begins so, in order; those whose name would have to be quoted are
+/// left out.
+std::vector<std::string> paths_that_begin(std::string_view begun);
+
 /// The words of one line, handed out one by one. Errors: kBadInput, "column N: ..." (from 1).
 class WordReader {
  public:

@@ -46,8 +46,8 @@ class Frames {
   /// to the largest that is there), or positions of all frames in one `.npy` (frames x vertices x
   /// 3, float32 or float64), `.pc2` or `.mdd`, or the first animation of a `.glb` or `.gltf`, 24
   /// frames a second, which lie in a temporary file. `mesh`: what moves. Errors: kBadInput (neither
-  /// of these), kBadFile (no file, one that is damaged or of another number of vertices; both numbers
-  /// are in it), kOutOfMemory.
+  /// of these), kBadFile (no file, one that is damaged or of another number of vertices; both
+  /// numbers are in it), kOutOfMemory.
   static Result<Frames> open(const std::string& path, std::shared_ptr<const TriangleMesh> mesh);
 
   std::int64_t count() const;
