@@ -9,10 +9,10 @@
 #include "app/session/grid_space.h"
 #include "app/session/length_space.h"
 #include "app/session/settings.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/backend.h"
 #include "geotherm/domains.h"
 #include "geotherm/io.h"
-#include "geotherm/quality_fields.h"
 
 namespace geotherm::c {
 namespace {

@@ -8,8 +8,8 @@
 #include "app/session/outputs.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/io.h"
-#include "geotherm/quality_fields.h"
 #include "solver/core/text.h"
 
 namespace geotherm::c {

@@ -6,8 +6,8 @@
 
 #include "app/picture/drawing.h"
 #include "app/session/answer.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/io.h"
-#include "geotherm/quality_fields.h"
 
 // What `solve` writes beside the distances.
 namespace geotherm::app {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "app/picture/openness.h"
-#include "geotherm/quality_fields.h"
+#include "geotherm/accuracy.h"
 #include "solver/geometry/face_gradient.h"
 #include "solver/volume/clean_tets.h"
 

@@ -7,7 +7,7 @@
 
 #include "app/picture/picture_data.h"
 #include "app/picture/picture_settings.h"
-#include "geotherm/quality_fields.h"
+#include "geotherm/accuracy.h"
 
 namespace geotherm::app {
 

@@ -11,11 +11,11 @@
 #include <variant>
 #include <vector>
 
+#include "geotherm/accuracy.h"
 #include "geotherm/build_method.h"
 #include "geotherm/domains.h"
 #include "geotherm/error.h"
 #include "geotherm/io.h"
-#include "geotherm/quality_fields.h"
 #include "geotherm/sources.h"
 
 namespace geotherm::app {

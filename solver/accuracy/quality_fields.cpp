@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/quality_fields.h"
+#include "geotherm/accuracy.h"
 
 #include <algorithm>
 #include <array>

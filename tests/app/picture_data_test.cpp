@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "app/picture/picture_scale.h"
+#include "geotherm/accuracy.h"
 #include "geotherm/heat_method.h"
-#include "geotherm/quality_fields.h"
 #include "tests/support/shapes.h"
 
 namespace geotherm::test {

@@ -7,7 +7,6 @@
 #include "geotherm/accuracy.h"
 #include "geotherm/mesh.h"
 #include "geotherm/mesh_report.h"
-#include "geotherm/quality_fields.h"
 #include "solver/geometry/clean_faces.h"
 #include "tests/fuzz/fuzz_mesh.h"
 #include "tests/fuzz/fuzz_targets.h"

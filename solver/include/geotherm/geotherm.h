@@ -23,6 +23,5 @@
 #include "geotherm/path.h"
 #include "geotherm/polyhedral_methods.h"
 #include "geotherm/progress.h"
-#include "geotherm/quality_fields.h"
 #include "geotherm/sources.h"
 #include "geotherm/types.h"
