@@ -158,7 +158,7 @@ constexpr SourceButton kButtons[] = {
     {"fewer", "\u2212 fewer", Action::kFewerSources, "One random source fewer (-)."},
     {"more", "+ more", Action::kMoreSources, "One more random source (+)."},
     {"shuffle", "shuffle", Action::kShuffleSources, "As many sources at new random places (h)."},
-    {"boundary", "border", Action::kBoundarySource,
+    {"boundary", "boundary", Action::kBoundarySource,
      "Distance from the whole boundary, where the model has one."},
     {"clear", "clear", Action::kClearSources, "No sources."},
     {"brush", "brush", Action::kBrush,

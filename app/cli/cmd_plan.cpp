@@ -68,7 +68,7 @@ struct SharedPlan {
 /// One source on a mesh that ranks share.
 SharedPlan plan_shared(double vertices, double ranks) {
   const double own = std::ceil(vertices / ranks);
-  const double blocks_of_rank = std::ceil(own / kMostOfBlock), blocks = ranks * blocks_of_rank;
+  const double blocks_of_rank = std::ceil(own / kMaxBlock), blocks = ranks * blocks_of_rank;
   const double rounds = std::ceil(2 * std::sqrt(blocks) + 6);
   // A round takes as long as a block at least, a rank as long as all its solves.
   const double solves = std::max(rounds, blocks_of_rank * solves_of_block(blocks));

@@ -24,8 +24,8 @@ namespace {
 
 /// What does not go with frames. Errors: kBadInput.
 Result<void> refuse_other_pictures(const RenderArguments& arguments, const AskedPicture& asked) {
-  const auto refuse = [](const std::string& option, const std::string& cure) {
-    return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + cure};
+  const auto refuse = [](const std::string& option, const std::string& why) {
+    return Error{ErrorCode::kBadInput, option + " does not go with --sequence, " + why};
   };
   const View view = asked.settings.view;
   if (!arguments.more_models.empty()) {

@@ -27,8 +27,8 @@ Figure::Colour to_colour(const glm::vec4& c) { return {c.r, c.g, c.b, c.a}; }
 std::vector<double> isoline_levels(const engine::SurfaceStyle& style, double largest) {
   std::vector<double> levels(style.levels.begin(), style.levels.end());
   if (!levels.empty()) return levels;
-  constexpr double kMostLines = 1e5;
-  if (!(style.line_spacing > 0) || largest / style.line_spacing > kMostLines) return levels;
+  constexpr double kMaxLines = 1e5;
+  if (!(style.line_spacing > 0) || largest / style.line_spacing > kMaxLines) return levels;
   const bool mapped = style.paint == engine::Paint::kMap;
   const double low = std::min(style.range_min, style.range_max);
   const double high = std::max(style.range_min, style.range_max);
@@ -168,11 +168,11 @@ std::vector<Figure::Box> boxes_of(const engine::Overlay& overlay) {
   }
   for (Figure::Box& box : out) {
     std::ranges::reverse(box.colours);
-    constexpr std::size_t kMostStops = 129;  // what lies between is linear, or nearly
-    if (box.colours.size() <= kMostStops) continue;
+    constexpr std::size_t kMaxStops = 129;  // what lies between is linear, or nearly
+    if (box.colours.size() <= kMaxStops) continue;
     std::vector<Figure::Colour> fewer;
-    for (std::size_t i = 0; i < kMostStops; ++i) {
-      fewer.push_back(box.colours[i * (box.colours.size() - 1) / (kMostStops - 1)]);
+    for (std::size_t i = 0; i < kMaxStops; ++i) {
+      fewer.push_back(box.colours[i * (box.colours.size() - 1) / (kMaxStops - 1)]);
     }
     box.colours = std::move(fewer);
   }

@@ -119,12 +119,12 @@ std::string number_format_text(const NumberFormat& format) {
 
 Result<NumberFormat> parse_number_format(const std::string& text) {
   if (text.empty() || text == "auto") return NumberFormat{};
-  constexpr int kMostDigits = 12;
+  constexpr int kMaxDigits = 12;
   const std::size_t colon = std::min(text.find(':'), text.size());
   const auto style = parse<NumberStyle>(text.substr(0, colon));
   const auto digits = colon == text.size() ? std::optional(NumberFormat().digits)
                                            : number_in<int>(text.substr(colon + 1));
-  const bool fits = style && *style != NumberStyle::kAuto && digits && *digits <= kMostDigits;
+  const bool fits = style && *style != NumberStyle::kAuto && digits && *digits <= kMaxDigits;
   if (fits && *digits >= (*style == NumberStyle::kSignificant ? 1 : 0)) {
     return NumberFormat{*style, *digits};
   }

@@ -203,7 +203,7 @@ std::vector<Setting> method_settings() {
            .value_name = "RULE",
            .help = "the condition on u along the boundary",
            .detail =
-               "neumann: no heat leaves; dirichlet: u = 0 on the border; average: the mean of "
+               "neumann: no heat leaves; dirichlet: u = 0 on the boundary; average: the mean of "
                "both; auto takes average in volumes, neumann elsewhere."}),
       choice<&HeatOptions::laplacian>(
           {.name = "laplacian",
@@ -213,7 +213,7 @@ std::vector<Setting> method_settings() {
            .detail =
                "auto flips edges where weights would be negative, on the tufted cover where edges "
                "have three faces, and inserts vertices (refined) where faces are too large or the "
-               "border is obtuse; cotan takes the mesh as it is."}),
+               "boundary is obtuse; cotan takes the mesh as it is."}),
       choice<&HeatOptions::variant>(
           {.name = "variant",
            .of_heat = true,

@@ -12,7 +12,7 @@
 namespace geotherm::app {
 namespace {
 
-DrawnPicture in_our_words(engine::Image image) {
+DrawnPicture to_drawn_picture(engine::Image image) {
   return {image.width, image.height, std::move(image.pixels)};
 }
 
@@ -215,7 +215,7 @@ Result<DrawnPicture> SceneScreen::picture(const PictureData& data,
       camera_of(data, settings.camera, positions_, extent, insets_of(settings, legend, extent));
   auto image = engine::draw_picture(device_, renderer_, scene, legend.overlay);
   if (!image) return image.error();
-  return in_our_words(*std::move(image));
+  return to_drawn_picture(*std::move(image));
 }
 
 Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,
@@ -232,7 +232,7 @@ Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,
   image.height = extent.y;
   image.pixels.resize(4 * static_cast<std::size_t>(extent.x) * static_cast<std::size_t>(extent.y));
   (*target)->read(image, {0, 0}, extent);
-  return in_our_words(std::move(image));
+  return to_drawn_picture(std::move(image));
 }
 
 DrawingDevice SceneScreen::device() const { return to_drawing_device(device_.info()); }

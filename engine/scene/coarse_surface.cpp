@@ -11,7 +11,7 @@ namespace {
 /// A plane passes through 1.5 cells for each of its squares of their side, on average over all
 /// directions; each becomes a vertex, of two faces.
 constexpr double kFacesPerCell = 3;
-constexpr float kMostCells = 2000;  ///< along an axis, so that three numbers fit one key
+constexpr float kMaxCells = 2000;  ///< along an axis, so that three numbers fit one key
 
 /// The side of cells of which a surface of this area passes through as many as faces need.
 float cell_side(const SurfaceGeometry& geometry, std::size_t wanted) {
@@ -21,13 +21,13 @@ float cell_side(const SurfaceGeometry& geometry, std::size_t wanted) {
     area += 0.5 * glm::length(glm::cross(p[b] - p[a], p[c] - p[a]));
   }
   const double side = std::sqrt(kFacesPerCell * area / static_cast<double>(wanted));
-  return std::max(static_cast<float>(side), 2 / kMostCells);
+  return std::max(static_cast<float>(side), 2 / kMaxCells);
 }
 
 std::uint64_t cell_of(const glm::vec3& p, float side) {
   std::uint64_t key = 0;
   for (int k = 0; k < 3; ++k) {
-    const float x = std::clamp((p[k] + 1) / side, 0.0F, kMostCells);
+    const float x = std::clamp((p[k] + 1) / side, 0.0F, kMaxCells);
     key = (key << 21U) | static_cast<std::uint64_t>(x);
   }
   return key;

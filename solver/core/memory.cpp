@@ -162,9 +162,9 @@ BufferPool::Block BufferPool::take(std::size_t bytes) {
 }
 
 void BufferPool::give(Block block) {
-  constexpr std::size_t kMostKept = 4;  // the factors of one method
+  constexpr std::size_t kMaxKept = 4;  // the factors of one method
   const std::lock_guard lock(mutex_);
-  if (kept_.size() == kMostKept) {
+  if (kept_.size() == kMaxKept) {
     std::free(kept_.front().data);
     kept_.erase(kept_.begin());
   }

@@ -16,7 +16,7 @@
 namespace geotherm {
 namespace {
 
-constexpr int kMostHalvings = 5;
+constexpr int kMaxHalvings = 5;
 
 /// How a point is to go: from its place in a direction.
 struct Move {
@@ -106,7 +106,7 @@ class Lloyd {
   Result<void> step(RelaxedPoints& now, const Progress& progress) const {
     const std::vector<std::vector<Index>> cells = cells_of(now);
     double share = 1;
-    for (int i = 0; i <= kMostHalvings; ++i, share /= 2) {
+    for (int i = 0; i <= kMaxHalvings; ++i, share /= 2) {
       RelaxedPoints next;
       double farthest = 0;
       auto moved = moved_points(now, cells, share, farthest);

@@ -15,7 +15,7 @@ namespace {
 
 using Point2 = Eigen::Vector2d;
 
-constexpr std::size_t kMostPieces = 10'000'000;
+constexpr std::size_t kMaxTracedPieces = 10'000'000;
 
 Point2 rotated(const Point2& v, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -60,9 +60,9 @@ class Tracer {
 
   Result<TracedLine> run() {
     while (going_) {
-      if (line_.path.faces.size() >= kMostPieces) {
+      if (line_.path.faces.size() >= kMaxTracedPieces) {
         return Error{ErrorCode::kBudgetEnded,
-                     "the line has " + std::to_string(kMostPieces) + " pieces and " +
+                     "the line has " + std::to_string(kMaxTracedPieces) + " pieces and " +
                          rounded_text(rest_ * unit()) + " of its length to go",
                      {"trace a shorter one"}};
       }

@@ -19,7 +19,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Heat below this has lost digits, or will have on meshes a little wider.
 constexpr double kLeastHeat = 1e-290;
 /// A time is made four times as long so often at most: half a million times the width.
-constexpr int kMostTimes = 20;
+constexpr int kMaxTimes = 20;
 
 /// Rows 2 i and 2 i + 1 of a pattern's row i.
 SymmetricPattern doubled(const SymmetricPattern& pattern) {
@@ -161,7 +161,7 @@ Result<Factors> VectorHeat::State::warm(std::span<const Index> rows, std::span<c
     for (std::size_t i = 0; i < heat.size(); ++i) {
       if (in_reach[i]) least = std::isfinite(heat[i]) ? std::min(least, heat[i]) : 0;
     }
-    if (least > kLeastHeat || times == kMostTimes) break;
+    if (least > kLeastHeat || times == kMaxTimes) break;
     if (!report(progress, "factorize", 0.5)) return cancelled_error();
     auto longer = factorize(4 * at.t);
     if (!longer) return longer.error();

@@ -59,13 +59,13 @@ struct MeshBlock {
 
 /// Vertices of a block, at most: so that its factor stays in proportion and heat does not fall too
 /// far within it.
-inline constexpr Index kMostOfBlock = 150'000;
+inline constexpr Index kMaxBlock = 150'000;
 
 /// How a rank's share is cut and triangulated.
 struct BlockRules {
-  bool flip = true;           ///< to intrinsic Delaunay
-  int rings = 16;             ///< around a block, which it solves for, too
-  Index most = kMostOfBlock;  ///< vertices of a block
+  bool flip = true;        ///< to intrinsic Delaunay
+  int rings = 16;          ///< around a block, which it solves for, too
+  Index most = kMaxBlock;  ///< vertices of a block
   int threads = 1;
 };
 

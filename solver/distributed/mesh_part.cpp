@@ -221,13 +221,13 @@ Result<MeshPart> share_mesh(const RankGroup& ranks, MeshSlice slice) {
   std::vector<CurveVertex> mine = share_out(ranks, along_curve(ranks, slice));
   slice.positions = {};
   // Vertices with their halo, and three entries a face, are numbered by 32 bits.
-  constexpr std::size_t kMostOwn = std::numeric_limits<Index>::max() / 24;
+  constexpr std::size_t kMaxOwn = std::numeric_limits<Index>::max() / 24;
   Result<void> fits;
-  if (mine.size() > kMostOwn || part.vertices > std::numeric_limits<Index>::max()) {
+  if (mine.size() > kMaxOwn || part.vertices > std::numeric_limits<Index>::max()) {
     fits = Error{ErrorCode::kBadInput,
                  std::to_string(part.vertices) + " vertices over " + std::to_string(ranks.count()) +
                      " ranks are more than 32 bits number",
-                 {"take more ranks, of at most " + std::to_string(kMostOwn) +
+                 {"take more ranks, of at most " + std::to_string(kMaxOwn) +
                   " vertices each and 2^31 in all"}};
   }
   if (auto all = ranks.agree(fits); !all) return all.error();

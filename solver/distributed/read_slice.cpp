@@ -19,7 +19,7 @@ using io::PlyProperty;
 using io::ReadFailure;
 
 /// Bytes of a header, with its comments, at most.
-constexpr std::size_t kMostHeader = 1 << 16;
+constexpr std::size_t kMaxPlyHeader = 1 << 16;
 /// Rows that are read at once.
 constexpr std::int64_t kRowsAtOnce = 1 << 18;
 
@@ -199,7 +199,7 @@ Result<MeshCounts> count_ply(const std::string& path) {
   auto file = io::InputFile::open_as_is(path);
   if (!file) return file.error();
   return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshCounts> {
-    const std::string start = file->start(kMostHeader);
+    const std::string start = file->start(kMaxPlyHeader);
     const auto header = header_of(*file, start);
     if (!header) return header.error();
     return MeshCounts{header->find("vertex")->count, header->find("face")->count};
@@ -210,7 +210,7 @@ Result<MeshSlice> read_ply_slice(const std::string& path, int part, int parts) {
   auto file = io::InputFile::open_as_is(path);
   if (!file) return file.error();
   return io::guarded_read(file->shown(), "mesh", file->size(), [&]() -> Result<MeshSlice> {
-    const std::string start = file->start(kMostHeader);
+    const std::string start = file->start(kMaxPlyHeader);
     auto header = header_of(*file, start);
     if (!header) return header.error();
     const auto body = static_cast<std::int64_t>(header->body - start.data());

@@ -24,7 +24,7 @@ constexpr std::size_t kColumns = 16;
 /// diffusion length a ring it has fallen by e^-16 where it counts.
 constexpr double kNews = 1e-6;
 /// Rounds after which there is no end: heat passes a block in one or two.
-constexpr int kMostRounds = 2000;
+constexpr int kMaxHeatRounds = 2000;
 /// No row may be off by more than this share of its largest term.
 constexpr double kWorstRow = 1e-4;
 /// Levels of a HeatField, in powers of two.
@@ -278,10 +278,10 @@ Result<SharedHeat> diffuse_over_ranks(const SharedTask& task, std::span<const Me
       any = true;
       done = each.solve(out.u);
     }
-    if (done && out.rounds > kMostRounds) {
+    if (done && out.rounds > kMaxHeatRounds) {
       done = Error{ErrorCode::kNumericalFailure,
                    "blocks of the heat step do not come to an end within " +
-                       std::to_string(kMostRounds) + " rounds",
+                       std::to_string(kMaxHeatRounds) + " rounds",
                    {"try ", SettingHint{"laplacian", {"intrinsic-delaunay"}}}};
     }
     if (auto all = task.ranks.agree(done); !all) {

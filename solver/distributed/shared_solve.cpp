@@ -24,7 +24,7 @@ constexpr double kRoundOffOfDistance = 1e-6;
 /// Rings that a block solves for beside its own vertices, where t is the square of the mean edge,
 /// and the most of them.
 constexpr double kRings = 16;
-constexpr int kMostRings = 64;
+constexpr int kMaxRings = 64;
 /// The same for waves: flips near a block's edge reach no farther.
 constexpr int kRingsOfWaves = 6;
 constexpr double kBand = 0.5;  // of waves, in mean edges: in wider ones fits see more old values
@@ -135,9 +135,10 @@ std::vector<double> distances_of(const SharedTask& task, const std::vector<doubl
 }
 
 /// The quality figures, and what a person should know of them.
-Result<void> judge(const SharedTask& task, const std::vector<BlockFaces*>& faces,
-                   const SharedHeat& heat, std::vector<double> phi, const std::vector<double>& b,
-                   std::vector<double>& distances, SharedAnswer& out) {
+Result<void> check_answer(const SharedTask& task, const std::vector<BlockFaces*>& faces,
+                          const SharedHeat& heat, std::vector<double> phi,
+                          const std::vector<double>& b, std::vector<double>& distances,
+                          SharedAnswer& out) {
   phi.resize(static_cast<std::size_t>(task.part.size()), 0.0);
   Halo(task.ranks, task.part, heat.beside).fetch(task.ranks, phi);
   std::array<double, 8> sums{};
@@ -205,7 +206,7 @@ int rings_for(const TimeStep& step, double mean_edge) {
   const double m =
       step.rule == TimeRule::kAbsolute ? step.absolute / mean_edge / mean_edge : step.factor;
   return static_cast<int>(
-      std::clamp(std::ceil(kRings * std::sqrt(m)), kRings, static_cast<double>(kMostRings)));
+      std::clamp(std::ceil(kRings * std::sqrt(m)), kRings, static_cast<double>(kMaxRings)));
 }
 
 /// Whether all of these are in the file. Errors: kBadInput.
@@ -383,7 +384,8 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
   out.timing.poisson = lap();
   out.timing.query = out.timing.diffuse + out.timing.gradient + out.timing.poisson;
   report(progress, "figures", 0.9);
-  if (auto right = judge(task, faces, *heat, *phi, b, distances, out); !right) return right.error();
+  if (auto right = check_answer(task, faces, *heat, *phi, b, distances, out); !right)
+    return right.error();
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
 

@@ -49,6 +49,6 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
                                       std::span<const GlobalIndex> sources,
                                       const MethodOptions& options, bool check,
                                       const Progress& progress = {},
-                                      Index most_of_block = kMostOfBlock);
+                                      Index most_of_block = kMaxBlock);
 
 }  // namespace geotherm

@@ -137,7 +137,7 @@ LaplacianKind kind_of(const IntrinsicSurface& surface) {
 
 /// A factor that would be larger by more than this, against that of the last fresh order, has a new
 /// order made.
-constexpr double kMostGrowth = 1.15;
+constexpr double kMaxGrowth = 1.15;
 
 std::shared_ptr<const KeptOrder> order_of(const Surface& fresh) {
   const EliminationTree* const tree = fresh.analysis->tree();
@@ -193,7 +193,7 @@ bool keep_order(const Surface& earlier, int threads, Stopwatch& watch, Surface& 
   out.timing.analyze += watch.lap();
   if (!analysis) return false;
   const auto bytes = static_cast<double>(analysis->factor_bytes(FactorStorage::kFull));
-  if (bytes > kMostGrowth * static_cast<double>(kept->factor_bytes)) return false;
+  if (bytes > kMaxGrowth * static_cast<double>(kept->factor_bytes)) return false;
   out.kept_order = kept;
   out.analysis = std::move(analysis);
   out.operators = std::move(operators);

@@ -216,11 +216,11 @@ Result<Mask> read_mask(const std::string& text, const TriangleMesh& mesh) {
     const bool binary = !numbers.ids && std::ranges::all_of(numbers.values, is_flag);
     const bool flags = numbers.flags || binary;
     const auto size = static_cast<Index>(numbers.values.size());
-    constexpr Index kMostIds = 2;  // of a list of ids in which there are only 0 and 1
+    constexpr Index kMaxIds = 2;  // of a list of ids in which there are only 0 and 1
     const Index vertices = mesh.vertex_count(), faces = mesh.face_count();
     const bool of_faces = what.of_faces || (flags && size == faces && size != vertices);
     const Index count = of_faces ? faces : vertices;
-    if ((numbers.flags || (binary && size > kMostIds)) && size != count) {
+    if ((numbers.flags || (binary && size > kMaxIds)) && size != count) {
       return Error{ErrorCode::kBadFile,
                    io::printable(what.path) + ": the mask has " + std::to_string(size) +
                        " numbers, and the mesh " + std::to_string(vertices) + " vertices and " +

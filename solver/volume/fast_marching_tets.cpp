@@ -78,7 +78,7 @@ class TetMarch {
   }
 
   Result<TetDistances> march(const Progress& progress) {
-    constexpr std::int64_t kMostVisits = 1000, kReported = 4096;
+    constexpr std::int64_t kMaxVisits = 1000, kReported = 4096;
     const auto vertices = static_cast<std::int64_t>(out_.distances.size());
     std::int64_t visits = 0;
     while (!queue_.empty()) {
@@ -90,10 +90,10 @@ class TetMarch {
           !report(progress, "marching", std::min(1.0, 0.5 * double(visits) / double(vertices)))) {
         return cancelled_error();
       }
-      if (visits > kMostVisits * vertices) {
+      if (visits > kMaxVisits * vertices) {
         return Error{ErrorCode::kBudgetEnded,
                      "fast marching visited each of " + std::to_string(vertices) + " vertices " +
-                         std::to_string(kMostVisits) + " times in the mean without an end"};
+                         std::to_string(kMaxVisits) + " times in the mean without an end"};
       }
       spread(next);
     }
@@ -120,7 +120,7 @@ class TetMarch {
   };
   /// Sources that a vertex sees are noted up to this many; of more, as at the centre of a ball
   /// whose border is the source, only those count that are nearer than all before.
-  static constexpr Index kMostSights = 8;
+  static constexpr Index kMaxSights = 8;
 
   const Vec3& at(Index v) const { return m_.mesh_->positions()[v]; }
 
@@ -172,7 +172,7 @@ class TetMarch {
     const double line = line_from(source, v);
     double& held = out_.distances[v];
     if (line > held + slack_at(v)) return;
-    if (sights_of_[v] >= kMostSights && line >= held) return;
+    if (sights_of_[v] >= kMaxSights && line >= held) return;
     ++sights_of_[v];
     sights_.push_back({source, first_sight_[v]});
     first_sight_[v] = static_cast<Index>(sights_.size()) - 1;

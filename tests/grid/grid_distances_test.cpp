@@ -263,7 +263,7 @@ TEST(GridMethods, WhatTheyCannotDoIsSaid) {
 
 TEST(GridHeat, ConjugateGradientsTakeNoMoreStepsOnFinerGridsSlow) {
   // By multigrid; with the diagonal alone their number grows with the side.
-  constexpr double kMostSteps = 80;
+  constexpr double kMaxSteps = 80;
   for (const Index n : {200, 450}) {
     const auto grid = std::make_shared<const Grid>(l_shape(n));
     MethodOptions options;
@@ -271,7 +271,7 @@ TEST(GridHeat, ConjugateGradientsTakeNoMoreStepsOnFinerGridsSlow) {
     options.backend = "cg";
     const auto iterated = (*build_method(grid, options))->solve(SourceSet::of_vertices({0}));
     ASSERT_TRUE(direct && iterated);
-    EXPECT_LE(iterated->quality.iterations_poisson, kMostSteps) << n;
+    EXPECT_LE(iterated->quality.iterations_poisson, kMaxSteps) << n;
     double most = 0;
     for (Index v = 0; v < grid->sample_count(); ++v) {
       if (!(grid->speed(v) > 0)) continue;

@@ -259,8 +259,8 @@ class NrrdHeaderReader {
 
 /// So many bytes out of a stream of gzip.
 std::string unzipped(std::string_view packed, std::size_t bytes) {
-  constexpr std::size_t kMostTimes = 1100;  // no stream of deflate unpacks to more
-  if (bytes / kMostTimes > packed.size()) {
+  constexpr std::size_t kMaxTimes = 1100;  // no stream of deflate unpacks to more
+  if (bytes / kMaxTimes > packed.size()) {
     throw ReadFailure{"there are to be " + std::to_string(bytes) + " bytes, but only " +
                       std::to_string(packed.size()) + " compressed ones follow"};
   }
@@ -269,15 +269,15 @@ std::string unzipped(std::string_view packed, std::size_t bytes) {
   z_stream stream{};
   constexpr int kGzip = 16 + MAX_WBITS;
   if (inflateInit2(&stream, kGzip) != Z_OK) throw std::bad_alloc();
-  constexpr std::size_t kMostAtOnce = 1 << 30;
+  constexpr std::size_t kMaxAtOnce = 1 << 30;
   std::size_t taken = 0, made = 0;
   int code = Z_OK;
   while (code == Z_OK && made < out.size()) {
     stream.next_in =
         reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + taken));  // zlib's own const
-    stream.avail_in = static_cast<uInt>(std::min(kMostAtOnce, packed.size() - taken));
+    stream.avail_in = static_cast<uInt>(std::min(kMaxAtOnce, packed.size() - taken));
     stream.next_out = reinterpret_cast<Bytef*>(out.data() + made);
-    stream.avail_out = static_cast<uInt>(std::min(kMostAtOnce, out.size() - made));
+    stream.avail_out = static_cast<uInt>(std::min(kMaxAtOnce, out.size() - made));
     const uInt in = stream.avail_in, room = stream.avail_out;
     code = inflate(&stream, Z_NO_FLUSH);
     taken += in - stream.avail_in;

@@ -31,8 +31,8 @@ RawGrid read_png(std::string_view bytes) {
   grid.size = {image.png.width, image.png.height, 1};
   const std::size_t count = count_samples(grid.size);
   // A byte of deflate unpacks to no more than 1032, and a byte holds 8 samples at most.
-  constexpr std::size_t kMostPixels = 8 * 1032;
-  if (count / kMostPixels > bytes.size()) {
+  constexpr std::size_t kMaxPixels = 8 * 1032;
+  if (count / kMaxPixels > bytes.size()) {
     throw ReadFailure{"there are to be " + std::to_string(image.png.width) + " x " +
                       std::to_string(image.png.height) + " pixels, but the file has only " +
                       std::to_string(bytes.size()) + " bytes"};

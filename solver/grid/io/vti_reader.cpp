@@ -29,7 +29,7 @@ class VtiFile {
           cell_data_ ? Hint{"in ParaView, Cell Data to Point Data makes them of cells"} : Hint{}};
     }
     const std::size_t count = count_samples(grid_.size);
-    if (count / kMostVtkNumbers > bytes_.size()) {
+    if (count / kMaxVtkNumbers > bytes_.size()) {
       throw ReadFailure{"there are to be " + std::to_string(count) + " points in a file of " +
                         std::to_string(bytes_.size()) + " bytes"};
     }

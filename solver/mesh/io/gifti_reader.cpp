@@ -57,7 +57,7 @@ GiftiArray read_array_tag(std::string_view bytes, const XmlTag& tag) {
   const std::int64_t dimensions = vtk_number(bytes, tag, "Dimensionality");
   out.rows = vtk_number(bytes, tag, "Dim0");
   if (dimensions > 1) out.columns = vtk_number(bytes, tag, "Dim1");
-  const std::uint64_t most = kMostVtkNumbers * bytes.size();
+  const std::uint64_t most = kMaxVtkNumbers * bytes.size();
   const bool fits = out.columns == 0 || static_cast<std::uint64_t>(out.rows) <=
                                             most / static_cast<std::uint64_t>(out.columns);
   if (dimensions < 1 || dimensions > 2 || !fits) {

@@ -14,9 +14,9 @@
 namespace geotherm::io {
 namespace {
 
-constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;  // zlib counts in 32 bits
+constexpr std::size_t kMaxAtOnce = std::size_t{1} << 30;  // zlib counts in 32 bits
 // Meshes as text are packed to a tenth, flat ones to a fiftieth. What is small may be anything.
-constexpr std::size_t kMostTimes = 100, kAlways = std::size_t{256} << 20;
+constexpr std::size_t kMaxTimes = 100, kAlways = std::size_t{256} << 20;
 
 class Inflation {
  public:
@@ -32,9 +32,9 @@ class Inflation {
   std::size_t make(char* to, std::size_t room) {
     stream_.next_in =
         reinterpret_cast<Bytef*>(const_cast<char*>(left_.data()));  // zlib's own const
-    stream_.avail_in = static_cast<uInt>(std::min(kMostAtOnce, left_.size()));
+    stream_.avail_in = static_cast<uInt>(std::min(kMaxAtOnce, left_.size()));
     stream_.next_out = reinterpret_cast<Bytef*>(to);
-    stream_.avail_out = static_cast<uInt>(std::min(kMostAtOnce, room));
+    stream_.avail_out = static_cast<uInt>(std::min(kMaxAtOnce, room));
     const uInt in = stream_.avail_in, out = stream_.avail_out;
     code_ = inflate(&stream_, Z_NO_FLUSH);
     left_.remove_prefix(in - stream_.avail_in);
@@ -57,7 +57,7 @@ class Inflation {
 
 RawVector<char> unpack_gzip(std::string_view packed, std::size_t most, std::size_t padding) {
   const std::string sizes = std::to_string(packed.size()) + " compressed bytes";
-  const std::size_t usual = std::max(kAlways, kMostTimes * packed.size());
+  const std::size_t usual = std::max(kAlways, kMaxTimes * packed.size());
   const std::size_t limit = std::min(most, usual);
   Inflation stream(packed);
   RawVector<char> out;

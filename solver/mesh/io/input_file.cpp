@@ -74,9 +74,9 @@ std::size_t most_bytes() {
 /// Of a pipe that was opened without waiting: until something can be read or a writer has been
 /// there, but no longer than a person waits who has forgotten it.
 void wait_for_writer(int descriptor) {
-  constexpr int kMostMs = 2000;
+  constexpr int kMaxMs = 2000;
   pollfd pipe{descriptor, POLLIN, 0};
-  ::poll(&pipe, 1, kMostMs);
+  ::poll(&pipe, 1, kMaxMs);
   ::fcntl(descriptor, F_SETFL, ::fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
 }
 

@@ -127,9 +127,9 @@ class SceneMesh {
 
   /// Returns how many were written. Precondition: read() has returned `vertices` vertices.
   std::int64_t write_frames(int descriptor, std::size_t vertices) {
-    constexpr double kMostFrames = 1e5;
+    constexpr double kMaxFrames = 1e5;
     const double last = std::floor(motion_.seconds() * kSceneFrameRate + 1e-6);
-    if (!(last < kMostFrames)) {
+    if (!(last < kMaxFrames)) {
       throw ReadFailure{"its animation has more than 100000 frames, at " +
                         std::to_string(kSceneFrameRate) + " a second"};
     }

@@ -137,7 +137,7 @@ std::int64_t vtk_number(std::string_view bytes, const XmlTag& tag, std::string_v
   const auto text = attribute(tag, name);
   std::int64_t value = -1;
   if (text && parse_integer(text->data(), value) == text->data() + text->size() && value >= 0 &&
-      static_cast<std::uint64_t>(value) <= kMostVtkNumbers * bytes.size()) {
+      static_cast<std::uint64_t>(value) <= kMaxVtkNumbers * bytes.size()) {
     return value;
   }
   fail_at_tag(bytes, tag,

@@ -55,6 +55,6 @@ void read_vtk_appended_tag(std::string_view bytes, const XmlTag& tag, VtuEncodin
 /// A count or an offset that a file of this size may have.
 std::int64_t vtk_number(std::string_view bytes, const XmlTag& tag, std::string_view name);
 
-inline constexpr std::uint64_t kMostVtkNumbers = 1100;  ///< a byte, as compressed as can be
+inline constexpr std::uint64_t kMaxVtkNumbers = 1100;  ///< a byte, as compressed as can be
 
 }  // namespace geotherm::io

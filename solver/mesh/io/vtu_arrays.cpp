@@ -141,7 +141,7 @@ class VtuDecoder {
 
   std::vector<char> unpacked_stream(std::uint64_t expected) {
     const std::vector<char> packed = source_.rest();
-    if (expected / kMostTimes > packed.size()) fail("the file ends");
+    if (expected / kMaxTimes > packed.size()) fail("the file ends");
     std::vector<char> out(static_cast<std::size_t>(expected));
     auto unpacked = static_cast<uLongf>(out.size());
     const int code = ::uncompress(reinterpret_cast<Bytef*>(out.data()), &unpacked,
@@ -162,7 +162,7 @@ class VtuDecoder {
            std::to_string(last) + ", are announced instead of " + std::to_string(expected) +
            " bytes");
     }
-    if (expected / kMostTimes > most) fail("the file ends");
+    if (expected / kMaxTimes > most) fail("the file ends");
     std::vector<std::uint64_t> lengths(static_cast<std::size_t>(blocks));
     for (std::uint64_t& each : lengths) each = length();
     std::vector<char> out(static_cast<std::size_t>(expected)), packed;
@@ -182,7 +182,7 @@ class VtuDecoder {
     return out;
   }
 
-  static constexpr std::uint64_t kMostTimes = 1100;  ///< no block of deflate unpacks to more
+  static constexpr std::uint64_t kMaxTimes = 1100;  ///< no block of deflate unpacks to more
 
   ArrayBytes source_;
   const VtuEncoding& encoding_;

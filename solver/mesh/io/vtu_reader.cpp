@@ -122,7 +122,7 @@ class VtuFile {
     VtkCells cells;
     cells.offsets = integers(list.offsets, "offsets", list.cells);
     const std::int64_t corners = cells.offsets.back();
-    if (corners < 0 || static_cast<std::uint64_t>(corners) > kMostVtkNumbers * bytes_.size()) {
+    if (corners < 0 || static_cast<std::uint64_t>(corners) > kMaxVtkNumbers * bytes_.size()) {
       throw ReadFailure{"the last offset of the cells is " + std::to_string(corners)};
     }
     cells.offsets.insert(cells.offsets.begin(), 0);

@@ -8,7 +8,7 @@
 namespace geotherm::io {
 
 /// The most bytes that LZF can make of one.
-inline constexpr std::size_t kMostByLzf = 88;
+inline constexpr std::size_t kMaxByLzf = 88;
 
 /// Unpacks bytes that LZF packed (Lehmann's LibLZF, the compression of .pcd): a control byte below
 /// 32 is followed by so many bytes and one more as they are; any other holds the length and, with

@@ -14,7 +14,7 @@ namespace geotherm::io {
 namespace {
 
 /// Values a point, and bytes: more are no point.
-constexpr std::uint64_t kMostOfPoint = 1 << 20;
+constexpr std::uint64_t kMaxOfPoint = 1 << 20;
 
 /// The header, line by line.
 class PcdHeaderReader {
@@ -32,13 +32,13 @@ class PcdHeaderReader {
       } else if (keyword == "TYPE") {
         for_each_field("TYPE", [&](PcdField& field) { field.type = read_type(); });
       } else if (keyword == "COUNT") {
-        for_each_field("COUNT", [&](PcdField& field) { field.count = whole(kMostOfPoint); });
+        for_each_field("COUNT", [&](PcdField& field) { field.count = whole(kMaxOfPoint); });
       } else if (keyword == "WIDTH") {
-        width_ = whole(kMostPoints);
+        width_ = whole(kMaxPoints);
       } else if (keyword == "HEIGHT") {
-        height_ = whole(kMostPoints);
+        height_ = whole(kMaxPoints);
       } else if (keyword == "POINTS") {
-        points_ = whole(kMostPoints);
+        points_ = whole(kMaxPoints);
       } else if (keyword == "DATA") {
         return read_data();
       } else if (keyword != "VERSION" && keyword != "VIEWPOINT") {
@@ -49,7 +49,7 @@ class PcdHeaderReader {
   }
 
  private:
-  static constexpr std::uint64_t kMostPoints = 999'999'999'999;
+  static constexpr std::uint64_t kMaxPoints = 999'999'999'999;
 
   bool next_line() {
     const char* const end = bytes_.data() + bytes_.size();
@@ -86,7 +86,7 @@ class PcdHeaderReader {
     if (!header_.fields.empty()) fail("the fields are named twice");
     for (std::string_view name = word(); !name.empty(); name = word()) {
       header_.fields.push_back({std::string(name)});
-      if (header_.fields.size() > kMostOfPoint) fail("a point has too many fields");
+      if (header_.fields.size() > kMaxOfPoint) fail("a point has too many fields");
     }
     if (header_.fields.empty()) fail("no field is named");
   }
@@ -146,14 +146,14 @@ class PcdHeaderReader {
       field.start = header_.bytes;
       header_.values += field.count;
       header_.bytes += field.count * field.size;
-      if (header_.bytes > kMostOfPoint) fail("a point has more than 1048576 bytes");
+      if (header_.bytes > kMaxOfPoint) fail("a point has more than 1048576 bytes");
     }
   }
 
   void set_points() {
     constexpr std::uint64_t kOnlyRow = 1;
     const std::uint64_t rows = height_.value_or(kOnlyRow);
-    if (width_ && rows > 0 && *width_ > kMostPoints / rows) fail("there are too many points");
+    if (width_ && rows > 0 && *width_ > kMaxPoints / rows) fail("there are too many points");
     header_.points = points_ ? *points_ : *width_ * rows;
     if (width_ && *width_ * rows != header_.points) {
       fail("the header announces " + std::to_string(header_.points) + " points, but its grid has " +

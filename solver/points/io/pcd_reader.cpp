@@ -135,7 +135,7 @@ RawPoints read_packed(std::string_view bytes, const PcdHeader& header, const Poi
          std::to_string(header.points) + " points with " + std::to_string(header.bytes) +
          " bytes each");
   }
-  if (size > packed * kMostByLzf) {
+  if (size > packed * kMaxByLzf) {
     fail(std::to_string(packed) + " packed bytes cannot hold " + std::to_string(size));
   }
   const std::vector<char> data = unpack_lzf(body.substr(kSizes, packed), size, kSizes);
