@@ -112,14 +112,14 @@ Result<void> write_levels(const std::string& path, const Model& model,
                           const std::vector<SurfacePath>& curves, const SignedDistance& found,
                           const PictureSettings& settings, const Progress& progress,
                           Outputs& outputs, CommandOutput& out) {
-  constexpr double kLevels = 20;
+  constexpr double kWanted = 20;
   double least = 0, largest = 0;
   for (const double d : found.distances) {
     if (!std::isfinite(d)) continue;
     least = std::min(least, d);
     largest = std::max(largest, d);
   }
-  const double step = (largest - least) / kLevels;
+  const double step = (largest - least) / kWanted;
   std::vector<double> levels;
   for (double k = std::ceil(least / step); k * step <= largest; ++k) {
     if (k != 0) levels.push_back(k * step);
