@@ -104,6 +104,7 @@ TEST_F(QualityResponds, DistancesBelowZeroAreCountedAndSaid) {
 TEST_F(QualityResponds, TheWarningOfClampedVerticesSaysWhatItMeans) {
   DistanceResult result;
   result.distances = {0, 0, 3, kUnreached};
+  result.quality.reached_vertices = 3;
   result.quality.clamped_vertices = 1;
   result.quality.clamped_reach = 2.5;
   ASSERT_TRUE(assess_heat({}, 1, {}, result));

@@ -7,6 +7,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <iterator>
+#include <sstream>
 
 #include "solver/mesh/output_file.h"
 #include "tests/mesh/mesh_files.h"
@@ -102,19 +104,27 @@ std::vector<DataField> fields() {
           {"edges", Place::kFaces, Type::kUint8, {0, 1, 2, 3, 0, 255}}};
 }
 
+/// Text, which other programs read with fields of faces.
 TEST_F(DistanceFile, ply_holds_fields_of_vertices_and_faces_and_still_reads_back) {
   const std::string path = directory.path("f.ply");
   ASSERT_TRUE(write_distances(path, pyramid(), kDistances, {}, fields()));
   const std::string bytes = bytes_of(path);
+  EXPECT_TRUE(bytes.starts_with("ply\nformat ascii 1.0\n"));
   EXPECT_NE(bytes.find("property double error\nelement face"), std::string::npos);
   EXPECT_NE(bytes.find("vertex_indices\nproperty double quality\nproperty uchar edges\nend_header"),
             std::string::npos);
-  const std::size_t vertices = bytes.find("end_header\n") + 11;
-  EXPECT_EQ(values_at<double>(bytes, vertices + 44 + 36, 1)[0], -0.5);
-  const std::size_t faces = vertices + 5 * 44;
-  EXPECT_EQ(values_at<double>(bytes, faces + 3 * 22 + 13, 1)[0], 0.125);
-  EXPECT_EQ(values_at<std::uint8_t>(bytes, faces + 5 * 22 + 21, 1)[0], 255);
-  EXPECT_EQ(bytes.size(), faces + 6 * 22u);
+  std::istringstream lines(bytes.substr(bytes.find("end_header\n") + 11));
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    rows.emplace_back(std::istream_iterator<std::string>(words),
+                      std::istream_iterator<std::string>());
+  }
+  ASSERT_EQ(rows.size(), 5U + 6U);
+  EXPECT_EQ(rows[1].back(), "-0.5");
+  EXPECT_EQ(std::stod(rows[3].back()), 1e-300);
+  EXPECT_EQ(rows[5 + 3][4], "0.125");
+  EXPECT_EQ(rows[5 + 5][5], "255");
   const Result<MeshFile> file = read_mesh(path);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_TRUE(std::ranges::equal(file->mesh.faces(), pyramid_faces()));

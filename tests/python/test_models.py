@@ -161,7 +161,7 @@ def test_meshio_reads_every_field(program, tmp_path):
     assert set(read.cell_data) == {
         "eikonal_error", "gradient_angle", "lost_gradients", "triangle_quality", "non_delaunay"
     }
-    assert np.array_equal(geotherm.Mesh(tmp_path / "d.ply").faces, read.cells[0].data)
+    assert np.array_equal(geotherm.read(tmp_path / "d.ply").faces, read.cells[0].data)
 
 
 def test_welded_vertices_are_one():
