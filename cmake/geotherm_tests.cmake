@@ -15,7 +15,9 @@ endif()
 
 # One BLAS thread keeps `ctest -j` honest, and a library that is not instrumented out of the thread
 # sanitizer's sight.
-set(GEOTHERM_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1" "OMP_NUM_THREADS=1")
+# hwloc, which MPI asks for the machine, must not open displays: one that another test ends takes
+# the process with it.
+set(GEOTHERM_TEST_ENVIRONMENT "OPENBLAS_NUM_THREADS=1" "OMP_NUM_THREADS=1" "HWLOC_COMPONENTS=-gl")
 if("thread" IN_LIST GEOTHERM_SANITIZE)
   list(APPEND GEOTHERM_TEST_ENVIRONMENT
        "TSAN_OPTIONS=halt_on_error=1:suppressions=${PROJECT_SOURCE_DIR}/tests/tsan.supp")

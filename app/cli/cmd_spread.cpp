@@ -285,11 +285,11 @@ Result<CommandOutput> run_transport(const SpreadArguments& arguments, const Prog
   if (!arguments.json.empty()) {
     Json json = spread_json(*work, *given, reached);
     json["components"] = work->spread.components;
-    json["vectors"] = json["frames"]["e1"] = json["frames"]["e2"] = Json::array();
+    json["vectors"] = json["tangent_frames"]["e1"] = json["tangent_frames"]["e2"] = Json::array();
     for (const Vec3& v : work->spread.vectors) json["vectors"].push_back({v.x(), v.y(), v.z()});
     for (const TangentFrame& frame : work->heat->frames()) {
-      json["frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
-      json["frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
+      json["tangent_frames"]["e1"].push_back({frame.e1.x(), frame.e1.y(), frame.e1.z()});
+      json["tangent_frames"]["e2"].push_back({frame.e2.x(), frame.e2.y(), frame.e2.z()});
     }
     const auto written = outputs.write_text(arguments.json, report_text(std::move(json)), out.text);
     if (!written) return written.error();
