@@ -19,8 +19,7 @@ namespace {
 
 constexpr double kNoticeTime = 12;  ///< seconds
 constexpr std::size_t kMaxNotices = 3;
-constexpr float kRoomForWarnings = 320;  ///< height of the picture, pixels at scale 1
-constexpr float kNoticesShare = 0.45F;   ///< of the height of the picture, whose middle stays free
+constexpr float kNoticesShare = 0.45F;  ///< of the height of the picture, whose middle stays free
 
 constexpr ImGuiWindowFlags kFloating =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -194,17 +193,12 @@ void take_notices(Frame& frame) {
   if (taken > log.size()) taken = log.size() - std::min<std::size_t>(1, log.size());
   for (; taken < log.size(); ++taken) {
     const app::LogLine& line = log[taken];
-    auto settings = settings_of(line.hint);
-    // A warning is for the log and the panels, but where a click cures what it warns of
-    // and the picture has room for it.
-    const bool curable = line.kind == app::LogLine::Kind::kWarning && !settings.empty() &&
-                         frame.ui.places.canvas.height >= frame.px(kRoomForWarnings);
-    if (line.kind != app::LogLine::Kind::kError && !curable) continue;
+    if (line.kind != app::LogLine::Kind::kError) continue;
     auto& notices = frame.ui.notices;
     std::string text = sentence(line.text, line.hint);
     std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });
     notices.push_back(
-        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, std::move(settings)});
+        {std::move(text), line.kind, ImGui::GetTime() + kNoticeTime, settings_of(line.hint)});
     if (notices.size() > kMaxNotices) notices.erase(notices.begin());
   }
 }

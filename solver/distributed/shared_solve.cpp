@@ -388,7 +388,6 @@ Result<SharedAnswer> solve_over_ranks(const RankGroup& ranks, const std::string&
     return right.error();
   hand_over(ranks, part, distances, out);
   out.warnings.insert(out.warnings.begin(), notes.begin(), notes.end());
-
   out.t = times->model_t;
   out.relative_t = times->relative_t;
   out.rings = rules.rings;

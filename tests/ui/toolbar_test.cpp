@@ -163,8 +163,7 @@ TEST_F(Said, WithTheRemedyOfAPoorAnswer) {
   const auto remedies = settings_of(error->advice);
   ASSERT_FALSE(remedies.empty());
   const std::string change = remedies[0].name + ' ' + remedies[0].values.at(0);
-  EXPECT_TRUE(is_drawn("Notices/" + change)) << change;
-  EXPECT_TRUE(is_drawn("Quality/" + change));
+  EXPECT_TRUE(is_drawn("Quality/" + change)) << change;
   click_item("Exact error/" + change);
   EXPECT_EQ(sent().back(), change);
   frames(3);

@@ -86,7 +86,7 @@ std::string line_with(const std::vector<std::string>& lines, const std::string& 
 
 // Where things are in a window of 1280 x 800 with the log shown.
 inline constexpr Spot kEar{640, 150}, kHead{530, 340}, kBody{600, 420};
-inline constexpr Spot kConstraintChoice{195, 460}, kTimeFactorField{248, 348};
+inline constexpr Spot kConstraintChoice{195, 496}, kTimeFactorField{248, 384};
 inline constexpr Spot kPanel{150, 228};  ///< nothing that could be hit
 
 }  // namespace geotherm::test
