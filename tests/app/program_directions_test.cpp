@@ -102,7 +102,8 @@ TEST_F(Program, TransportAndExtendReachAllVertices) {
   for (const int v : {0, 17, 1234}) {
     for (int k = 0; k < 3; ++k) {
       const double sum =
-          said["components"][v][0].get<double>() * said["tangent_frames"]["e1"][v][k].get<double>() +
+          said["components"][v][0].get<double>() *
+              said["tangent_frames"]["e1"][v][k].get<double>() +
           said["components"][v][1].get<double>() * said["tangent_frames"]["e2"][v][k].get<double>();
       EXPECT_NEAR(said["vectors"][v][k].get<double>(), sum, 1e-12) << v;
     }
