@@ -170,8 +170,7 @@ void draw_notices(Frame& frame) {
   for (Notice& notice : notices) {
     const Palette& p = frame.colours();
     const bool error = notice.kind == app::LogLine::Kind::kError;
-    const bool warning = notice.kind == app::LogLine::Kind::kWarning;
-    draw_note(notice.text, error ? p.error : warning ? p.warning : p.text);
+    draw_note(notice.text, error ? p.error : p.text);
     draw_buttons(frame, notice);
   }
   const float button = frame.px(70);

@@ -32,6 +32,18 @@
 #include "solver/mesh/io/scene_reader.h"
 
 namespace geotherm::io {
+
+bool write_all(int descriptor, const void* data, std::size_t size) {
+  const char* from = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::write(descriptor, from, size);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    from += sent;
+    size -= static_cast<std::size_t>(sent);
+  }
+  return true;
+}
 namespace {
 
 enum class Outcome : std::uint64_t { kMesh = 1, kFailure, kNoMemory };
@@ -57,18 +69,6 @@ std::uint64_t most_memory(std::size_t bytes) {
       std::max<std::int64_t>(free_memory().value_or(std::int64_t{1} << 50), 0));
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) +
          std::min(free, std::max(kAtLeast, kTimes * bytes));
-}
-
-bool send(int pipe, const void* data, std::size_t size) {
-  const char* from = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::write(pipe, from, size);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    from += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
 }
 
 /// Waits no longer than until `end`.
@@ -116,11 +116,11 @@ bool receive(int pipe, void* data, std::size_t size, std::chrono::steady_clock::
     header.text = text.size();
   } catch (...) {  // bad_alloc; Assimp's own exceptions have become failures
   }
-  const bool sent = send(pipe, &header, sizeof header) &&
-                    send(pipe, raw.positions.data(), header.positions * sizeof(Vec3)) &&
-                    send(pipe, raw.faces.data(), header.faces * sizeof(Face)) &&
-                    send(pipe, raw.polygons.data(), header.polygons * sizeof(Polygon)) &&
-                    send(pipe, text.data(), text.size());
+  const bool sent = write_all(pipe, &header, sizeof header) &&
+                    write_all(pipe, raw.positions.data(), header.positions * sizeof(Vec3)) &&
+                    write_all(pipe, raw.faces.data(), header.faces * sizeof(Face)) &&
+                    write_all(pipe, raw.polygons.data(), header.polygons * sizeof(Polygon)) &&
+                    write_all(pipe, text.data(), text.size());
   ::_exit(sent ? 0 : 1);
 }
 

@@ -8,7 +8,6 @@
 #include <assimp/commonMetaData.h>
 #include <assimp/importerdesc.h>
 #include <assimp/scene.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -148,7 +147,13 @@ class SceneMesh {
       if (!std::ranges::all_of(frame, [](const Vec3& p) { return p.allFinite(); })) {
         throw ReadFailure{"a coordinate of frame " + std::to_string(k) + " is not finite"};
       }
-      write_all(descriptor, frame.data(), frame.size() * sizeof(Vec3));
+      if (!write_all(descriptor, frame.data(), frame.size() * sizeof(Vec3))) {
+        throw ReadFailure{"its frames cannot be written to the folder for temporary files: " +
+                              std::generic_category().message(errno),
+                          0,
+                          {},
+                          {"set TMPDIR to a folder with room"}};
+      }
     }
     return count;
   }
@@ -160,23 +165,6 @@ class SceneMesh {
     const aiNode* node;
     std::vector<Index> numbers;
   };
-
-  static void write_all(int descriptor, const void* data, std::size_t size) {
-    const char* from = static_cast<const char*>(data);
-    while (size > 0) {
-      const ssize_t written = ::write(descriptor, from, size);
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) {
-        throw ReadFailure{"its frames cannot be written to the folder for temporary files: " +
-                              std::generic_category().message(errno),
-                          0,
-                          {},
-                          {"set TMPDIR to a folder with room"}};
-      }
-      from += written;
-      size -= static_cast<std::size_t>(written);
-    }
-  }
 
   static std::size_t corner_guess(const aiScene& scene) {
     std::size_t vertices = 0;

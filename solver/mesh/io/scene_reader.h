@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ inline constexpr std::string_view kTurnedRoot = "up is ";
 /// what is damaged may end the process.
 RawMesh read_scene_here(std::string_view bytes, std::string_view format, const std::string& folder,
                         SceneFrames* frames = nullptr);
+
+/// Whether all of it was written to a file or a pipe; errno says why not.
+bool write_all(int descriptor, const void* data, std::size_t size);
 
 /// Frames of a scene are so many a second.
 inline constexpr int kSceneFrameRate = 24;
