@@ -224,13 +224,9 @@ Built build_method(std::shared_ptr<const Grid> grid, const MethodOptions& option
   return memory_ended(options);
 }
 
-Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
-                                                        const Progress& progress) {
+std::shared_ptr<const IntrinsicSurface> triangulation_for_waves(const DistanceMethod& method) {
   const HeatMethod* const heat = method.heat();
-  if (heat == nullptr || heat != &method) return std::shared_ptr<const WaveSurface>();
-  auto triangulation = heat->delaunay_triangulation();
-  if (!triangulation) return std::shared_ptr<const WaveSurface>();
-  return build_wave_surface(std::move(triangulation), progress);
+  return heat == &method ? heat->delaunay_triangulation() : nullptr;
 }
 
 }  // namespace geotherm

@@ -80,6 +80,14 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
     return {};
   }
   reference_.reset();
+  if (beside_ && beside_->has_begun()) {
+    auto solved = beside_->wait(progress);
+    beside_.reset();
+    if (!solved) return solved.error();
+    reference_ = Reference{sets, *std::move(solved)};
+    return {};
+  }
+  beside_.reset();
   std::shared_ptr<const DistanceMethod> kept;
   const Stopwatch watch;
   if (use_ == Use::kSession || model_.space) {
@@ -89,7 +97,7 @@ Result<void> ModelSolver::solve_reference(MethodKind kind, const CheckedAnswers&
   }
   auto solved = kept ? geotherm::solve_reference(*kept, sets, part_of(progress, 0.3, 1.0))
                      : geotherm::solve_reference(model_.mesh, kind, sets, answers.options.threads,
-                                                 &beside, progress);
+                                                 triangulation_for_waves(beside), progress);
   if (!solved) return solved.error();
   solved->milliseconds = watch.milliseconds();
   reference_ = Reference{sets, *std::move(solved)};

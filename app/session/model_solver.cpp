@@ -81,6 +81,12 @@ Result<std::shared_ptr<const DistanceMethod>> ModelSolver::make(const MethodOpti
   if (earlier != nullptr) {
     return build_method_moved(model_.mesh, options, earlier->method.get(), progress);
   }
+  if (beside_ && near == nullptr) {
+    auto made = HeatMethod::build(model_.mesh, options, progress, beside_->starter());
+    if (!made) return made.error();
+    return std::shared_ptr<const DistanceMethod>(
+        std::make_shared<const HeatMethod>(*std::move(made)));
+  }
   if (options.method == MethodKind::kHeat) {
     return build_method_near(model_.mesh, options, near, progress);
   }
@@ -238,12 +244,27 @@ Result<Answer> ModelSolver::solve(const MethodOptions& options, const ResolvedSo
   return answer;
 }
 
+/// Has the reference of one answer solved while its heat method is set up, where that is worth it.
+void ModelSolver::begin_reference(const MethodOptions& options, const ResolvedSources& sources,
+                                  const Wanted& wanted) {
+  if (wanted.check.against == Check::kOff || use_ != Use::kOneAnswer || model_.space) return;
+  const bool plain = options.refine == 0 && model_.mesh->same_as().empty();
+  if (options.method != MethodKind::kHeat || !plain || find_ready(options) != nullptr) return;
+  if (!ReferenceBeside::is_worth_it(*model_.mesh, thread_count(options.threads))) return;
+  beside_ = std::make_unique<ReferenceBeside>(
+      model_.mesh, reference_of(options.method, wanted.check), std::vector{sources.set});
+}
+
 Result<Answer> ModelSolver::answer_all(const MethodOptions& options, const ResolvedSources& sources,
                                        const Wanted& wanted, const Progress& progress) {
   const bool checks = wanted.check.against != Check::kOff;
   const double solved = checks ? 0.8 : 1.0;  // share of the whole
+  begin_reference(options, sources, wanted);
   auto answer = distances(options, sources, wanted.query, part_of(progress, 0.0, solved));
-  if (!answer) return answer;
+  if (!answer) {
+    beside_.reset();
+    return answer;
+  }
   const Progress checking = part_of(progress, solved, 1.0);
   const int threads = thread_count(options.threads);
   Result<AccuracyReport> report = AccuracyReport();

@@ -12,6 +12,7 @@
 #include "app/picture/target_paths.h"
 #include "app/session/answer.h"
 #include "app/session/check.h"
+#include "app/session/reference_beside.h"
 #include "app/session/sources.h"
 #include "geotherm/progress.h"
 
@@ -114,6 +115,8 @@ class ModelSolver {
   const ReadyMethod* find_ready(const MethodOptions& options) const;
   Result<Answer> distances(const MethodOptions& options, const ResolvedSources& sources,
                            const QueryOptions& query, const Progress& progress);
+  void begin_reference(const MethodOptions& options, const ResolvedSources& sources,
+                       const Wanted& wanted);
   void describe_mesh(Answer& answer) const;
   Result<Answer> answer_all(const MethodOptions& options, const ResolvedSources& sources,
                             const Wanted& wanted, const Progress& progress);
@@ -152,6 +155,8 @@ class ModelSolver {
     ReferenceAnswers answers;
   };
   std::optional<Reference> reference_;  ///< the last
+  /// That of the present question, where it is solved while its method is set up.
+  std::unique_ptr<ReferenceBeside> beside_;
   struct Paths {
     std::shared_ptr<const DistanceMethod> method;
     std::shared_ptr<const TargetPathFinder> finder;

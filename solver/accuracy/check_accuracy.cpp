@@ -9,6 +9,7 @@
 
 #include "solver/core/stopwatch.h"
 #include "solver/core/text.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {
@@ -94,7 +95,8 @@ std::string percent_text(double share) {
 
 Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMesh>& mesh,
                                          MethodKind kind, std::span<const SourceSet> sources,
-                                         int threads, const DistanceMethod* beside,
+                                         int threads,
+                                         std::shared_ptr<const IntrinsicSurface> triangulation,
                                          const Progress& progress) try {
   constexpr double kSetUpShare = 0.3;
   MethodOptions options;
@@ -102,8 +104,9 @@ Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMes
   options.threads = threads;
   const Stopwatch watch;
   std::shared_ptr<const WaveSurface> waves;
-  if (beside != nullptr) {
-    auto shared = waves_beside(*beside, part_of(progress, 0.0, kSetUpShare / 2));
+  if (triangulation) {
+    auto shared =
+        build_wave_surface(std::move(triangulation), part_of(progress, 0.0, kSetUpShare / 2));
     if (!shared) return shared.error();
     waves = *std::move(shared);
   }
@@ -206,7 +209,8 @@ Result<AccuracyReport> check_accuracy(const std::shared_ptr<const TriangleMesh>&
                      : "the method " + to_text(checked) + " was not held against a better one");
   }
   const bool searches = options.search != RemedySearch::kNever;
-  auto better = solve_reference(mesh, reference, answers.sources, options.threads, &answers.method,
+  auto better = solve_reference(mesh, reference, answers.sources, options.threads,
+                                triangulation_for_waves(answers.method),
                                 part_of(progress, 0.0, searches ? 0.3 : 1.0));
   if (!better) return better.error();
   AccuracyReport report = hold_against(answers.distances, checked, *better);

@@ -6,6 +6,7 @@
 
 #include "geotherm/heat_method.h"
 #include "solver/accuracy/candidates.h"
+#include "solver/polyhedral/wave_surface.h"
 
 namespace geotherm {
 namespace {
@@ -79,7 +80,7 @@ class Search {
     for (const MethodKind reference : {MethodKind::kExact, MethodKind::kWavefrontFine}) {
       if (!is_better(reference, kind) || (reference == MethodKind::kExact && !small)) continue;
       const auto better = solve_reference(mesh_, reference, answers_.sources, options.threads,
-                                          &answers_.method, progress);
+                                          triangulation_for_waves(answers_.method), progress);
       if (better) {
         exact_answers_ = exact_answers_ || reference == MethodKind::kExact;
         return try_against(options, reference, better->distances, progress);
@@ -123,7 +124,9 @@ class Search {
     if (options.method == MethodKind::kHeat) {
       return build_method_near(mesh_, options, &answers_.method, progress);
     }
-    auto waves = waves_beside(answers_.method, progress);
+    auto triangulation = triangulation_for_waves(answers_.method);
+    if (!triangulation) return build_method(mesh_, options, progress);
+    auto waves = build_wave_surface(std::move(triangulation), progress);
     if (!waves) return waves.error();
     return build_method(mesh_, options, progress, *std::move(waves));
   }

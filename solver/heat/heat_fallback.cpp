@@ -28,8 +28,9 @@ Error does_not_move() {
 }  // namespace
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const TriangleMesh> mesh,
-                                     const HeatOptions& options, const Progress& progress) {
-  return State::build(surface_input(std::move(mesh)), options, progress);
+                                     const HeatOptions& options, const Progress& progress,
+                                     const TriangulationReady& ready) {
+  return State::build(surface_input(std::move(mesh), {}, ready), options, progress);
 }
 
 Result<HeatMethod> HeatMethod::build(std::shared_ptr<const CellComplex> cells,

@@ -233,8 +233,7 @@ const RefinementCounts& HeatMethod::refinement() const {
 }
 std::shared_ptr<const IntrinsicSurface> HeatMethod::delaunay_triangulation() const {
   const Surface* const surface = state_->domain->surface();
-  const bool flipped = state_->options.laplacian != LaplacianKind::kCotan;
-  if (surface == nullptr || !flipped || surface->tufted) return nullptr;
+  if (surface == nullptr || !surface->serves_waves()) return nullptr;
   return {state_->domain, surface};
 }
 const SetupTiming& HeatMethod::timing() const { return state_->timing; }

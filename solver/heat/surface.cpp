@@ -112,14 +112,15 @@ std::vector<ComponentSize> measure_components(const Surface& surface) {
 
 class MeshInput final : public Domain::Input {
  public:
-  MeshInput(std::shared_ptr<const TriangleMesh> mesh, std::shared_ptr<const Surface> earlier)
-      : mesh_(std::move(mesh)), earlier_(std::move(earlier)) {}
+  MeshInput(std::shared_ptr<const TriangleMesh> mesh, std::shared_ptr<const Surface> earlier,
+            TriangulationReady ready)
+      : mesh_(std::move(mesh)), earlier_(std::move(earlier)), ready_(std::move(ready)) {}
 
   Index cell_count() const override { return mesh_->face_count(); }
   std::array<const char*, 2> cell_names() const override { return {"face", "faces"}; }
   Result<std::shared_ptr<const Domain>> make(const Backend& backend, LaplacianKind laplacian,
                                              int threads, const Progress& progress) const override {
-    auto made = build_surface(mesh_, backend, laplacian, threads, progress, earlier_.get());
+    auto made = build_surface(mesh_, backend, laplacian, threads, progress, earlier_.get(), ready_);
     if (!made) return made.error();
     return std::shared_ptr<const Domain>(*std::move(made));
   }
@@ -127,6 +128,7 @@ class MeshInput final : public Domain::Input {
  private:
   std::shared_ptr<const TriangleMesh> mesh_;
   std::shared_ptr<const Surface> earlier_;
+  TriangulationReady ready_;
 };
 
 LaplacianKind kind_of(const IntrinsicSurface& surface) {
@@ -278,7 +280,8 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress,
-                                                     const Surface* earlier) {
+                                                     const Surface* earlier,
+                                                     const TriangulationReady& ready) {
   Stopwatch watch;
   const bool little = earlier != nullptr && moved_little(*earlier, *mesh);
   auto built = build_intrinsic_surface(
@@ -295,6 +298,7 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
   out->input_vertices = out->mesh->vertex_count();
   out->findings = std::move(out->warnings);
   out->input = surface_input(out->mesh);
+  if (ready && out->serves_waves()) ready(out);  // what follows leaves the triangulation as it is
 
   if (earlier != nullptr) {
     out->factor_memory =
@@ -324,8 +328,9 @@ Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const Trian
 }
 
 std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh,
-                                                   std::shared_ptr<const Surface> earlier) {
-  return std::make_shared<const MeshInput>(std::move(mesh), std::move(earlier));
+                                                   std::shared_ptr<const Surface> earlier,
+                                                   TriangulationReady ready) {
+  return std::make_shared<const MeshInput>(std::move(mesh), std::move(earlier), std::move(ready));
 }
 
 std::shared_ptr<const DomainOperator> Surface::combine(double mass_factor,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geotherm/error.h"
+#include "geotherm/heat_method.h"
 #include "geotherm/mesh.h"
 #include "geotherm/options.h"
 #include "solver/geometry/intrinsic_surface.h"
@@ -45,21 +46,26 @@ struct Surface final : IntrinsicSurface, Domain {
   void check_straight_lines(const SourceSet& sources, int threads,
                             DistanceResult& result) const override;
   const Surface* surface() const override { return this; }
+
+  /// Whether waves may walk over its triangulation: it was made Delaunay and is no cover.
+  bool serves_waves() const { return asked != LaplacianKind::kCotan && !tufted; }
 };
 
 /// `progress` is asked between operators, flips and analysis, as stages "operators" and "analyze".
 /// Errors: kBadInput (no face with area), kCancelled, and the backend's. `earlier`: the same faces
 /// with vertices elsewhere, or null. Its elimination order is kept, and its whole analysis where
 /// the triangulation is the same; a new order is made where factors in the kept one would be larger
-/// by more than 15 % than they were when it was made.
+/// by more than 15 % than they were when it was made. `ready`: as in HeatMethod::build().
 Result<std::shared_ptr<const Surface>> build_surface(std::shared_ptr<const TriangleMesh> mesh,
                                                      const Backend& backend,
                                                      LaplacianKind laplacian, int threads,
                                                      const Progress& progress = {},
-                                                     const Surface* earlier = nullptr);
+                                                     const Surface* earlier = nullptr,
+                                                     const TriangulationReady& ready = {});
 
-/// What makes the domain of a mesh; `earlier` as in build_surface().
+/// What makes the domain of a mesh; `earlier` and `ready` as in build_surface().
 std::shared_ptr<const Domain::Input> surface_input(std::shared_ptr<const TriangleMesh> mesh,
-                                                   std::shared_ptr<const Surface> earlier = {});
+                                                   std::shared_ptr<const Surface> earlier = {},
+                                                   TriangulationReady ready = {});
 
 }  // namespace geotherm

@@ -158,8 +158,8 @@ TEST(AccuracyTest, WavesOnTheTriangulationOfHeatAreThoseOnTheirOwn) {
   const Asked asked = ask(mesh, options, {7});
   ASSERT_GT(asked.method->heat()->flips(), 0) << "there is something to share";
   ASSERT_TRUE(asked.method->heat()->delaunay_triangulation());
-  const auto shared =
-      solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1, asked.method.get());
+  const auto shared = solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1,
+                                      triangulation_for_waves(*asked.method));
   const auto own = solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1);
   ASSERT_TRUE(shared && own);
   EXPECT_EQ(shared->distances, own->distances);
@@ -170,8 +170,8 @@ TEST(AccuracyTest, WavesWalkOverInsertedVertices) {
   const MeshPtr mesh = finish(random_delaunay(300, 5));
   const Asked asked = ask(mesh, {}, {7});
   ASSERT_GT(asked.method->heat()->refinement().points, 0);
-  const auto shared =
-      solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1, asked.method.get());
+  const auto shared = solve_reference(mesh, MethodKind::kWavefront, asked.sources, 1,
+                                      triangulation_for_waves(*asked.method));
   ASSERT_TRUE(shared);
   const auto& positions = mesh->positions();
   std::vector<double> straight;

@@ -193,12 +193,12 @@ struct AccuracyReport {
   bool is_poor() const { return measured && grade == Grade::kPoor; }
 };
 
-/// Solves by `kind`. `beside`: a method on the same mesh whose triangulation is shared where it can
-/// be; may be null. Errors: those of build_method() and its queries.
-Result<ReferenceAnswers> solve_reference(const std::shared_ptr<const TriangleMesh>& mesh,
-                                         MethodKind kind, std::span<const SourceSet> sources,
-                                         int threads, const DistanceMethod* beside = nullptr,
-                                         const Progress& progress = {});
+/// Solves by `kind`. `triangulation`: of the same mesh, to be shared where it can be
+/// (triangulation_for_waves()); may be null. Errors: those of build_method() and its queries.
+Result<ReferenceAnswers> solve_reference(
+    const std::shared_ptr<const TriangleMesh>& mesh, MethodKind kind,
+    std::span<const SourceSet> sources, int threads,
+    std::shared_ptr<const IntrinsicSurface> triangulation = nullptr, const Progress& progress = {});
 
 /// The same by a method that is ready.
 Result<ReferenceAnswers> solve_reference(const DistanceMethod& method,

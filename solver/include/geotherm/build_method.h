@@ -14,6 +14,8 @@ namespace geotherm {
 
 /// What the methods of polyhedral_methods.h walk over; build_wave_surface() makes it.
 struct WaveSurface;
+/// A triangulation of a surface that may have other edges than the mesh; internal.
+struct IntrinsicSurface;
 
 /// A method with its options: those of the heat method, of which the others use `threads` alone.
 struct MethodOptions : HeatOptions {
@@ -62,9 +64,8 @@ Result<std::shared_ptr<const DistanceMethod>> build_method_moved(
     std::shared_ptr<const TriangleMesh> moved, const MethodOptions& options,
     const DistanceMethod* earlier, const Progress& progress = {});
 
-/// What waves walk over, on the triangulation that a heat method has made. Null where `method` is
-/// none, or has another triangulation or mesh. Errors: those of build_wave_surface().
-Result<std::shared_ptr<const WaveSurface>> waves_beside(const DistanceMethod& method,
-                                                        const Progress& progress = {});
+/// The triangulation that a heat method has made, where waves on the same mesh may share it. Null
+/// where `method` is none, or has another triangulation or mesh.
+std::shared_ptr<const IntrinsicSurface> triangulation_for_waves(const DistanceMethod& method);
 
 }  // namespace geotherm

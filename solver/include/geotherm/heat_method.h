@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,10 @@ namespace geotherm {
 
 /// A triangulation of the surface that may have other edges than the mesh; internal.
 struct IntrinsicSurface;
+
+/// Is handed a triangulation that waves may share, as soon as it stands: beside the rest of the
+/// set-up. Called on a thread of the set-up, again where another backend takes over.
+using TriangulationReady = std::function<void(std::shared_ptr<const IntrinsicSurface>)>;
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013): solve
 /// (A + t L) u = u0, take X = -grad u / |grad u| on each face, solve L phi = div-form of X.
@@ -42,9 +47,11 @@ struct IntrinsicSurface;
 class HeatMethod final : public DistanceMethod {
  public:
   /// Errors: kNotAvailable (backend), kBadInput (options, a mesh without area), kNumericalFailure
-  /// (with the column or residual), kOutOfMemory, kCancelled.
+  /// (with the column or residual), kOutOfMemory, kCancelled. `ready` is called where there will be
+  /// a delaunay_triangulation().
   static Result<HeatMethod> build(std::shared_ptr<const TriangleMesh> mesh,
-                                  const HeatOptions& options = {}, const Progress& progress = {});
+                                  const HeatOptions& options = {}, const Progress& progress = {},
+                                  const TriangulationReady& ready = {});
 
   /// The same on any space that is cut into cells (domains.h). Of the options `laplacian` is kAuto
   /// or kCotan, which are one. Sources are vertices and cell points. Errors: the same, and
