@@ -46,6 +46,10 @@ std::vector<LineSource> lines_of(const TriangleMesh& mesh, const SourceSet& sour
   }
   const auto positions = mesh.positions();
   for (const auto& [a, b] : sources.edges) out.push_back({positions[a], positions[b], 0.0});
+  for (const FaceSegment& segment : sources.segments) {
+    out.push_back({position_of(mesh, SurfacePoint::in_face(segment.face, segment.from)),
+                   position_of(mesh, SurfacePoint::in_face(segment.face, segment.to)), 0.0});
+  }
   return out;
 }
 

@@ -111,6 +111,18 @@ Result<void> check_in_face(const IntrinsicSurface& surface, const SurfacePoint& 
   return {};
 }
 
+Result<void> check_segment(const IntrinsicSurface& surface, const FaceSegment& segment) {
+  for (const auto& weights : {segment.from, segment.to}) {
+    const auto valid = check_in_face(surface, SurfacePoint::in_face(segment.face, weights));
+    if (!valid) return valid;
+  }
+  if (clean_face_of(surface, segment.face) != kNoIndex) return {};
+  return Error{ErrorCode::kBadInput,
+               "the source curve crosses face " + std::to_string(segment.face) +
+                   ", which repeats a corner and has no inside",
+               {"lead it through others"}};
+}
+
 Result<void> check_edge(const IntrinsicSurface& surface, const std::array<Index, 2>& edge) {
   for (const Index v : edge) {
     if (auto valid = check_vertex(surface, v); !valid) return valid;
@@ -142,6 +154,17 @@ Result<void> check_offsets(const IntrinsicSurface& surface, const SourceSet& sou
   return {};
 }
 
+/// Weights of the corners of a face as its counterpart in kept->faces has them.
+std::array<double, 3> as_kept(const IntrinsicSurface& surface, const Face& face, Index kept,
+                              const std::array<double, 3>& weights) {
+  std::array<double, 3> out{};
+  for (int k = 0; k < 3; ++k) {
+    const auto same = std::ranges::find(face, surface.kept->faces[kept][k]);
+    out[k] = weights[static_cast<std::size_t>(same - face.begin())];
+  }
+  return out;
+}
+
 }  // namespace
 
 Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b) {
@@ -157,9 +180,21 @@ SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& po
   const auto [weights, corner] = clean_weights(point.weights);
   if (corner >= 0) return SurfacePoint::at_vertex(face[static_cast<std::size_t>(corner)]);
   SurfacePoint out = SurfacePoint::in_face(clean_face_of(surface, point.face), {});
-  for (int k = 0; k < 3; ++k) {
-    const auto same = std::ranges::find(face, surface.kept->faces[out.face][k]);
-    out.weights[k] = weights[static_cast<std::size_t>(same - face.begin())];
+  out.weights = as_kept(surface, face, out.face, weights);
+  return out;
+}
+
+FaceSegment clean_segment(const IntrinsicSurface& surface, const FaceSegment& segment) {
+  const Face& face = surface.mesh->faces()[segment.face];
+  FaceSegment out = segment;
+  out.face = clean_face_of(surface, segment.face);
+  for (auto* const end : {&out.from, &out.to}) {
+    auto [weights, corner] = clean_weights(*end);
+    for (int k = 0; k < 3; ++k) {
+      if (corner >= 0) weights[k] = k == corner ? 1 : 0;
+      if (weights[k] <= kAtCorner) weights[k] = 0;
+    }
+    *end = as_kept(surface, face, out.face, weights);
   }
   return out;
 }
@@ -180,6 +215,9 @@ Result<void> check_sources(const IntrinsicSurface& surface, const SourceSet& sou
   }
   for (const auto& edge : sources.edges) {
     if (auto valid = check_edge(surface, edge); !valid) return valid;
+  }
+  for (const FaceSegment& segment : sources.segments) {
+    if (auto valid = check_segment(surface, segment); !valid) return valid;
   }
   return check_offsets(surface, sources);
 }

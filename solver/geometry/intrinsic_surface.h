@@ -114,6 +114,9 @@ inline constexpr double kAtCorner = 1e-12;
 /// with weights that sum to 1. Precondition: check_sources().
 SurfacePoint clean_point(const IntrinsicSurface& surface, const SurfacePoint& point);
 
+/// The same of a piece of a curve, whose ends stay in its face.
+FaceSegment clean_segment(const IntrinsicSurface& surface, const FaceSegment& segment);
+
 /// Number in kept->edges of the edge between two vertices, kNoIndex where there is none. Cost:
 /// O(log F).
 Index find_clean_edge(const IntrinsicSurface& surface, Index a, Index b);

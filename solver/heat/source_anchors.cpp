@@ -28,6 +28,12 @@ double distance_to_segment(const Point2& p, const Point2& a, const Point2& b) {
   return (p - a - t * ab).norm();
 }
 
+/// Heat that a piece gives to the corners of its face: as a whole, and for its length.
+struct PieceHeat {
+  double whole = 0, of_length = 0;
+};
+constexpr PieceHeat kNoHeat{}, kWholeHeat{1, 0}, kEvenHeat{0, 1};
+
 class Placer {
  public:
   explicit Placer(const Surface& surface) : surface_(surface) {}
@@ -35,7 +41,7 @@ class Placer {
   void add(const SurfacePoint& given) {
     const SurfacePoint point = clean_point(surface_, given);
     if (point.is_vertex()) return add_vertex(point.vertex);
-    add_piece({point.face, point.weights, point.weights}, true);
+    add_piece({point.face, point.weights, point.weights}, kWholeHeat);
     for (int k = 0; k < 3; ++k) {
       if (point.weights[previous_corner(k)] > kAtCorner) continue;
       add_beyond(3 * point.face + k, {point.weights[k], point.weights[k]});
@@ -51,8 +57,20 @@ class Placer {
     const Side side = surface_.kept->edges.sides(e).front();
     FacePiece piece{face_of(side), {}, {}};
     piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
-    add_piece(piece, true);
+    add_piece(piece, kWholeHeat);
     add_beyond(side, {1, 0});
+  }
+
+  /// A piece of a curve across faces.
+  void add_segment(const FaceSegment& given) {
+    const FaceSegment segment = clean_segment(surface_, given);
+    if (segment.from == segment.to) return add(SurfacePoint::in_face(given.face, given.from));
+    add_piece({segment.face, segment.from, segment.to}, kEvenHeat);
+    for (int k = 0; k < 3; ++k) {
+      const int beside = previous_corner(k);
+      if (segment.from[beside] > 0 || segment.to[beside] > 0) continue;
+      add_beyond(3 * segment.face + k, {segment.from[k], segment.to[k]});
+    }
   }
 
   SourceAnchors finish() {
@@ -83,12 +101,12 @@ class Placer {
   void add_vertex(Index v) { anchors_[surface_.row_of_vertex[v]] = {0.0, 1.0}; }
 
   /// A piece of kept->faces, and the same on the face's back where there is one.
-  void add_piece(const FacePiece& piece, bool heats) {
-    add_carried(piece, heats);
+  void add_piece(const FacePiece& piece, const PieceHeat& heat) {
+    add_carried(piece, heat);
     const IntrinsicMesh& intrinsic = surface_.intrinsic;
     if (intrinsic.back.empty() || intrinsic.back[piece.face] == kNoIndex) return;
     const auto turned = [](const Weights& w) { return Weights{w[0], w[2], w[1]}; };
-    add_carried({intrinsic.back[piece.face], turned(piece.from), turned(piece.to)}, false);
+    add_carried({intrinsic.back[piece.face], turned(piece.from), turned(piece.to)}, kNoHeat);
   }
 
   /// A piece on a side of kept->faces, from and to where the side's first corner has these weights,
@@ -107,16 +125,16 @@ class Placer {
       piece.from[same ? l : k] = 1 - weights[0];
       piece.to[same ? k : l] = weights[1];
       piece.to[same ? l : k] = 1 - weights[1];
-      add_piece(piece, false);
+      add_piece(piece, kNoHeat);
     }
   }
 
   /// The pieces that it is in the triangulation: as their faces see them and, where they lie on an
   /// edge, as the face beyond does; which of the two was named makes no difference.
-  void add_carried(const FacePiece& given, bool heats) {
+  void add_carried(const FacePiece& given, const PieceHeat& heat) {
     for (const FacePiece& piece : carried(given)) {
       if (is_edge(piece)) continue;
-      add_to_face(piece, heats);
+      add_to_face(piece, heat);
       for (int k = 0; k < 3; ++k) {
         if (piece.from[k] > 0 || piece.to[k] > 0) continue;
         const Side twin = surface_.intrinsic.twin[3 * piece.face + next_corner(k)];
@@ -127,7 +145,7 @@ class Placer {
           out[next_corner(corner_of(twin))] = w[next_corner(k)];
           return out;
         };
-        add_to_face({face_of(twin), beyond(piece.from), beyond(piece.to)}, false);
+        add_to_face({face_of(twin), beyond(piece.from), beyond(piece.to)}, kNoHeat);
       }
     }
   }
@@ -173,7 +191,7 @@ class Placer {
     return kNoIndex;
   }
 
-  void add_to_face(const FacePiece& piece, bool heats) {
+  void add_to_face(const FacePiece& piece, const PieceHeat& heat) {
     const OperatorMesh& mesh = *surface_.operators;
     const Index f = face_number(piece.face);
     const auto at = corners(mesh.layout[f]);
@@ -182,6 +200,7 @@ class Placer {
     };
     const Point2 from = place(piece.from), to = place(piece.to);
     pieces_.push_back({f, from, to});
+    const double given = heat.whole + heat.of_length * (to - from).norm();
     for (int k = 0; k < 3; ++k) {
       Entry& entry = anchors_.try_emplace(mesh.faces[f][k], Entry{kUnreached, 0.0}).first->second;
       if (entry.offset == 0) continue;  // a source itself, with all its heat
@@ -191,7 +210,7 @@ class Placer {
         continue;
       }
       entry.offset = std::min(entry.offset, offset);
-      if (heats) entry.heat += (piece.from[k] + piece.to[k]) / 2;
+      entry.heat += (piece.from[k] + piece.to[k]) / 2 * given;
     }
     touched_.insert(f);
   }
@@ -294,6 +313,7 @@ Result<SourceAnchors> place_sources(const Surface& surface, const SourceSet& sou
   Placer placer(surface);
   for (const SurfacePoint& point : sources.points) placer.add(point);
   for (const auto& edge : sources.edges) placer.add_edge(edge);
+  for (const FaceSegment& segment : sources.segments) placer.add_segment(segment);
   return placer.finish();
 }
 

@@ -174,6 +174,12 @@ SourceGroups source_groups(const SourceSet& sources) {
   for (Index e = 0; e < edges; ++e) {
     groups.of_edge.push_back(group_of(points + e));
   }
+  std::unordered_map<Index, Index> of_curve;
+  for (const FaceSegment& segment : sources.segments) {
+    const auto [at, fresh] = of_curve.try_emplace(segment.curve, groups.count);
+    groups.count += fresh;
+    groups.of_segment.push_back(at->second);
+  }
   groups.count += static_cast<Index>(sources.cell_points.size());
   return groups;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solver/method/mapped_method.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
@@ -29,6 +30,44 @@ SourceSet with_standing(const TriangleMesh& mesh, SourceSet sources) {
     for (Index& end : edge) end = standing_for(mesh, end);
   }
   return sources;
+}
+
+/// A piece of a curve in the parts of its face that it crosses.
+std::vector<FaceSegment> subdivided_segment(const FaceSegment& segment, int times) {
+  const auto at = [&segment](double share) {
+    SurfacePoint point = SurfacePoint::in_face(segment.face, {});
+    for (std::size_t k = 0; k < 3; ++k) {
+      point.weights[k] = (1 - share) * segment.from[k] + share * segment.to[k];
+    }
+    return point;
+  };
+  // Parts end where a weight is a multiple of 1 / 2^times.
+  const double parts = std::ldexp(1.0, times);
+  std::vector<double> cuts = {0, 1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double from = parts * segment.from[k], to = parts * segment.to[k];
+    const double last = std::max(from, to);
+    for (double level = std::ceil(std::min(from, to)); from != to && level <= last; ++level) {
+      cuts.push_back(std::clamp((level - from) / (to - from), 0.0, 1.0));
+    }
+  }
+  std::ranges::sort(cuts);
+  constexpr double kNothing = 1e-12;
+  std::vector<FaceSegment> out;
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    const double begin = cuts[i - 1], length = cuts[i] - begin;
+    if (length < kNothing) continue;
+    // From inside, where there is no doubt about the part, out to its ends.
+    const SurfacePoint a = subdivided_point(at(begin + 0.25 * length), times);
+    const SurfacePoint b = subdivided_point(at(begin + 0.75 * length), times);
+    FaceSegment piece{a.face, {}, {}, segment.curve};
+    for (std::size_t k = 0; k < 3; ++k) {
+      piece.from[k] = std::max(0.0, 1.5 * a.weights[k] - 0.5 * b.weights[k]);
+      piece.to[k] = std::max(0.0, 1.5 * b.weights[k] - 0.5 * a.weights[k]);
+    }
+    out.push_back(piece);
+  }
+  return out;
 }
 
 template <class Value>
@@ -110,6 +149,12 @@ Result<SourceSet> MeshMapping::inner_sources(const SourceSet& sources) const {
   std::vector<std::array<Index, 2>> edges;
   for (const auto& edge : set.edges) add_edge(edge, edges);
   set.edges = std::move(edges);
+  std::vector<FaceSegment> segments;
+  for (const FaceSegment& segment : set.segments) {
+    const auto pieces = subdivided_segment(clean_segment(surface_, segment), refine_);
+    segments.insert(segments.end(), pieces.begin(), pieces.end());
+  }
+  set.segments = std::move(segments);
   return set;
 }
 
@@ -141,6 +186,7 @@ std::vector<Index> MeshMapping::outer_groups(const SourceSet& sources) const {
   };
   note(inner.of_point, outer.of_point);
   note(inner.of_edge, outer.of_edge);
+  note(inner.of_segment, outer.of_segment);
   return first;
 }
 

@@ -29,6 +29,9 @@ inline Result<void> check_space_sources(const SourceSet& sources, const std::str
   if (!sources.edges.empty()) {
     return Error{ErrorCode::kBadInput, "curves of mesh edges are sources of triangle meshes alone"};
   }
+  if (!sources.segments.empty()) {
+    return Error{ErrorCode::kBadInput, "curves across faces are sources of triangle meshes alone"};
+  }
   const auto in_face = [](const SurfacePoint& point) { return !point.is_vertex(); };
   if (std::ranges::none_of(sources.points, in_face)) return {};
   return Error{ErrorCode::kBadInput,

@@ -103,6 +103,7 @@ class Seeder {
   SourceSeeds run() {
     for (std::size_t i = 0; i < sources_.points.size(); ++i) add_point(i);
     for (std::size_t i = 0; i < sources_.edges.size(); ++i) add_edge(i);
+    for (std::size_t i = 0; i < sources_.segments.size(); ++i) add_segment(i);
     const auto carried =
         carry_pieces(surface_.base.edits, surface_.face_count(), std::move(pieces_));
     for (const FacePiece& piece : carried) add_carried(piece);
@@ -133,6 +134,16 @@ class Seeder {
     FacePiece piece{face_of(side), {}, {}};
     piece.from[corner_of(side)] = piece.to[next_corner(corner_of(side))] = 1;
     add_piece(piece, origin);
+  }
+
+  void add_segment(std::size_t i) {
+    const FaceSegment segment = clean_segment(surface_.base, sources_.segments[i]);
+    const Origin origin{0.0, groups_.of_segment[i]};
+    // A plane wave leaves a segment to its sides alone.
+    for (const Weights& end : {segment.from, segment.to}) {
+      add_piece({segment.face, end, end}, origin);
+    }
+    if (segment.from != segment.to) add_piece({segment.face, segment.from, segment.to}, origin);
   }
 
   void add_vertex(Index v, const Origin& origin) {

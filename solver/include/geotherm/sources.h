@@ -18,13 +18,25 @@ struct CellPoint {
   bool operator==(const CellPoint&) const = default;
 };
 
-/// Where distance is 0: points, and mesh edges whose every point is a source (a curve).
-/// The ends of each edge are sources as well, whether or not they stand among the points.
+/// A straight line in one face of a triangle mesh, all of which is a source: a piece of a curve
+/// that runs across faces.
+struct FaceSegment {
+  Index face = kNoIndex;               ///< that it is in
+  std::array<double, 3> from{}, to{};  ///< its ends: weights of the corners, >= 0, that sum to 1
+  Index curve = 0;                     ///< whose piece it is: those of one number are one group
+
+  bool operator==(const FaceSegment&) const = default;
+};
+
+/// Where distance is 0: points, mesh edges whose every point is a source (a curve), and curves
+/// across faces. The ends of each edge are sources as well, whether or not they stand among the
+/// points.
 struct SourceSet {
   std::vector<SurfacePoint> points;         ///< on a triangle mesh
   std::vector<std::array<Index, 2>> edges;  ///< by their two vertices
   std::vector<double> offsets{};  ///< of the points: distance there, >= 0, model units; none: all 0
   std::vector<CellPoint> cell_points{};  ///< in spaces that are no triangle mesh
+  std::vector<FaceSegment> segments{};   ///< of curves across the faces of a triangle mesh
 
   /// These alone.
   static SourceSet of_vertices(const std::vector<Index>& vertices) {
@@ -33,19 +45,21 @@ struct SourceSet {
     return set;
   }
   /// Whether there is none.
-  bool empty() const { return points.empty() && edges.empty() && cell_points.empty(); }
+  bool empty() const {
+    return points.empty() && edges.empty() && cell_points.empty() && segments.empty();
+  }
   bool operator==(const SourceSet&) const = default;
 };
 
-/// Numbers the sources for labels: points first, then edges, then points of cells, each as in the
-/// set. A point has a group of its own; edges that touch, and points that are their ends, are one
-/// group. Groups are
-/// numbered 0, 1, ... in the order in which they first stand.
+/// Numbers the sources for labels: points first, then edges, segments and points of cells, each as
+/// in the set. A point has a group of its own; edges that touch, and points that are their ends,
+/// are one group, and so are the segments of one curve. Groups are numbered 0, 1, ... in the order
+/// in which they first stand.
 struct SourceGroups {
-  std::vector<Index> of_point, of_edge;  ///< the group of each
-  Index count = 0;                       ///< of groups
+  std::vector<Index> of_point, of_edge, of_segment;  ///< the group of each
+  Index count = 0;                                   ///< of groups
 };
-/// Cost: O(points + edges).
+/// Cost: O(points + edges + segments).
 SourceGroups source_groups(const SourceSet& sources);
 
 }  // namespace geotherm
