@@ -74,7 +74,7 @@ fs::path typed_path(const std::string& text, const fs::path& folder) {
 
 namespace {
 
-constexpr std::string_view kPictures[] = {".png"};
+constexpr std::string_view kPictures[] = {".png", ".pdf", ".svg"};
 constexpr std::string_view kDistances[] = {".csv", ".npy", ".ply", ".vtp", ".vtu", ".vti"};
 constexpr std::string_view kSessions[] = {kSessionExtension};
 constexpr std::string_view kScripts[] = {kSessionExtension, ".txt"};

@@ -3,7 +3,9 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/picture_report.h"
+#include "app/cli/render_work.h"
 #include "app/cli/viewer_window.h"
+#include "app/picture/figure.h"
 #include "app/picture/png_file.h"
 #include "app/session/command.h"
 #include "app/session/compare.h"
@@ -66,9 +68,10 @@ Result<void> check(const ViewArguments& a) {
                  "there is nothing to do without a window; name a model, or commands with "
                  "--script FILE or --replay FILE"};
   }
-  if (!a.output.empty() && io::file_extension(a.output) != ".png") {
-    return Error{ErrorCode::kBadInput, "--output: " + one_line(a.output) +
-                                           ": pictures are written as .png; give -o FILE.png"};
+  if (!a.output.empty() && io::file_extension(a.output) != ".png" && !figure_format(a.output)) {
+    return Error{ErrorCode::kBadInput,
+                 "--output: " + one_line(a.output) +
+                     ": pictures are written as .png, .pdf or .svg; give -o FILE.png"};
   }
   return {};
 }
@@ -103,8 +106,8 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
   ViewPainter painter;
   painter.command = typed_command();
   painter.device = [&device] { return device; };
-  painter.draw = [&](const PictureData& data, const PictureSettings& settings,
-                     bool panels) -> Result<DrawnPicture> {
+  painter.draw = [&](const PictureData& data, const PictureSettings& settings, bool panels,
+                     DrawAs as) -> Result<DrawnPicture> {
     if (panels) {
       return Error{ErrorCode::kBadInput,
                    "there are no panels without a window; leave out 'panels'"};
@@ -115,10 +118,11 @@ Result<CommandOutput> run_headless(const ViewArguments& arguments,
     if (!opened) return opened.error();
     device = *std::move(opened);
     DrawnPicture out;
-    const auto drawn = drawing.draw(data, mine, [&out](int, const DrawnPicture& picture) {
+    const auto keep = [&out](int, const DrawnPicture& picture) {
       out = picture;
       return Result<void>();
-    });
+    };
+    const auto drawn = drawing.draw(data, mine, keep, as);
     if (!drawn) return drawn.error();
     return out;
   };
@@ -167,7 +171,8 @@ void add_view_options(CLI::App& command, ViewArguments& arguments) {
       ->type_name("FILE");
   command
       .add_option("-o,--output", arguments.output,
-                  "a picture of what is shown in the end, .png; no window is opened")
+                  "a picture of what is shown in the end, .png, .pdf or .svg; no window is "
+                  "opened")
       ->type_name("FILE");
   command.add_flag("--headless", arguments.headless, "no window: run the commands and end");
   command.add_option("--scale", arguments.scale, "of letters and panels, default the monitor's")
@@ -295,8 +300,14 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   if (!is_bundled(state.model)) outputs.protect(state.model, "the model itself");
   if (auto expected = outputs.expect(save.path, "save picture"); !expected) return expected;
 
+  const std::optional<FigureFormat> format = figure_format(save.path);
+  if (format && save.panels) {
+    return Error{ErrorCode::kBadInput, "panels are pixels, and " + one_line(save.path) +
+                                           " holds shapes; name a FILE.png, or leave out 'panels'"};
+  }
   const PictureData data = picture_of(explored, state.shown, settings.view);
-  const auto picture = painter.draw(data, settings, save.panels);
+  const auto picture =
+      painter.draw(data, settings, save.panels, format ? DrawAs::kFigure : DrawAs::kPixels);
   if (!picture) return picture.error();
   PictureFigures figures = figures_of(session, settings);
   figures.command = painter.command;
@@ -308,7 +319,9 @@ Result<void> save_view_picture(const command::SavePicture& save, const Session& 
   std::erase_if(texts, [&](const FileText& text) {
     return text.keyword == "Description" && text.text != data.caption;
   });
-  auto bytes = png_bytes(*picture, texts, said_dpi(figures.settings));
+  const std::optional<int> dpi = said_dpi(figures.settings);
+  auto bytes =
+      format ? figure_bytes(*picture, *format, texts, dpi) : png_bytes(*picture, texts, dpi);
   if (!bytes) return bytes.error();
   std::string unused;
   return outputs.write_text(save.path, *std::move(bytes), unused);

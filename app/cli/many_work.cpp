@@ -290,6 +290,10 @@ Json many_json(const ManySources& work, const ManyFigures& figures) {
       sources.push_back({{"edges", set.edges.size()}});
       continue;
     }
+    if (!set.segments.empty()) {
+      sources.push_back({{"segments", set.segments.size()}});
+      continue;
+    }
     Json points = sources_json(set);
     if (points.size() == 1) {
       sources.push_back(std::move(points[0]));

@@ -32,7 +32,8 @@ void add_source_options(CLI::App& command, SourceArguments& arguments) {
   command
       .add_option("-s,--source", arguments.sources,
                   "17 or 3,99,512 (vertex ids from 0), curve:V1,V2,... (a line of vertices, joined "
-                  "along edges), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z, "
+                  "along edges), curve:face:ID:b0:b1:b2,... (a line of points, joined across "
+                  "faces), random:K[:SEED], boundary, face:ID:b0:b1:b2, xyz:x:y:z, "
                   "sample:i:j[:k] (of a grid); points may "
                   "end in @OFFSET, the distance there; may be "
                   "repeated, all are one source set")

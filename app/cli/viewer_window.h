@@ -41,9 +41,9 @@ std::unique_ptr<ViewerWindow> make_window();
 
 /// Who draws the picture of a session, and what its file says about that.
 struct ViewPainter {
-  /// `settings` has the picture's size; `panels`: with what lies over it in the window.
+  /// `settings` has the picture's size; `panels`: with what lies over it in the window, as pixels.
   std::function<Result<DrawnPicture>(const PictureData& data, const PictureSettings& settings,
-                                     bool panels)>
+                                     bool panels, DrawAs as)>
       draw;
   std::function<DrawingDevice()> device;
   std::string command;                   ///< the command line
@@ -51,8 +51,9 @@ struct ViewPainter {
   std::optional<PaperLength> text_size;  ///< there, where the settings name none
 };
 
-/// Draws and writes what a session shows, as a .png that says of itself what `render`'s do.
-/// Errors: those of drawing and writing; kBadInput: no model is open.
+/// Draws and writes what a session shows, as a .png, .pdf or .svg that says of itself what
+/// `render`'s do. Errors: those of drawing and writing; kBadInput: no model is open, panels as
+/// shapes.
 Result<void> save_view_picture(const command::SavePicture& save, const Session& session,
                                const ViewPainter& painter);
 

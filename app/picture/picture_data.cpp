@@ -138,6 +138,13 @@ void add_sources(PictureData& data, const TriangleMesh& mesh, const SourceSet& s
     data.sources.push_back({scene.of(mesh.positions()[from]), scene.of(mesh.positions()[to])});
     on_curves.insert({from, to});
   }
+  const auto in_face = [&](Index face, const std::array<double, 3>& weights) {
+    return scene.of(position_at(mesh, SurfacePoint::in_face(face, weights)));
+  };
+  for (const FaceSegment& segment : sources.segments) {
+    data.sources.push_back(
+        {in_face(segment.face, segment.from), in_face(segment.face, segment.to)});
+  }
   for (const SurfacePoint& point : sources.points) {
     if (point.is_vertex() && on_curves.contains(point.vertex)) continue;
     const PictureData::Vector place = scene.of(position_at(mesh, point));

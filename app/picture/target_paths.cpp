@@ -98,6 +98,20 @@ SurfacePoint nearest_source_point(const TriangleMesh& mesh, const SourceSet& sou
     share = at;
     edge = &each;
   }
+  for (const FaceSegment& segment : sources.segments) {
+    const SurfacePoint from = SurfacePoint::in_face(segment.face, segment.from);
+    const SurfacePoint to = SurfacePoint::in_face(segment.face, segment.to);
+    const double length = (position_at(mesh, from) - position_at(mesh, to)).norm();
+    const auto [at, distance] = nearest_on_edge(distance_at(mesh, distances, from, target),
+                                                distance_at(mesh, distances, to, target), length);
+    if (distance >= least) continue;
+    least = distance;
+    edge = nullptr;
+    nearest = from;
+    for (std::size_t k = 0; k < 3; ++k) {
+      nearest.weights[k] = (1 - at) * from.weights[k] + at * to.weights[k];
+    }
+  }
   return edge == nullptr ? nearest : point_on_edge(mesh, (*edge)[0], (*edge)[1], share);
 }
 

@@ -106,6 +106,7 @@ std::vector<Region> regions_of(const SourceSet& sources, std::span<const Index> 
     regions[regions.size() - count + i].in_cell = sources.cell_points[i];
   }
   for (const Index group : groups.of_edge) ++regions[group].edges;
+  for (const Index group : groups.of_segment) ++regions[group].segments;
   for (const Index group : nearest) {
     if (group != kNoIndex) ++regions[group].vertices;
   }

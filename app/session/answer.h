@@ -71,6 +71,7 @@ struct Region {
   std::optional<SurfacePoint> point;  ///< the first of the group, where it has one
   std::optional<CellPoint> in_cell;   ///< where that is a point in a cell
   Index edges = 0;                    ///< of the group
+  Index segments = 0;                 ///< of the group
   Index vertices = 0;                 ///< that it is nearest to
 };
 

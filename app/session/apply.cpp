@@ -99,11 +99,24 @@ class Applier {
   }
 
   Result<void> operator()(const command::ExtendCurve& c) {
-    auto* const curve = s_.sources.empty() ? nullptr : std::get_if<VertexCurve>(&s_.sources.back());
-    if (curve == nullptr) {
-      return bad("the last source is no curve to extend", {"begin one with source add curve:V"});
+    const auto extend = [](auto& all, const auto& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    SourceSpec* const last = s_.sources.empty() ? nullptr : &s_.sources.back();
+    auto* const across = last == nullptr ? nullptr : std::get_if<SurfaceCurve>(last);
+    auto* const edges = last == nullptr ? nullptr : std::get_if<VertexCurve>(last);
+    if (c.points.empty() ? edges == nullptr : across == nullptr) {
+      const bool other = edges != nullptr || across != nullptr;
+      return bad(other ? "the last source is a curve of another kind"
+                       : "the last source is no curve to extend",
+                 {c.points.empty() ? "begin one with source add curve:V"
+                                   : "begin one with source add curve:face:ID:b0:b1:b2"});
     }
-    curve->vertices.insert(curve->vertices.end(), c.vertices.begin(), c.vertices.end());
+    if (c.points.empty()) {
+      extend(edges->vertices, c.vertices);
+    } else {
+      extend(across->points, c.points);
+    }
     return {};
   }
 

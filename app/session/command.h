@@ -58,9 +58,11 @@ struct RemoveSource {  // source remove INDEX
   int index = 0;
   bool operator==(const RemoveSource&) const = default;
 };
-/// Adds vertices to the end of the last source, a curve: a brush that goes on.
-struct ExtendCurve {  // source extend V,V,...
+/// Adds vertices, or points in faces, to the end of the last source, a curve of such: a brush that
+/// goes on.
+struct ExtendCurve {  // source extend V,V,... or source extend face:ID:b0:b1:b2,...
   std::vector<Index> vertices;
+  std::vector<FacePoint> points = {};
   bool operator==(const ExtendCurve&) const = default;
 };
 struct ClearSources {  // source clear
@@ -194,7 +196,7 @@ struct Compare {  // compare [all|NAME,NAME...]
   bool operator==(const Compare&) const = default;
 };
 
-/// Writes a .png of what is shown; 0: as large as it is shown.
+/// Writes a .png, .pdf or .svg of what is shown; 0: as large as it is shown.
 struct SavePicture {  // save picture FILE [WxH] [panels]
   std::string path;
   int width = 0, height = 0;

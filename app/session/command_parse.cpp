@@ -72,6 +72,11 @@ Result<Command> read_remove(WordReader& reader) {
 }
 
 Result<Command> read_extend(WordReader& reader) {
+  if (reader.peek().starts_with("face:")) {
+    auto curve = parse_source("curve:" + reader.next());
+    if (!curve) return reader.blame_last(curve.error());
+    return Command(command::ExtendCurve{{}, std::get<SurfaceCurve>(*std::move(curve)).points});
+  }
   const auto vertices = reader.vertices();
   if (!vertices) return vertices.error();
   return Command(command::ExtendCurve{*vertices});

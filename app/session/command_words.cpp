@@ -277,9 +277,10 @@ struct Printer {
     return words("source remove", {std::to_string(c.index)});
   }
   std::string operator()(const command::ExtendCurve& c) const {
-    std::vector<std::string> ids;
-    for (const Index v : c.vertices) ids.push_back(std::to_string(v));
-    return words("source extend", {joined(ids, ",")});
+    std::vector<std::string> parts;
+    for (const Index v : c.vertices) parts.push_back(std::to_string(v));
+    for (const FacePoint& point : c.points) parts.push_back(app::to_text(SourceSpec(point)));
+    return words("source extend", {joined(parts, ",")});
   }
   std::string operator()(const command::ClearSources&) const { return "source clear"; }
   std::string operator()(const command::MoreSources&) const { return "source more"; }

@@ -40,13 +40,20 @@ void add_places(const ResolvedSources& placed, int entry, const Model& model,
   for (const Vec3& place : places_in_cells(model, placed.set)) {  // each an entry of its own
     places.push_back({entry, {}, place, true});
   }
-  const bool alone = placed.set.points.size() == 1 && placed.set.edges.empty();
+  const bool alone =
+      placed.set.points.size() == 1 && placed.set.edges.empty() && placed.set.segments.empty();
   for (const SurfacePoint& point : placed.set.points) {
     places.push_back({entry, point, position_at(mesh, point), alone});
   }
   for (const auto& edge : placed.set.edges) {
     for (const Index v : edge) {
       places.push_back({entry, SurfacePoint::at_vertex(v), mesh.positions()[v], false});
+    }
+  }
+  for (const FaceSegment& segment : placed.set.segments) {
+    for (const auto& weights : {segment.from, segment.to}) {
+      const SurfacePoint end = SurfacePoint::in_face(segment.face, weights);
+      places.push_back({entry, end, position_at(mesh, end), false});
     }
   }
 }

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
+#include "app/session/surface_curve.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
 #include "geotherm/mesh.h"
@@ -136,11 +138,7 @@ class Resolver {
   }
 
   Result<void> operator()(const VertexCurve& curve) {
-    if (space_.space != nullptr) {
-      return misplaced("a curve is a source on surfaces alone, and this is a " +
-                           std::string(space_.space->words().body),
-                       "name its vertices one by one");
-    }
+    if (space_.space != nullptr) return no_curve();
     for (std::size_t i = 0; i < curve.vertices.size(); ++i) {
       if (auto added = add_vertex(curve.vertices[i], 0); !added) {
         return about(place(curve, i), added.error());
@@ -164,6 +162,23 @@ class Resolver {
     }
     // In a file a gap is a mistake as often as not; who writes or paints a curve means it.
     if (gaps > 0 && !curve.lines.empty()) note_gaps(curve, gaps, first_gap);
+    return {};
+  }
+
+  Result<void> operator()(const SurfaceCurve& curve) {
+    if (space_.space != nullptr) return no_curve();
+    std::vector<SurfacePoint> points;
+    for (const FacePoint& point : curve.points) {
+      if (point.face >= mesh_.face_count()) return (*this)(point);  // says what is wrong
+      points.push_back(SurfacePoint::in_face(point.face, point.weights));
+    }
+    // Whoever places sources keeps the mesh meanwhile.
+    auto segments = join_across_faces({std::shared_ptr<void>(), &mesh_}, points);
+    if (!segments) return segments.error();
+    if (segments->empty()) return (*this)(curve.points.front());
+    SourceSet whole;
+    whole.segments = *std::move(segments);
+    set_.add(whole);
     return {};
   }
 
@@ -193,6 +208,12 @@ class Resolver {
     }
     set_.add(std::move(found->in_cell));
     return {};
+  }
+
+  Error no_curve() const {
+    return misplaced("a curve is a source on surfaces alone, and this is a " +
+                         std::string(space_.space->words().body),
+                     "name its vertices one by one");
   }
 
   void note_distance(const std::string& what, double distance) {
@@ -263,34 +284,6 @@ class Resolver {
 };
 
 }  // namespace
-
-void SetUnion::add(const SurfacePoint& point, double offset) {
-  if (point.is_vertex()) {
-    const auto [known, fresh] = vertices_.try_emplace(point.vertex, set_.points.size());
-    if (!fresh) {
-      set_.offsets[known->second] = std::min(set_.offsets[known->second], offset);
-      return;
-    }
-  }
-  set_.points.push_back(point);
-  set_.offsets.push_back(offset);
-}
-
-void SetUnion::add(const SourceSet& more) {
-  for (std::size_t i = 0; i < more.points.size(); ++i) {
-    add(more.points[i], more.offsets.empty() ? 0 : more.offsets[i]);
-  }
-  edges_.insert(more.edges.begin(), more.edges.end());
-  for (const CellPoint& point : more.cell_points) add(point);
-}
-
-SourceSet SetUnion::take() {
-  set_.edges.assign(edges_.begin(), edges_.end());
-  if (std::ranges::all_of(set_.offsets, [](double x) { return x == 0; })) set_.offsets.clear();
-  vertices_.clear();
-  edges_.clear();
-  return std::exchange(set_, {});
-}
 
 Result<ResolvedSources> resolve_sources(std::span<const Source> sources, const SourceSpace& space) {
   Resolver resolver(space);
@@ -371,15 +364,6 @@ Result<void> check_pin(const Constraint& constraint, const SourceSpace& space) {
   const auto placed = resolve_sources({&pin, 1}, space);
   if (!placed) return placed.error();
   return {};
-}
-
-std::vector<Index> vertices_of(const SourceSet& set) {
-  std::set<Index> vertices;
-  for (const SurfacePoint& point : set.points) {
-    if (point.is_vertex()) vertices.insert(point.vertex);
-  }
-  for (const auto& edge : set.edges) vertices.insert(edge.begin(), edge.end());
-  return {vertices.begin(), vertices.end()};
 }
 
 }  // namespace geotherm::app

@@ -201,6 +201,15 @@ Json point_json(const CellPoint& point) {
   return {{"cell", point.cell}, {"weights", point.weights}};
 }
 
+/// The pieces of curves across faces.
+Json segments_json(const SourceSet& sources) {
+  Json json = Json::array();
+  for (const FaceSegment& segment : sources.segments) {
+    json.push_back({{"face", segment.face}, {"from", segment.from}, {"to", segment.to}});
+  }
+  return json;
+}
+
 Json sources_json(const SourceSet& sources) {
   Json json = vertices_of(sources);
   for (const SurfacePoint& point : sources.points) {
@@ -219,6 +228,7 @@ Json regions_json(const SourceSet& sources, std::span<const Index> nearest) {
     if (region.point) one["source"] = point_json(*region.point);
     if (region.in_cell) one["source"] = point_json(*region.in_cell);
     if (region.edges > 0) one["source_edges"] = region.edges;
+    if (region.segments > 0) one["source_segments"] = region.segments;
     json.push_back(std::move(one));
   }
   return json;
@@ -335,6 +345,7 @@ Json solve_json(const Answer& f) {
                {"sources", sources_json(f.sources)}};
   add_domain(f.model, json["model"]);
   if (!f.sources.edges.empty()) json["source_edges"] = f.sources.edges;
+  if (!f.sources.segments.empty()) json["source_segments"] = segments_json(f.sources);
   if (!f.sources.offsets.empty()) json["source_offsets"] = offsets_json(f.sources);
   json.update({{"distance",
                 {{"min", f.distance.min},

@@ -81,6 +81,10 @@ std::string sources_in_words(const SourceSet& sources) {
   if (!sources.edges.empty()) {
     text += ", " + counted(static_cast<std::int64_t>(sources.edges.size()), "edge", "edges");
   }
+  if (!sources.segments.empty()) {
+    text += (text.empty() ? "" : ", ") +
+            counted(std::ssize(sources.segments), "piece of a curve", "pieces of curves");
+  }
   return text;
 }
 

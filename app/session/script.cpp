@@ -152,8 +152,10 @@ void append(auto& all, const auto& more) { all.insert(all.end(), more.begin(), m
 bool merge(Command& last, const Command& now) {
   if (const auto* more = std::get_if<command::ExtendCurve>(&now)) {
     auto* const curve = std::get_if<command::ExtendCurve>(&last);
-    if (curve != nullptr) append(curve->vertices, more->vertices);
-    return curve != nullptr;
+    if (curve == nullptr || curve->points.empty() != more->points.empty()) return false;
+    append(curve->vertices, more->vertices);
+    append(curve->points, more->points);
+    return true;
   }
   if (const auto* more = std::get_if<command::ExtendStroke>(&now)) {
     auto* const begun = std::get_if<command::Sculpt>(&last);
@@ -229,9 +231,12 @@ Result<void> check_name(const std::string& path, const Command& command) {
   if (std::holds_alternative<command::SaveMesh>(command)) return check_mesh_path(path);
   std::string what = "sessions and logs are", extension = ".geotherm";
   if (std::holds_alternative<command::SavePicture>(command)) {
-    what = "pictures are";
-    extension = ".png";
-  } else if (std::holds_alternative<command::SaveFigures>(command)) {
+    for (const char* const known : {".png", ".pdf", ".svg"}) {
+      if (io::file_extension(path) == known) return {};
+    }
+    return bad(path, "pictures are written as .png, .pdf or .svg", "name a FILE.png");
+  }
+  if (std::holds_alternative<command::SaveFigures>(command)) {
     what = "figures are";
     extension = ".json";
   }

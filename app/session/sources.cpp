@@ -65,19 +65,6 @@ Result<SourceSpec> parse_vertices(std::string_view text) {
   return SourceSpec(std::move(list));
 }
 
-Result<SourceSpec> parse_curve(std::string_view ids) {
-  VertexCurve curve;
-  for (const std::string_view part : split(ids, ',')) {
-    const auto vertex = number_in<Index>(trimmed(part));
-    if (!vertex || *vertex < 0) {
-      return unreadable(quoted(part) + " is no vertex of a curve",
-                        {"write curve:V1,V2,... with ids from 0"});
-    }
-    curve.vertices.push_back(*vertex);
-  }
-  return SourceSpec(std::move(curve));
-}
-
 Result<SourceSpec> parse_random(std::string_view text, const std::vector<std::string_view>& parts) {
   RandomVertices random;
   const auto count = parts.size() > 1 ? number_in<Index>(parts[1]) : std::nullopt;
@@ -117,6 +104,35 @@ Result<SourceSpec> parse_face(std::string_view text, const std::vector<std::stri
     for (double& w : *weights) w /= sum;
   }
   return SourceSpec(FacePoint{*face, *weights});
+}
+
+Result<SourceSpec> parse_surface_curve(std::string_view points) {
+  SurfaceCurve curve;
+  for (const std::string_view point : split(points, ',')) {
+    const auto parts = split(trimmed(point), ':');
+    if (parts[0] != "face") {
+      return unreadable(quoted(point) + " is no point of a curve across faces",
+                        {"write curve:face:ID:b0:b1:b2,face:ID:b0:b1:b2,..."});
+    }
+    auto read = parse_face(trimmed(point), parts);
+    if (!read) return read;
+    curve.points.push_back(std::get<FacePoint>(*read));
+  }
+  return SourceSpec(std::move(curve));
+}
+
+Result<SourceSpec> parse_curve(std::string_view ids) {
+  if (trimmed(ids).starts_with("face:")) return parse_surface_curve(ids);
+  VertexCurve curve;
+  for (const std::string_view part : split(ids, ',')) {
+    const auto vertex = number_in<Index>(trimmed(part));
+    if (!vertex || *vertex < 0) {
+      return unreadable(quoted(part) + " is no vertex of a curve",
+                        {"write curve:V1,V2,... with ids from 0, or points in faces alone"});
+    }
+    curve.vertices.push_back(*vertex);
+  }
+  return SourceSpec(std::move(curve));
 }
 
 Result<SourceSpec> parse_sample(std::string_view text, const std::vector<std::string_view>& parts) {
@@ -166,6 +182,11 @@ struct Writer {
   }
   std::string operator()(const VertexCurve& curve) const {
     return "curve:" + ids_text(curve.vertices);
+  }
+  std::string operator()(const SurfaceCurve& curve) const {
+    std::string text;
+    for (const FacePoint& point : curve.points) text += (text.empty() ? "" : ",") + (*this)(point);
+    return "curve:" + text;
   }
   std::string operator()(const RandomVertices& random) const {
     std::string text = "random:" + std::to_string(random.count);

@@ -22,9 +22,9 @@
 namespace geotherm::app {
 
 // What a source is called before the mesh is known. Text forms: `17`, `3,99,512`,
-// `curve:V1,V2,...`, `random:K[:SEED]`, `boundary`, `face:ID:b0:b1:b2`, `xyz:x:y:z`,
-// `sample:i:j[:k]`; those of points may end in `@OFFSET`, the distance there, model units:
-// `17@0.5`.
+// `curve:V1,V2,...`, `curve:face:ID:b0:b1:b2,...`, `random:K[:SEED]`, `boundary`,
+// `face:ID:b0:b1:b2`, `xyz:x:y:z`, `sample:i:j[:k]`; those of points may end in `@OFFSET`, the
+// distance there, model units: `17@0.5`.
 
 struct VertexList {
   std::vector<Index> vertices;
@@ -40,6 +40,20 @@ struct VertexCurve {
   bool operator==(const VertexCurve&) const = default;
 };
 
+struct FacePoint {
+  Index face = 0;
+  std::array<double, 3> weights{};
+  double offset = 0;
+  bool operator==(const FacePoint&) const = default;
+};
+
+/// A polyline of points in faces, all of which is a source; two that follow each other are joined
+/// straight across the faces between them (join_across_faces()). One point is that.
+struct SurfaceCurve {
+  std::vector<FacePoint> points;  ///< without offsets
+  bool operator==(const SurfaceCurve&) const = default;
+};
+
 struct RandomVertices {
   Index count = 1;
   std::uint64_t seed = 1;
@@ -49,13 +63,6 @@ struct RandomVertices {
 
 struct WholeBoundary {
   bool operator==(const WholeBoundary&) const = default;
-};
-
-struct FacePoint {
-  Index face = 0;
-  std::array<double, 3> weights{};
-  double offset = 0;
-  bool operator==(const FacePoint&) const = default;
 };
 
 struct SpacePoint {
@@ -72,7 +79,7 @@ struct GridSample {
 };
 
 using SourceSpec = std::variant<VertexList, VertexCurve, RandomVertices, WholeBoundary, FacePoint,
-                                SpacePoint, GridSample>;
+                                SpacePoint, GridSample, SurfaceCurve>;
 
 /// A source as the user wrote it.
 struct Source {
@@ -104,7 +111,8 @@ Result<SourceSpec> parse_space_point(const std::array<std::string_view, 3>& numb
 /// Errors: kBadFile with the number of the line.
 Result<std::vector<Source>> read_source_file(const std::string& path, bool curve);
 
-/// Puts sources together into one set: no vertex and no edge twice. A vertex keeps its smallest
+/// Puts sources together into one set: no vertex and no edge twice, and curves across faces with
+/// numbers of their own. A vertex keeps its smallest
 /// offset.
 class SetUnion {
  public:
@@ -116,6 +124,7 @@ class SetUnion {
 
  private:
   SourceSet set_;
+  Index curves_ = 0;                       ///< numbers of curves across faces
   std::map<Index, std::size_t> vertices_;  ///< to their place among the points
   std::set<std::array<Index, 2>> edges_;
 };

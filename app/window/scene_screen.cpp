@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/drawing/figure_shapes.h"
 #include "app/drawing/picture_camera.h"
 #include "app/drawing/picture_scene.h"
 #include "app/session/explored.h"
@@ -203,8 +204,8 @@ Result<void> SceneScreen::warm_up(const PictureSettings& settings) {
   return renderer_.render(*window_target_, scene);
 }
 
-Result<DrawnPicture> SceneScreen::picture(const PictureData& data,
-                                          const PictureSettings& settings) {
+Result<DrawnPicture> SceneScreen::picture(const PictureData& data, const PictureSettings& settings,
+                                          DrawAs as) {
   renderer_.set_samples(settings.samples);
   renderer_.set_coarse(false);
   const PictureScale scale = picture_scale(data, settings);
@@ -213,9 +214,19 @@ Result<DrawnPicture> SceneScreen::picture(const PictureData& data,
   engine::Scene scene = scene_of(data, settings, scale);
   scene.camera =
       camera_of(data, settings.camera, positions_, extent, insets_of(settings, legend, extent));
-  auto image = engine::draw_picture(device_, renderer_, scene, legend.overlay);
-  if (!image) return image.error();
-  return to_drawn_picture(*std::move(image));
+  if (as == DrawAs::kPixels) {
+    auto image = engine::draw_picture(device_, renderer_, scene, legend.overlay);
+    if (!image) return image.error();
+    return to_drawn_picture(*std::move(image));
+  }
+  const PictureData& shown = cut_ ? cut_->data : data;
+  const auto shapes = FigureShapes::build(shown, scene.surface);
+  if (!shapes) return shapes.error();
+  auto rest = engine::draw_picture(device_, renderer_, FigureShapes::rest_of(scene));
+  if (!rest) return rest.error();
+  DrawnPicture picture = to_drawn_picture(*std::move(rest));
+  picture.figure = std::make_shared<Figure>(shapes->of(shown, scene, legend.overlay));
+  return picture;
 }
 
 Result<DrawnPicture> SceneScreen::picture_of_window(glm::ivec2 extent,

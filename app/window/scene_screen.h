@@ -61,7 +61,8 @@ class SceneScreen {
   bool is_warm() const { return warm_; }
 
   /// A picture of what was brought up to date last, with other settings than those of the window.
-  Result<DrawnPicture> picture(const PictureData& data, const PictureSettings& settings);
+  Result<DrawnPicture> picture(const PictureData& data, const PictureSettings& settings,
+                               DrawAs as = DrawAs::kPixels);
   /// What draw() would show in a window of this size.
   Result<DrawnPicture> picture_of_window(glm::ivec2 extent, const engine::PanelDraw& panels);
 

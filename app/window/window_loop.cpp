@@ -286,8 +286,9 @@ Result<void> WindowLoop::save_picture(const command::SavePicture& save, const Se
     painter.height = extent.y;
     painter.text_size = screen_->area().shown({}).text_size;
   }
-  painter.draw = [this](const PictureData& data, const PictureSettings& settings, bool panels) {
-    return panels ? picture_with_panels(settings) : screen_->picture(data, settings);
+  painter.draw = [this](const PictureData& data, const PictureSettings& settings, bool panels,
+                        DrawAs as) {
+    return panels ? picture_with_panels(settings) : screen_->picture(data, settings, as);
   };
   return save_view_picture(save, session, painter);
 }

@@ -23,6 +23,7 @@ report better solve bunny -s 3,9 -m 40 --on-poor better
 report border solve terrain -s boundary --boundary dirichlet --backend cg
 report point solve bunny -s face:3:0.2:0.3:0.5 --no-check --time-step absolute:0.01
 report curve solve bunny -s curve:0,9 -s 5
+report across solve bunny -s curve:face:3:0.2:0.3:0.5,face:40:0.2:0.3:0.5 -s 5 --method wavefront --labels -o d.csv
 report tets solve ball.mesh -s xyz:0:0:0
 report poor solve poor.ply -s 0
 report each solve bunny -s random:5 --each -o rows.npy

@@ -33,6 +33,21 @@ TEST_F(ProgramView, AReplayEqualsThePictureOfRender) {
   EXPECT_EQ(pixels("replay.png"), pixels("direct.png"));
 }
 
+TEST_F(ProgramView, SavesFiguresAsRenderDoes) {
+  folder.write(
+      "s.geotherm",
+      "open terrain\nsource set 40\nsize 320x200\nsave picture f.svg\nsave picture f.pdf\n");
+  run({"view", "--headless", "--script", "s.geotherm"});
+  run({"render", "terrain", "-s", "40", "--size", "320x200", "--fit", "sphere", "-o", "r.svg"});
+  EXPECT_EQ(bytes_of(folder.path("f.svg")), bytes_of(folder.path("r.svg")));
+  EXPECT_EQ(bytes_of(folder.path("f.pdf")).substr(0, 5), "%PDF-");
+  folder.write("p.geotherm", "open terrain\nsave picture p.svg panels\n");
+  const ProgramRun refused =
+      run_program(folder.path("."), {"view", "--headless", "--script", "p.geotherm"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("panels are pixels"), std::string::npos) << refused.err;
+}
+
 TEST_F(ProgramView, ASavedSessionAndALogGiveTheSamePicture) {
   folder.write("s.geotherm",
                "open bunny\nsource set random:3:4\nkeep\ntime-factor 9\nview gradient-error\n"

@@ -114,6 +114,33 @@ TEST(Sources, AlongACurveOfTextAreJoinedWithoutAWord) {
   EXPECT_TRUE(point->set.edges.empty());
 }
 
+TEST(Sources, AlongACurveAcrossFacesAreStraightBetweenItsPoints) {
+  const TriangleMesh mesh = grid();
+  const Index last = mesh.face_count() - 1;
+  const auto line =
+      resolve(mesh, {"curve:face:0:0.3:0.4:0.3,face:" + std::to_string(last) + ":0.3:0.4:0.3"});
+  ASSERT_TRUE(line) << sentence(line.error());
+  const auto at = [&](Index face, const std::array<double, 3>& weights) {
+    return position_at(mesh, SurfacePoint::in_face(face, weights));
+  };
+  const Vec3 from = at(0, {0.3, 0.4, 0.3}), to = at(last, {0.3, 0.4, 0.3});
+  double length = 0;
+  Vec3 end = from;
+  for (const FaceSegment& segment : line->set.segments) {
+    EXPECT_LT((at(segment.face, segment.from) - end).norm(), 1e-12);
+    end = at(segment.face, segment.to);
+    length += (end - at(segment.face, segment.from)).norm();
+  }
+  EXPECT_LT((end - to).norm(), 1e-12);
+  EXPECT_NEAR(length, (to - from).norm(), 1e-9);
+  EXPECT_TRUE(line->set.points.empty());
+
+  const auto two = resolve(mesh, {"curve:face:0:1:0:0,face:0:0:1:0", "curve:face:3:0.5:0.5:0"});
+  ASSERT_TRUE(two);
+  EXPECT_EQ(two->set.segments.size(), 1U);
+  EXPECT_EQ(two->set.points.size(), 1U) << "a curve of one point";
+}
+
 TEST(Sources, AlongACurveOfTextThatDoNotFitAreRefusedWithTheirNumber) {
   const auto range = resolve(grid(), {"curve:0,1,26"});
   ASSERT_FALSE(range);

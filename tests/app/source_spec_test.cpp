@@ -29,6 +29,10 @@ TEST(SourceText, NamesVertices) {
 TEST(SourceText, NamesCurves) {
   EXPECT_EQ(parsed<VertexCurve>("curve:3,99,3"), (VertexCurve{{3, 99, 3}, {}}));
   EXPECT_EQ(parsed<VertexCurve>("curve:7"), (VertexCurve{{7}, {}}));
+  EXPECT_EQ(parsed<SurfaceCurve>("curve:face:7:0.5:0.25:0.25,face:8:1:0:0"),
+            (SurfaceCurve{{{7, {0.5, 0.25, 0.25}}, {8, {1, 0, 0}}}}));
+  EXPECT_FALSE(parse_source("curve:face:7:1:0:0,8"));
+  EXPECT_FALSE(parse_source("curve:8,face:7:1:0:0"));
 }
 
 TEST(SourceText, NamesRandomVertices) {
@@ -64,6 +68,7 @@ TEST(SourceText, IsReadBackAsTheSameValue) {
       VertexList{{3, 99, 2147483647}},
       VertexCurve{{4, 0, 4}, {}},
       VertexCurve{{5}, {}},
+      SurfaceCurve{{{7, {0.5, 0.25, 0.25}}, {8, {1, 0, 0}}}},
       RandomVertices{12, RandomVertices{}.seed},
       RandomVertices{1, 18446744073709551615U},
       WholeBoundary{},

@@ -86,6 +86,11 @@ TEST(Apply, ABrushBeginsACurveAndExtendsIt) {
       {"open a", "source set 9", "source add curve:1", "source extend 2,3", "source extend 4"});
   EXPECT_EQ(test::texts_of(state.sources), (std::vector<std::string>{"9", "curve:1,2,3,4"}));
   EXPECT_NE(refusal(after({"open a", "source set 9"}), "source extend 2"), "");
+  const auto across =
+      after({"open a", "source set curve:face:3:1:0:0", "source extend face:4:0:1:0,face:5:0:0:1"});
+  EXPECT_EQ(app::to_text(across.sources.back()), "curve:face:3:1:0:0,face:4:0:1:0,face:5:0:0:1");
+  EXPECT_EQ(refusal(across, "source extend 2"),
+            "the last source is a curve of another kind; begin one with source add curve:V");
 }
 
 TEST(Apply, MoveAndRemoveNameTheirSource) {

@@ -68,6 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"MoveSource", MoveSource{2, RandomVertices{5, 7}}, "source move 2 random:5:7"},
         TextCase{"RemoveSource", RemoveSource{0}, "source remove 0"},
         TextCase{"ExtendCurve", ExtendCurve{{4, 5, 6}}, "source extend 4,5,6"},
+        TextCase{"ExtendAcross", ExtendCurve{{}, {{3, {0.25, 0.25, 0.5}}, {4, {0, 1, 0}}}},
+                 "source extend face:3:0.25:0.25:0.5,face:4:0:1:0"},
         TextCase{"ClearSources", ClearSources{}, "source clear"},
         TextCase{"MoreSources", MoreSources{}, "source more"},
         TextCase{"FewerSources", FewerSources{}, "source fewer"},

@@ -194,6 +194,15 @@ TEST_F(FileDialogTest, SavesThePictureAsShownWithPanels) {
   EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.png").string() + " panels"});
 }
 
+TEST_F(FileDialogTest, SavesAFigureForAPaperWithoutThePanels) {
+  control('P');
+  go_to(folder());
+  click_item("Files/panels");
+  click_item("Files/.pdf");
+  click_item("Files/accept");
+  EXPECT_EQ(sent(), Texts{"save picture " + (folder() / "square.pdf").string()});
+}
+
 TEST_F(FileDialogTest, SaysThatAFolderIsMissing) {
   control('S');
   fill("Files/name", (folder() / "none" / "x.geotherm").string());
