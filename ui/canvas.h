@@ -127,7 +127,7 @@ class CanvasInput {
   int entry_ = -1;                      ///< the source that is moved
   std::optional<app::SourceSpec> moved_to_;
   SculptStroke stroke_;
-  Index painted_ = kNoIndex;  ///< the curve's last vertex
+  std::optional<Mouse> painted_;  ///< where the curve has its last point
   std::optional<SurfacePoint> hovered_;
   std::optional<InsidePoint> hovered_inside_;
   /// The sources before the last click set another one, for a double click.

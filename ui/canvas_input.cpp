@@ -14,6 +14,7 @@ namespace {
 
 constexpr float kStill = 4;             ///< pixels at scale 1 within which a press is a click
 constexpr float kReach = 9;             ///< pixels at scale 1 from the middle of a source
+constexpr float kBrushStep = 5;         ///< pixels at scale 1 between points of a curve
 constexpr double kTurnPerHeight = 220;  ///< degrees for a drag across the picture
 constexpr double kZoomPerHeight = 3.5;  ///< logarithm of the zoom for a drag across it
 constexpr double kZoomPerNotch = 1.15;
@@ -139,7 +140,7 @@ void CanvasInput::begin(Frame& frame, int button) {
   double_click_ = io.MouseDoubleClicked[button];
   action_.reset();
   moved_to_.reset();
-  painted_ = kNoIndex;
+  painted_.reset();
   entry_ = -1;
   const bool plain = !modifiers_.ctrl && !modifiers_.shift && !modifiers_.alt;
   // Places belong to what is shown; while other sources are on their way, they cannot be taken.
@@ -157,7 +158,7 @@ void CanvasInput::begin_with_tool(Frame& frame) {
     action_ = mouse_action(modifiers_, "Left drag with the brush");
     if (!action_) return;
     paint(frame, press_);
-    if (painted_ == kNoIndex) action_.reset();
+    if (!painted_) action_.reset();
   } else if (tool == Tool::kSculpt) {
     action_ = mouse_action(modifiers_, "Left drag while sculpting");
     const auto touch = action_ ? sculpt_tool(*action_, frame.ui.sculpt.tool) : std::nullopt;
@@ -221,17 +222,25 @@ void CanvasInput::move_source(Frame& frame, Mouse to) {
   frame.send(app::command::MoveSource{entry_, std::move(front->source)});
 }
 
+/// Points at even steps along the way of the mouse: between pixels that follow each other at once a
+/// line would be as ragged as they are.
 void CanvasInput::paint(Frame& frame, Mouse to) {
-  const auto point = surface_at(frame, to.x, to.y);
-  if (!point || !frame.model()) return;
-  const Index vertex = nearest_corner(*frame.model()->model.mesh, *point);
-  if (vertex == painted_) return;
-  if (painted_ == kNoIndex) {
-    frame.send(app::command::AddSources{{app::VertexCurve{{vertex}, {}}}});
-  } else {
-    frame.send(app::command::ExtendCurve{{vertex}});
+  if (!painted_) {
+    const auto point = surface_at(frame, to.x, to.y);
+    if (!point || point->is_vertex()) return;
+    painted_ = to;
+    return frame.send(app::command::AddSources{{app::SurfaceCurve{{short_point(*point)}}}});
   }
-  painted_ = vertex;
+  const float step = frame.px(kBrushStep);
+  app::command::ExtendCurve more;
+  for (float left = std::hypot(to.x - painted_->x, to.y - painted_->y); left >= step;
+       left -= step) {
+    painted_->x += (to.x - painted_->x) * step / left;
+    painted_->y += (to.y - painted_->y) * step / left;
+    const auto point = surface_at(frame, painted_->x, painted_->y);
+    if (point && !point->is_vertex()) more.points.push_back(short_point(*point));
+  }
+  if (!more.points.empty()) frame.send(std::move(more));
 }
 
 void CanvasInput::end(Frame& frame) {
@@ -332,11 +341,14 @@ void CanvasInput::draw_source_marks(Frame& frame) const {
   const auto pointed_at = pointed(frame);
   ImDrawList* list = ImGui::GetBackgroundDrawList();
   const auto& places = frame.explored().places;
+  std::optional<std::array<float, 2>> last;  // of a curve, one beside the other is enough
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (i != pointed_at && places[i].entry != frame.ui.sources.pointed) continue;
     const auto seen = frame.canvas.place_of(places[i].position);
     if (!seen) continue;
     const ImVec2 at((*seen)[0], (*seen)[1]);
+    if (last && std::hypot(at.x - (*last)[0], at.y - (*last)[1]) < frame.px(2 * kReach)) continue;
+    last = seen;
     list->AddCircle(at, frame.px(kReach), packed({0, 0, 0, 0.5F}), 0, frame.px(3.5F));
     list->AddCircle(at, frame.px(kReach), packed(frame.colours().accent), 0, frame.px(1.8F));
   }

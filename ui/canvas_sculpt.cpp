@@ -9,6 +9,7 @@
 #include "ui/action.h"
 #include "ui/canvas.h"
 #include "ui/frame.h"
+#include "ui/source_edit.h"
 #include "ui/widgets.h"
 
 namespace geotherm::ui {
@@ -28,15 +29,6 @@ double radius_of(const Frame& frame) {
   const double size = (mesh.box_max - mesh.box_min).norm();
   const auto text = app::significant(double{frame.ui.sculpt.radius} * size, kDigits);
   return app::number_in<double>(text).value_or(size);
-}
-
-/// With weights in thousandths: logs hold many points, and nobody sees the rest.
-app::FacePoint short_point(const SurfacePoint& point) {
-  constexpr long kParts = 1000;
-  const long a = std::lround(point.weights[0] * kParts);
-  const long b = std::min(std::lround(point.weights[1] * kParts), kParts - a);
-  const auto part = [](long parts) { return static_cast<double>(parts) / kParts; };
-  return {point.face, {part(a), part(b), part(kParts - a - b)}};
 }
 
 std::optional<app::FacePoint> face_point_at(const Frame& frame, float x, float y) {

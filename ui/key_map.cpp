@@ -55,7 +55,8 @@ constexpr KeyBinding kKeys[] = {
     {"Ctrl+Shift+Z", Action::kRedo, "Edit", "redo"},
     {"s", Action::kSculpt, "Tools", "sculpting on or off: pull, push, smooth"},
     {"Esc", Action::kStop, "Edit",
-     "close a dialog, back to the tool of sources, cancel the work, forget paths, forget the "
+     "close a dialog or a bar over the picture, back to the tool of sources, cancel the work, "
+     "forget paths, forget the "
      "point"},
     {"F1", Action::kKeys, "Window", "this list of keys"},
     {"F2", Action::kLeftPanel, "Window", "left side bar"},
@@ -74,7 +75,6 @@ constexpr MouseBinding kMouse[] = {
     {"Left click", MouseAction::kSetSource, "Set sources",
      "the source is here; on a source: it is chosen"},
     {"Shift+Left click", MouseAction::kAddSource, "Set sources", "one more source here"},
-    {"Alt+Left click", MouseAction::kRemoveSource, "Set sources", "remove the nearest source"},
     {"Left drag of a source", MouseAction::kMoveSource, "Set sources", "move it"},
     {"Left drag with the brush", MouseAction::kPaint, "Set sources", "paint a curve of sources"},
     {"Left drag while sculpting", MouseAction::kSculpt, "Sculpt", "pull, or what the bar says"},
@@ -107,7 +107,6 @@ std::pair<Modifiers, std::string_view> without_modifiers(std::string_view text) 
   };
   cut("Ctrl+", modifiers.ctrl);
   cut("Shift+", modifiers.shift);
-  cut("Alt+", modifiers.alt);
   return {modifiers, text};
 }
 

@@ -2,6 +2,7 @@
 #include "ui/source_edit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "app/session/sources.h"
@@ -13,26 +14,25 @@ app::SourceSpec source_at(const SurfacePoint& point) {
   return app::FacePoint{point.face, point.weights};
 }
 
+app::FacePoint short_point(const SurfacePoint& point) {
+  constexpr long kParts = 1000;
+  const long a = std::lround(point.weights[0] * kParts);
+  const long b = std::min(std::lround(point.weights[1] * kParts), kParts - a);
+  const auto part = [](long parts) { return static_cast<double>(parts) / kParts; };
+  return {point.face, {part(a), part(b), part(kParts - a - b)}};
+}
+
 std::optional<SurfacePoint> surface_point(const app::FacePoint& point, Index faces) {
   if (point.face < 0 || point.face >= faces) return std::nullopt;
   return SurfacePoint::in_face(point.face, point.weights);
-}
-
-Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point) {
-  if (point.is_vertex()) return point.vertex;
-  const Vec3 position = position_at(mesh, point);
-  const Face& face = mesh.faces()[point.face];
-  return *std::min_element(face.begin(), face.end(), [&](Index a, Index b) {
-    return (mesh.positions()[a] - position).squaredNorm() <
-           (mesh.positions()[b] - position).squaredNorm();
-  });
 }
 
 bool is_movable(const app::Explored& explored, const app::SourcePlace& place) {
   if (place.alone) return true;
   const app::SourceSpec& source = explored.sources[place.entry];
   return !std::holds_alternative<app::WholeBoundary>(source) &&
-         !std::holds_alternative<app::VertexCurve>(source);
+         !std::holds_alternative<app::VertexCurve>(source) &&
+         !std::holds_alternative<app::SurfaceCurve>(source);
 }
 
 Apart taken_apart(const app::Explored& explored, std::size_t place) {

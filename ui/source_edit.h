@@ -18,8 +18,9 @@ app::SourceSpec source_at(const SurfacePoint& point);
 /// The point of a model with so many faces; none: it does not lie on it.
 std::optional<SurfacePoint> surface_point(const app::FacePoint& point, Index faces);
 
-/// The corner that lies nearest to a point of a face.
-Index nearest_corner(const TriangleMesh& mesh, const SurfacePoint& point);
+/// A point of a face with weights in thousandths: logs hold many of a curve or a stroke, and nobody
+/// sees the rest.
+app::FacePoint short_point(const SurfacePoint& point);
 
 /// Whether the mouse can move a place: those of points, not those of curves and the boundary.
 bool is_movable(const app::Explored& explored, const app::SourcePlace& place);

@@ -56,6 +56,7 @@ std::string short_name(const app::SourceSpec& source) {
   if (const auto* curve = std::get_if<app::VertexCurve>(&source)) {
     return "curve of " + counted("vertex", "vertices", curve->vertices.size());
   }
+  if (std::holds_alternative<app::SurfaceCurve>(source)) return "curve across faces";
   if (const auto* random = std::get_if<app::RandomVertices>(&source)) {
     return std::to_string(random->count) + " random";
   }

@@ -70,13 +70,12 @@ TEST(SourceEdit, FindsTheNearestPlace) {
   EXPECT_FALSE(nearest_place(app::Explored{}, Vec3::Zero()));
 }
 
-TEST(SourceEdit, FindsTheNearestCorner) {
-  const auto mesh = TriangleMesh::build({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}});
-  ASSERT_TRUE(mesh);
-  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::in_face(0, {0.2, 0.7, 0.1})), 1);
-  // The largest weight is not always the nearest corner.
-  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::in_face(0, {0.3, 0.4, 0.3})), 0);
-  EXPECT_EQ(nearest_corner(*mesh, SurfacePoint::at_vertex(1)), 1);
+TEST(SourceEdit, ShortensPointsOfLogsToThousandths) {
+  const double third = 1.0 / 3;
+  const app::FacePoint point = short_point(SurfacePoint::in_face(4, {third, third, third}));
+  EXPECT_EQ(app::to_text(point), "face:4:0.333:0.333:0.334");
+  EXPECT_EQ(app::to_text(short_point(SurfacePoint::in_face(4, {0.9996, 0.0004, 0}))),
+            "face:4:1:0:0");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST_F(Mouse, SetsAddsAndRemovesSources) {
   const std::size_t before = log().size();
   click(kBody);
   click(kHead, "shift");
-  click(kHead, "alt");
+  press("Delete");
   click(kEar, "ctrl");
   const std::vector<std::string> commands = log();
   ASSERT_EQ(commands.size(), before + 4);
