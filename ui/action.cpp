@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "ui/action.h"
 
+#include <utility>
+
 #include "app/picture/picture_text.h"
 #include "ui/frame.h"
+#include "ui/panels.h"
 #include "ui/source_edit.h"
 
 namespace geotherm::ui {
@@ -126,7 +129,9 @@ std::optional<app::Command> command_of(const Frame& frame, Action action) {
 /// One thing at a time: first what the mouse is set to, then what is marked, then the work.
 void stop(Frame& frame) {
   CanvasInput& input = frame.ui.input;
-  if (input.tool != Tool::kSource) {
+  if (frame.ui.drawer != Drawer::kNone) {
+    frame.ui.drawer = Drawer::kNone;
+  } else if (input.tool != Tool::kSource) {
     input.tool = Tool::kSource;
   } else if (frame.session.work().busy) {
     frame.out.cancel = true;
@@ -156,11 +161,26 @@ std::optional<Tool> tool_of(Action action) {
   }
 }
 
-/// A bar that is wanted but has no room is shown in the other one's place.
-void turn_bar(bool& wanted, const Rect& place, bool& right_first, bool is_right) {
-  const bool shown = wanted && place.width > 0;
-  wanted = !shown;
-  if (wanted) right_first = is_right;
+Rect& bar_of(Places& places, Drawer bar) {
+  if (bar == Drawer::kLog) return places.log;
+  return bar == Drawer::kRight ? places.right : places.left;
+}
+
+/// A bar that is wanted but has no room is shown in the other one's place or, where the window is
+/// too small for any, over the picture.
+void turn_bar(Frame& frame, Drawer bar) {
+  UiState& ui = frame.ui;
+  if (std::exchange(ui.drawer, Drawer::kNone) == bar) return;
+  Layout& layout = ui.layout;
+  bool& wanted = bar == Drawer::kLog     ? layout.log
+                 : bar == Drawer::kRight ? layout.right
+                                         : layout.left;
+  wanted = !(wanted && bar_of(ui.places, bar).width > 0);
+  if (!wanted) return;
+  if (bar != Drawer::kLog) layout.right_first = bar == Drawer::kRight;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  Places places = place_panels(layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight());
+  if (bar_of(places, bar).width <= 0) ui.drawer = bar;
 }
 
 /// As large as there is room for from here; what follows turns a model of one size.
@@ -185,12 +205,11 @@ void turn_switch(Frame& frame, Action action) {
     case Action::kFrame:
       return fit_model(frame);
     case Action::kLeftPanel:
-      return turn_bar(layout.left, frame.ui.places.left, layout.right_first, false);
+      return turn_bar(frame, Drawer::kLeft);
     case Action::kRightPanel:
-      return turn_bar(layout.right, frame.ui.places.right, layout.right_first, true);
+      return turn_bar(frame, Drawer::kRight);
     case Action::kLogPanel:
-      layout.log = !layout.log;
-      return;
+      return turn_bar(frame, Drawer::kLog);
     case Action::kTheme:
       layout.theme = layout.theme == Theme::kDark ? Theme::kLight : Theme::kDark;
       frame.ui.restyle = true;
@@ -210,8 +229,20 @@ void turn_switch(Frame& frame, Action action) {
 
 }  // namespace
 
+namespace {
+
+/// Where the figures will stand.
+void show_compare(Frame& frame) {
+  frame.ui.layout.open[kCompareSection] = true;
+  frame.ui.shows_compare = 3;
+  if (!is_on(frame, Action::kRightPanel)) turn_switch(frame, Action::kRightPanel);
+}
+
+}  // namespace
+
 void perform(Frame& frame, Action action) {
   if (!is_possible(frame, action)) return;
+  if (action == Action::kCompare) show_compare(frame);
   if (auto command = command_of(frame, action)) return frame.send(*std::move(command));
   if (const auto purpose = purpose_of(action)) return frame.ui.dialog.ask(*purpose, frame.state());
   turn_switch(frame, action);
@@ -284,7 +315,7 @@ bool is_on(const Frame& frame, Action action) {
     case Action::kRightPanel:
       return frame.ui.places.right.width > 0;
     case Action::kLogPanel:
-      return frame.ui.layout.log;
+      return frame.ui.places.log.width > 0;
     case Action::kTheme:
       return frame.ui.layout.theme == Theme::kLight;
     case Action::kShowDifference:

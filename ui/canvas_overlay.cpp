@@ -109,10 +109,6 @@ void draw_shown_badge(Frame& frame) {
   const auto& difference = frame.explored().difference;
   const bool equal = difference && difference->most == 0;
   if (equal && frame.state().shown == app::Shown::kDifference) text += "  \u00b7  equal";
-  const app::Answer* answer = frame.answer();
-  if (answer && frame.state().shown != app::Shown::kDifference) {
-    text += "  \u00b7  " + app::method_caption(*answer->method);
-  }
   const Rect& canvas = frame.ui.places.canvas;
   const float down = frame.ui.input.tool == Tool::kSculpt ? 62 : 20;  // below the bar of the tools
   draw_badge(frame, {canvas.x + canvas.width / 2, canvas.y + frame.px(down)}, text);

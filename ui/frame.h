@@ -77,6 +77,7 @@ struct UiState {
   float scale = 1;
   bool restyle = false;  ///< the theme has changed
   Places places;
+  Drawer drawer = Drawer::kNone;
   std::map<std::string, Rect, std::less<>> items;  ///< where they were drawn in this frame
   TextEdit edit;
   CanvasInput input;
@@ -90,6 +91,8 @@ struct UiState {
   bool scrubs = false;   ///< the timeline is dragged
   LogForm log;
   std::set<std::string> left_out;  ///< backends that are not to be compared
+  int shows_compare = 0;           ///< frames in which their comparison is brought into sight
+  std::size_t compared = 0;        ///< rows of it in the last frame
   std::vector<Notice> notices;
   std::size_t notified = 0;  ///< lines of the log that notices were made of
   std::vector<std::string> dropped;

@@ -156,7 +156,9 @@ FrameOutput Interface::draw(const app::Session& session, const Canvas& canvas) {
   if (std::exchange(ui.restyle, false)) set_style(ui.layout.theme, ui.scale);
   Frame frame{session, canvas, ui, out, {}};
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ui.places = place_panels(ui.layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight());
+  ui.places =
+      place_panels(ui.layout, window.x, window.y, ui.scale, ImGui::GetFrameHeight(), ui.drawer);
+  if (!ui.places.over) ui.drawer = Drawer::kNone;  // it has room now
   ui.items.clear();
   if (std::exchange(ui.quit, false)) frame.send(app::command::Quit{});
   take_drop(frame);

@@ -163,7 +163,33 @@ Bars fit_bars(Bars wanted, float room, float least, bool right_first) {
 
 }  // namespace
 
-Places place_panels(const Layout& layout, float width, float height, float scale, float line) {
+namespace {
+
+/// What has no room beside the picture, over it; the picture stays where it is.
+void open_drawer(Places& places, const Layout& layout, float scale, Drawer drawer) {
+  constexpr float kShare = 0.85F;  // of the width: the picture is seen to go on below
+  const float top = places.menu.height, width = places.menu.width;
+  const float height = places.canvas.y + places.canvas.height + places.log.height - top;
+  if (drawer == Drawer::kLog && places.log.height <= 0) {
+    const float high = std::floor(std::min(layout.log_height * scale, height));
+    places.log = {0, top + height - high, width, high};
+    places.over = high > 0;
+    return;
+  }
+  const bool is_right = drawer == Drawer::kRight;
+  Rect& bar = is_right ? places.right : places.left;
+  if (drawer == Drawer::kLog || bar.width > 0) return;
+  const float wanted = is_right ? layout.right_width : layout.left_width;
+  const float wide = std::floor(std::min(std::max(wanted, kMinBar) * scale, kShare * width));
+  bar = {is_right ? width - wide : 0, top, wide, height};
+  places.tools = {};
+  places.over = wide > 0;
+}
+
+}  // namespace
+
+Places place_panels(const Layout& layout, float width, float height, float scale, float line,
+                    Drawer drawer) {
   width = std::max(0.0F, width);
   height = std::max(0.0F, height);
   const float least_canvas = kMinCanvas * scale;
@@ -193,6 +219,7 @@ Places place_panels(const Layout& layout, float width, float height, float scale
   places.canvas = {bars.left, menu + tools, inner, middle - log - tools};
   places.log = {bars.left, menu + middle - log, log > 0 ? inner : 0, log};
   places.status = {0, height - status, status > 0 ? width : 0, status};
+  if (drawer != Drawer::kNone) open_drawer(places, layout, scale, drawer);
   return places;
 }
 

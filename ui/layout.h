@@ -56,13 +56,18 @@ inline constexpr float kMinLog = 70;             ///< height of the log, pixels 
 /// Where panels lie. What is hidden, or has no room, has no width.
 struct Places {
   Rect menu, status, left, right, log, tools, canvas;
+  bool over = false;  ///< the drawer lies over the picture
 };
+
+/// A bar that has no room beside the picture and is shown over it instead, until it is closed.
+enum class Drawer { kNone, kLeft, kRight, kLog };
 
 /// Divides a window. `line`: height of menu bar and status bar, pixels; the toolbar is a little
 /// higher. Where room is scarce, side bars and log shrink, then the right one goes, then the left
 /// one, the log, the toolbar and the status bar. `Layout::right_first`: the left one goes first.
-/// Nothing overlaps, and nothing is smaller than 0.
-Places place_panels(const Layout& layout, float width, float height, float scale, float line);
+/// Nothing overlaps but the drawer, and nothing is smaller than 0.
+Places place_panels(const Layout& layout, float width, float height, float scale, float line,
+                    Drawer drawer = Drawer::kNone);
 
 /// Colours beside those that ImGui knows of.
 struct Palette {

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 #include <algorithm>
+#include <utility>
 
 #include "app/session/check.h"
 #include "app/session/wording.h"
@@ -228,9 +229,18 @@ void draw_table(Frame& frame) {
 }  // namespace
 
 void draw_compare_panel(Frame& frame) {
-  if (!draw_section(frame, "Compare backends", false)) return;
-  draw_choices(frame);
+  const bool open = draw_section(frame, kCompareSection, false);
   const auto& compare = frame.session.compare();
+  UiState& ui = frame.ui;
+  // Asked for, and again when there is more to be seen.
+  if (std::exchange(ui.compared, compare.rows.size()) < compare.rows.size()) ui.shows_compare = 2;
+  if (ui.shows_compare > 0) {
+    --ui.shows_compare;
+    ImGui::SetScrollHereY(0);
+    ui.awake = std::max(ui.awake, 2);
+  }
+  if (!open) return;
+  draw_choices(frame);
   if (compare.rows.empty()) return;
   draw_bars(frame, "Set-up", &app::CompareRow::setup_ms);
   draw_bars(frame, "Query, median", &app::CompareRow::query_ms_median);

@@ -155,6 +155,7 @@ engine::Legend legend_of(const PictureData& data, const PictureSettings& setting
   const engine::ColourMap* map = engine::find_colour_map(colour_map_of(data, settings));
   if (!scale.bar || map == nullptr) return legend;
   legend.bar = true;
+  legend.at_side = settings.camera.fit == PictureFit::kSphere;
   legend.title = bar_title(data, settings);
   legend.below = scale.below;
   legend.above = scale.above;
@@ -184,6 +185,7 @@ engine::Insets insets_of(const PictureSettings& settings, const engine::LegendLa
                          glm::vec2 extent) {
   if (settings.camera.fit != PictureFit::kSphere) return legend.insets;
   engine::Legend usual{.bar = settings.bar,
+                       .at_side = true,
                        .colours = {glm::vec3(0), glm::vec3(1)},
                        .ticks = {{0, "0.05"}, {0.5F, "0.05"}, {1, "0.05"}},
                        .title = "distance (model\u00a0units)",
@@ -207,6 +209,10 @@ engine::Scene scene_of(const PictureData& data, const PictureSettings& settings,
   if (settings.view == View::kSources) scene.markers.colour = kSourceRed;
   const auto side = static_cast<float>(std::min(settings.width, settings.height));
   scene.pixel_scale = std::max(side / kUsualSide, kMinScale);
+  // Beside large letters, which are read from farther away or on finer pixels.
+  constexpr float kUsualLine = kUsualSide / 38;
+  const float letters = line_height_of(settings) / (kUsualLine * scene.pixel_scale);
+  scene.markers.radius *= std::max(1.0F, letters);
   const float wider = line_factor(settings, scene.surface.line_width * scene.pixel_scale);
   for (float* width : {&scene.surface.line_width, &scene.surface.wire_width, &scene.lines.width,
                        &scene.lines.rim}) {

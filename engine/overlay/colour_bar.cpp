@@ -274,7 +274,7 @@ void draw_paper(const Legend& legend, glm::vec2 min, glm::vec2 max, float margin
 
 BarPlace draw_colour_bar(const Legend& legend, const Measures& m, glm::vec2 extent, float top,
                          float bottom, Overlay& overlay) {
-  const bool portrait = extent.y > extent.x;
+  const bool portrait = !legend.at_side && extent.y > extent.x;
   for (const bool row : {portrait, !portrait}) {
     const BarPlace place = (row ? draw_row : draw_column)(legend, m, extent, top, bottom, overlay);
     if (place.max.x > 0) return place;

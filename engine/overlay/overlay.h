@@ -119,6 +119,7 @@ struct Key {
 /// What is written around the model; empty parts are left out.
 struct Legend {
   bool bar = false;
+  bool at_side = false;            ///< the bar, whatever the picture's shape, where that has room
   std::vector<glm::vec3> colours;  ///< of the bar from its lower end up, sRGB, 2 or more
   std::vector<float> lines{};      ///< isolines on the bar: positions as of ticks
   std::vector<Tick> ticks;

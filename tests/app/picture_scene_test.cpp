@@ -145,6 +145,22 @@ TEST(PictureSceneOfView, KeepsLinesAsWideForThePictureAtAnySize) {
   EXPECT_EQ(app::scene_of(data, settings, app::picture_scale(data, settings)).pixel_scale, 2);
 }
 
+TEST(PictureSceneOfView, HasMarkersAsLargeAsLettersAskFor) {
+  PictureSettings settings;
+  settings.width = 700;
+  settings.height = 600;
+  const PictureData data = solved();
+  const auto radius = [&](std::optional<double> text) {
+    if (text) settings.text_size = PaperLength{*text};
+    const engine::Scene scene = app::scene_of(data, settings, app::picture_scale(data, settings));
+    return scene.markers.radius * scene.pixel_scale;
+  };
+  const float usual = radius({});
+  EXPECT_EQ(radius(8), usual) << "small letters leave them as they are";
+  EXPECT_NEAR(radius(40), 2 * radius(20), 1e-3F);
+  EXPECT_GT(radius(40), 1.5F * usual);
+}
+
 TEST(PictureLegend, HasABarWithTicksAndIsolinesInPlace) {
   PictureSettings settings;
   settings.range_max = 10;

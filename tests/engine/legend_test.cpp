@@ -285,6 +285,17 @@ TEST(Legend, OfAPictureHigherThanWideRunsToTheRight) {
   EXPECT_EQ(layout.insets.right, 0);
 }
 
+TEST(Legend, StaysAtTheSideOnRequestWhateverThePicturesShape) {
+  Legend legend = sample();
+  legend.at_side = true;
+  for (const glm::vec2 extent : {glm::vec2(660, 540), {660, 730}, {600, 900}}) {
+    const LegendLayout layout = lay_out(legend, extent);
+    EXPECT_GT(layout.insets.right, 0);
+    const glm::vec2 size = layout.bar_max - layout.bar_min;
+    EXPECT_GT(size.y, 5 * size.x);
+  }
+}
+
 TEST(Legend, TakesTheOtherShapeWhereItsOwnHasNoRoom) {
   Legend legend = sample();
   for (Tick& tick : legend.ticks) tick.label = "a label that is long";

@@ -105,6 +105,40 @@ TEST(Places, GiveUpTheRightBarFirst) {
   EXPECT_GT(place_panels(right_only, 600, 800, 1, 21).right.width, 0);
 }
 
+class SmallWindow : public UiTest {
+ protected:
+  void SetUp() override {
+    ImGui::GetIO().DisplaySize = {400, 300};
+    restart(Layout{}, 1);
+    open_square();
+  }
+};
+
+/// No bar has room beside the picture there: its key brings it over the picture, which stays.
+TEST_F(SmallWindow, HasEveryBarByItsKey) {
+  const Rect before = panels_->canvas();
+  const struct {
+    int key;
+    const char* item;
+  } bars[] = {{kKeyF1 + 1, "View/"}, {kKeyF1 + 2, "Quality/"}, {kKeyF1 + 3, "Log/command"}};
+  for (const auto& [code, item] : bars) {
+    EXPECT_FALSE(is_drawn(item)) << item;
+    key(code);
+    frames(2);
+    EXPECT_TRUE(is_drawn(item)) << item;
+    EXPECT_EQ(panels_->canvas().width, before.width);
+    EXPECT_EQ(panels_->canvas().height, before.height);
+    key(code);
+    frames(2);
+    EXPECT_FALSE(is_drawn(item)) << item;
+  }
+  key(kKeyF1 + 1);
+  frames(2);
+  key(kKeyEscape);
+  frames(2);
+  EXPECT_FALSE(is_drawn("View/"));
+}
+
 class BarEdges : public UiTest {};
 
 TEST_F(BarEdges, ResizeTheSideBars) {
