@@ -139,6 +139,23 @@ TEST_F(SmallWindow, HasEveryBarByItsKey) {
   EXPECT_FALSE(is_drawn("View/"));
 }
 
+class AskedComparison : public UiTest {};
+
+TEST_F(AskedComparison, OfBackendsComesIntoSight) {
+  Layout layout;
+  layout.right = false;
+  restart(layout, 1);
+  open_square();
+  EXPECT_FALSE(is_drawn("Compare backends/run"));
+  click_item("Menu/Solve");
+  click_item("Menu/Compare all backends");
+  frames(4);
+  ASSERT_TRUE(is_drawn("Compare backends/run"));
+  const ImVec2 at = middle_of("Compare backends/run");
+  EXPECT_GT(at.y, 0);
+  EXPECT_LT(at.y, ImGui::GetIO().DisplaySize.y);
+}
+
 class BarEdges : public UiTest {};
 
 TEST_F(BarEdges, ResizeTheSideBars) {
