@@ -159,16 +159,23 @@ def test_a_pickled_solver_gives_the_same_bits(bunny):
 
 
 def test_options_are_those_of_the_table():
-    of_python = set(inspect.signature(geotherm.Solver).parameters) - {"model", "progress"}
-    table = geotherm.features()["settings"]
-    of_table = {s["name"].replace("-", "_") for s in table if s["group"] in ("method", "check")}
-    assert of_python == of_table
-    of_reading = set(inspect.signature(geotherm.read).parameters) - {"path", "progress"}
-    assert of_reading == {s["name"] for s in table if s["group"] == "model"}
-    for setting in table:
-        for value in setting["values"]:
-            if setting["group"] != "model":
-                assert str(value) is not None and setting["help"]
+    shown = inspect.signature(geotherm.Solver).parameters
+    table = geotherm.options()
+    of_solver = {name for name, each in table.items() if each["group"] != "model"}
+    assert set(shown) == of_solver | {"model", "progress"} and "time_factor" in of_solver
+    assert shown["heat"].default == "unit" and all(each["help"] for each in table.values())
+    for name, each in table.items():
+        for value in {each["default"], *each["values"]}:
+            geotherm._options.options_of({name: value})
+
+
+def test_an_option_that_is_none_is_a_wrong_keyword(bunny):
+    with pytest.raises(TypeError, match="did you mean 'method'"):
+        geotherm.Solver(bunny, methd="exact")
+    with pytest.raises(TypeError, match="no option 'weld'; there are method, backend"):
+        geotherm.Solver(bunny, weld=0)
+    with pytest.raises(TypeError, match="no option 'threads'"):
+        geotherm.read("bunny", threads=1)
 
 
 def test_a_solver_tells_what_it_took(solver):

@@ -25,7 +25,7 @@ from geotherm._directions import (
 from geotherm._domains import Grid, PointCloud, Polygons, TetMesh, read
 from geotherm._library import Error, InputError, ResultWarning
 from geotherm._models import Mesh, Model
-from geotherm._options import features
+from geotherm._options import features, options
 from geotherm._solver import Solver, farthest_points
 
 
@@ -60,6 +60,7 @@ __all__ = [
     "features",
     "isolines",
     "log_map",
+    "options",
     "read",
     "signed_distance",
     "trace",

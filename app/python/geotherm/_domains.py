@@ -22,7 +22,7 @@ from geotherm._models import (
     attributes,
     cells_of,
 )
-from geotherm._options import options_of
+from geotherm._options import given_options, options_of
 
 
 class Polygons(Model):
@@ -152,18 +152,15 @@ def _bundled(name: str) -> str:
 def read(
     path: str | os.PathLike[str],
     *,
-    domain: str | None = None,
-    mask: str | None = None,
-    weld: float | None = None,
-    format: str | None = None,
-    grid: str | None = None,
     progress: Progress = None,
+    **options: Any,
 ) -> Any:
     """Reads a model from a file, or a bundled one by its name: "bunny".
 
     Args:
         path: .obj .ply .off .stl and what else features() lists under formats.
-        domain, mask, weld, format, grid: as on the command line.
+        options: the command line's about models, which options() lists: weld=0, format="ply",
+            mask="keep:lh.cortex.label".
 
     Returns: Mesh, TetMesh, PointCloud, Polygons or Grid, by what the file holds.
     Raises: Error, with the path, the line and the cause.
@@ -171,17 +168,11 @@ def read(
     >>> geotherm.read("bunny").n_faces
     3996
     """
-    settings = {
-        "domain": domain,
-        "mask": mask,
-        "weld": weld,
-        "format": format,
-        "grid": grid,
-    }
+    settings = given_options("read", options)
     name: str | os.PathLike[str] = _bundled(path) if isinstance(path, str) else path
     with Watch(progress) as watch:
-        options = options_of(settings)
-        handle = create("model_read", path_bytes(name, "path"), options.value, watch.pointer)
+        chosen = options_of(settings)
+        handle = create("model_read", path_bytes(name, "path"), chosen.value, watch.pointer)
     kinds: dict[str, type[Model]] = {
         "triangles": Mesh,
         "polygons": Polygons,
@@ -190,7 +181,7 @@ def read(
         "grid": Grid,
     }
     kind = kinds.get(handle.text("domain"), Model)
-    by_arrays = kind is Mesh and weld is None
+    by_arrays = kind is Mesh and "weld" not in settings
     return kind._around(handle, () if by_arrays else (read_again, os.fspath(path), settings))
 
 

@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import ctypes
+import difflib
 import functools
+import inspect
 import json
 from collections.abc import Mapping
 from typing import Any
@@ -46,3 +48,40 @@ def features() -> dict[str, Any]:
     """
     found: dict[str, Any] = json.loads(_features_text())
     return found
+
+
+_OF_SOLVER = ("method", "check")
+
+
+def options() -> dict[str, dict[str, Any]]:
+    """The options of Solver() (groups "method" and "check") and of read() ("model") by keyword:
+    group, help, default, values.
+
+    >>> geotherm.options()["heat"]["values"]
+    ['unit', 'diffuse', 'hold']
+    """
+    return {setting["name"].replace("-", "_"): setting for setting in features()["settings"]}
+
+
+def given_options(function: str, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of read() or Solver() that are not None. Raises: TypeError (no such option)."""
+    groups = ("model",) if function == "read" else _OF_SOLVER
+    names = [name for name, setting in options().items() if setting["group"] in groups]
+    for name in given:
+        if name not in names:
+            near = difflib.get_close_matches(name, names, 1)
+            cure = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
+            raise TypeError(f"{function}() has no option {name!r}; {cure}")
+    return {name: value for name, value in given.items() if value is not None}
+
+
+class SolverSignature:
+    """What inspect and help() show of Solver(): the options by name, with their defaults."""
+
+    def __get__(self, instance: object, owner: type) -> inspect.Signature:
+        keyword, Parameter = inspect.Parameter.KEYWORD_ONLY, inspect.Parameter
+        shown = [Parameter("model", Parameter.POSITIONAL_OR_KEYWORD)]
+        for name, setting in options().items():
+            if setting["group"] in _OF_SOLVER:
+                shown.append(Parameter(name, keyword, default=setting["default"]))
+        return inspect.Signature([*shown, Parameter("progress", keyword, default=None)])

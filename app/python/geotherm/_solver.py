@@ -26,7 +26,7 @@ from geotherm._library import (
     text_bytes,
 )
 from geotherm._models import Mesh, Model
-from geotherm._options import options_of
+from geotherm._options import SolverSignature, given_options, options_of
 from geotherm._sources import Taken
 
 
@@ -36,16 +36,12 @@ class Solver:
 
     Args:
         model: Mesh and its like, or what Mesh() takes in their place.
-        method: "heat" (Crane, Weischedel, Wardetzky 2013), "wavefront", "wavefront-fine",
-            "fast-marching", "exact".
-        threads: None or 0: one a core.
-        check: what solve() holds its answers against: "on", "off", "auto", "wavefront-fine",
-            "exact".
         progress: a callable(stage, share), or True.
+        options: the command line's, with _ in place of -; options() lists them with what they do,
+            their defaults and values: method="wavefront", threads=4, check="off".
 
-    The others are the command line's options (`geotherm solve --help`, features()).
-
-    Raises: InputError (an option's value), Error (the model has no area, memory, ...).
+    Raises: InputError (an option's value), TypeError (no such option), Error (the model has no area,
+        memory, ...).
 
     >>> solver = geotherm.Solver(geotherm.read("bunny"))
     >>> d = solver.distance(17)
@@ -53,51 +49,16 @@ class Solver:
     (0.0, (2000,))
     """
 
-    def __init__(
-        self,
-        model: Any,
-        *,
-        method: str | None = None,
-        backend: str | None = None,
-        time_step: str | None = None,
-        time_factor: float | None = None,
-        constraint: str | None = None,
-        heat: str | None = None,
-        boundary: str | None = None,
-        laplacian: str | None = None,
-        variant: str | None = None,
-        precision: str | None = None,
-        memory_limit: str | float | None = None,
-        strict: bool | None = None,
-        threads: int | None = None,
-        refine: int | None = None,
-        check: str | None = None,
-        progress: Progress = None,
-    ) -> None:
-        settings = {
-            "method": method,
-            "backend": backend,
-            "time_step": time_step,
-            "time_factor": time_factor,
-            "constraint": constraint,
-            "heat": heat,
-            "boundary": boundary,
-            "laplacian": laplacian,
-            "variant": variant,
-            "precision": precision,
-            "memory_limit": memory_limit,
-            "strict": strict,
-            "threads": threads,
-            "refine": refine,
-            "check": check,
-        }
+    __signature__ = SolverSignature()
+
+    def __init__(self, model: Any, *, progress: Progress = None, **options: Any) -> None:
         # Mesh() says what is wrong with other things.
         self.model: Model = model if isinstance(model, Model) else Mesh(model)
-        self._settings = {name: value for name, value in settings.items() if value is not None}
-        options = options_of(settings)
+        self._settings = given_options("Solver", options)
+        chosen = options_of(self._settings)
         with Watch(progress) as watch:
             self._handle = create(
-                "solver_new", self.model._handle.value, options.value, watch.pointer
+                "solver_new", self.model._handle.value, chosen.value, watch.pointer
             )
 
     def __reduce__(self) -> tuple[Any, ...]:
