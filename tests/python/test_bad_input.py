@@ -126,6 +126,7 @@ def test_wrong_arguments_of_the_others_are_named(bunny, solver):
         (lambda: geotherm.read(7), "path"),
         (lambda: geotherm.Grid(np.full((3, 3), NAN)), "speed"),
         (lambda: geotherm.Grid(np.zeros(3)), "speeds"),
+        (lambda: geotherm.Grid(np.full((8, 9, 3), 255, np.uint8)), "an image in colours"),
         (lambda: geotherm.Polygons(V, [[0, 1, 9]]), "9"),
         (lambda: geotherm.Polygons(V, 7), "faces"),
         (lambda: geotherm.TetMesh(V, [[0, 1, 2]]), "tets"),

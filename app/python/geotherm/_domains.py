@@ -120,6 +120,12 @@ class Grid(Model):
             raise InputError("speeds is no array: its rows differ in length") from None
         if samples.ndim not in (2, 3):
             raise InputError(f"speeds has the shape {samples.shape}", hint="give 2 or 3 axes")
+        if samples.dtype == np.uint8 and samples.ndim == 3 and samples.shape[2] in (3, 4):
+            if samples.max(initial=0) > 1:  # bytes that are no mask
+                raise InputError(
+                    f"speeds has the shape {samples.shape}: an image in colours",
+                    hint="give a number a pixel, such as image[..., :3].mean(axis=2) > 127",
+                )
         steps, begin = _along(spacing, "spacing", 1.0), _along(origin, "origin", 0.0)
         size = [*samples.shape[::-1], 1][:3]
         if samples.dtype.kind not in "biuf":
