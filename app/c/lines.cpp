@@ -107,7 +107,8 @@ Result<std::vector<SurfacePoint>> points_in_order(const geotherm_sources* source
   if (!each) return each.error();
   std::vector<SurfacePoint> points;
   for (const SourceSet& set : each->sets) {
-    if (set.points.size() != 1 || !set.edges.empty() || !set.offsets.empty()) {
+    if (set.points.size() != 1 || !set.edges.empty() || !set.segments.empty() ||
+        !set.offsets.empty()) {
       return bad_argument("point " + std::to_string(points.size()) + " of the path is none",
                           {"give a vertex, a point in a face or a place, without offset"});
     }
