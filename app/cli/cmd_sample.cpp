@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "app/session/machine.h"
 #include "app/session/model.h"
 #include "app/session/outputs.h"
+#include "app/session/ranks.h"
 #include "app/session/report.h"
 #include "app/session/wording.h"
 #include "app/text/text.h"
@@ -27,6 +30,7 @@
 #include "solver/core/text.h"
 #include "solver/mesh/io/format_writers.h"
 #include "solver/mesh/output_file.h"
+#include "solver/method/farthest_points.h"
 
 namespace geotherm::app {
 
@@ -73,13 +77,42 @@ struct SampleTask {
   int relax = 0;  ///< steps
 };
 
+/// Ranks that solve for a vertex each, and hand the distances to all.
+SampleCrew crew_of(const DistanceMethod& method, const Ranks& ranks) {
+  const auto solve = [&](std::span<const Index> vertices, const QueryOptions& query,
+                         const Progress& progress) -> Result<std::vector<DistanceResult>> {
+    const auto ours = static_cast<std::size_t>(ranks.rank());
+    Result<DistanceResult> mine = DistanceResult();
+    if (ours < vertices.size()) {
+      mine = method.solve(SourceSet::of_vertices({vertices[ours]}), query, progress);
+    }
+    mine = ranks.agree_on(std::move(mine));
+    if (!mine) return mine.error();
+    const std::span<const double> row = mine->distances;
+    const auto rows =
+        ranks.exchange(std::string(reinterpret_cast<const char*>(row.data()), row.size_bytes()));
+    std::vector<DistanceResult> all(vertices.size());
+    if (ours == 0) all.front() = *std::move(mine);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].distances.resize(rows[i].size() / sizeof(double));
+      std::memcpy(all[i].distances.data(), rows[i].data(), rows[i].size());
+    }
+    return all;
+  };
+  return {static_cast<std::size_t>(ranks.count()), solve};
+}
+
+/// `ranks`: those that take part; null: this process alone.
 Result<FarthestPoints> take_samples(const DistanceMethod& method, const TriangleMesh& mesh,
-                                    const SampleTask& task, const Progress& progress,
-                                    const Announce& announce) {
-  return farthest_points(
-      method, mesh, task.count, {task.first},
+                                    const SampleTask& task, const Ranks* ranks,
+                                    const Progress& progress, const Announce& announce) {
+  const auto told =
       with_estimate(progress, announce, kSamplesStage, counted(task.count, "sample", "samples"),
-                    bytes_in_words(method.memory_mb() * kMegabyte) + " of memory for the method"));
+                    bytes_in_words(method.memory_mb() * kMegabyte) + " of memory for the method");
+  if (ranks == nullptr || ranks->alone()) {
+    return farthest_points(method, mesh, task.count, {task.first}, told);
+  }
+  return farthest_points_by(crew_of(method, *ranks), mesh, task.count, {task.first}, told);
 }
 
 /// Checks the method on some of the samples, and takes them again by the method that answers
@@ -100,7 +133,7 @@ Result<void> check_samples(const SampleTask& task, ModelSolver& solver, const Re
   figures.method = checked->by.method;
   figures.options = checked->by.options;
   const Stopwatch watch;
-  auto points = take_samples(*figures.method, *figures.model.mesh, task,
+  auto points = take_samples(*figures.method, *figures.model.mesh, task, nullptr,
                              part_of(progress, 0.5, 1.0), announce);
   if (!points) return about_model(figures.model.name, points.error());
   figures.points = *std::move(points);
@@ -131,20 +164,22 @@ Result<void> relax(const SampleTask& task, ModelSolver& solver, const Progress& 
   return {};
 }
 
-/// Samples a loaded model.
+/// Samples a loaded model. All ranks; the first alone checks and relaxes.
 Result<SampleFigures> sample(Model model, const SettingArguments& arguments, const SampleTask& task,
-                             const Progress& progress, const Announce& announce) {
+                             const Ranks& ranks, const Progress& progress,
+                             const Announce& announce) {
   const double sampled = task.relax > 0 ? 0.4 : 0.9, checked = task.relax > 0 ? 0.5 : 1;
   // What cannot be asked for is said before the set-up.
   if (auto fits = check_sampling(*model.mesh, task.count, {task.first}); !fits) {
     return about(one_line(model.name), fits.error());
   }
   ModelSolver solver(model);
-  const auto ready = solver.prepare(task.options, part_of(progress, 0.0, kSetupShare));
+  const auto ready =
+      ranks.agree_on(solver.prepare(task.options, part_of(progress, 0.0, kSetupShare)));
   if (!ready) return ready.error();
   const Stopwatch watch;
   const bool checks = task.check.against != Check::kOff;
-  auto points = take_samples(*ready->method, *model.mesh, task,
+  auto points = take_samples(*ready->method, *model.mesh, task, &ranks,
                              part_of(progress, kSetupShare, checks ? sampled : checked), announce);
   if (!points) return about_model(model.name, points.error());
   const double sampling_ms = watch.milliseconds();
@@ -152,6 +187,8 @@ Result<SampleFigures> sample(Model model, const SettingArguments& arguments, con
   const MeshReport mesh = inspect_mesh(*model.mesh);
   SampleFigures figures{std::move(model),   mesh,        ready->method, task.options,
                         *std::move(points), sampling_ms, peak,          {}};
+  figures.ranks = ranks.count();
+  if (!ranks.is_first()) return figures;
   if (checks) {
     const auto done =
         check_samples(task, solver, *ready, part_of(progress, sampled, checked), announce, figures);
@@ -235,7 +272,8 @@ void add_sample_options(CLI::App& command, SampleArguments& arguments) {
   add_setting_options(command, arguments.settings, names_of(SettingGroup::kMethod));
   command.footer(
       "Each sample is the vertex farthest from all before it; parts of the surface that none of "
-      "them reaches come first.\n"
+      "them reaches come first. Runs under mpirun, too, where ranks solve for samples side by "
+      "side.\n"
       "Examples:\n"
       "  geotherm sample bunny -n 100 -o cells.ply --samples samples.csv\n"
       "  geotherm sample bunny -n 100 --relax 30 -o cells.ply --samples centres.csv\n"
@@ -263,14 +301,18 @@ Result<CommandOutput> run_sample(const SampleArguments& arguments, const Progres
   }
   const auto check = check_settings(arguments.check);
   if (!check) return check.error();
+  const auto ranks = Ranks::join();
+  if (!ranks) return ranks.error();
   Outputs outputs;
-  if (auto expected = expect_outputs(arguments, outputs); !expected) return expected.error();
-  auto model = load_model(arguments.model, asked->reading, progress);
+  const auto expected = ranks->agree(expect_outputs(arguments, outputs));
+  if (!expected) return expected.error();
+  auto model = ranks->agree_on(load_model(arguments.model, asked->reading, progress));
   if (!model) return model.error();
   if (auto surface = refuse_space(*model, "samples are"); !surface) return surface.error();
   const auto figures = sample(*std::move(model), arguments.settings,
-                              {options, *check, *count, first, relax}, progress, announce);
+                              {options, *check, *count, first, relax}, *ranks, progress, announce);
   if (!figures) return figures.error();
+  if (!ranks->is_first()) return CommandOutput();
 
   CommandOutput out{"", figures->warnings, {}};
   for (const std::string& path : arguments.outputs) {

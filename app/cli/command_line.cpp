@@ -323,7 +323,7 @@ int run_command_line(std::vector<std::string> arguments, Drawing& drawing, Viewe
   }
   for (const Subcommand& each : commands) {
     if (!root.got_subcommand(each.name)) continue;
-    if (each.name != "solve" && each.name != "batch") {
+    if (each.name != "solve" && each.name != "sample" && each.name != "batch") {
       if (auto alone = refuse_ranks("geotherm " + each.name); !alone) return fail(alone.error());
     }
     const int code = each.run();

@@ -75,6 +75,7 @@ Json sample_json(const SampleFigures& f) {
                  {"query", f.points.query_ms}}},
                {"memory_mb", {{"factor", f.method->memory_mb()}, {"peak_rss", f.peak_rss_mb}}},
                {"warnings", told(f.warnings)}};
+  if (f.ranks > 1) json["ranks"] = f.ranks;
   if (f.error) json["error"] = error_json(*f.error);
   if (f.replaced) json["replaced"] = error_json(*f.replaced);
   if (f.relaxed) {
@@ -104,6 +105,7 @@ std::string sample_table(const SampleFigures& f) {
                                  (f.method->heat() ? ", " + points.first.backend : std::string()) +
                                  ", " +
                                  counted(thread_count(f.options.threads), "thread", "threads")});
+  if (f.ranks > 1) figures.add_row({"ranks", std::to_string(f.ranks)});
   figures.add_row({"set-up", milliseconds(f.method->timing().setup) + " ms"});
   figures.add_row({"sampling", milliseconds(f.sampling_ms) + " ms, " +
                                    milliseconds(points.query_ms) + " ms each"});

@@ -29,6 +29,7 @@ struct SampleFigures {
   std::optional<SampleCheck> replaced = {};   ///< of the poor method that this one stands for
   std::optional<RelaxedPoints> relaxed = {};  ///< from the samples on
   double relaxing_ms = 0;
+  int ranks = 1;  ///< that took the samples together
 
   /// Of every vertex, to the samples where they are in the end.
   const std::vector<double>& distances() const {

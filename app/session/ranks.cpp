@@ -47,8 +47,8 @@ Result<void> refuse_ranks(const std::string& what) {
   return Error{
       ErrorCode::kBadInput,
       what + " works in one process, and was started as " + std::to_string(count),
-      {"start it without mpirun; batch and solve with each or pairs share their work, and one "
-       "mesh with ",
+      {"start it without mpirun; batch, sample and solve with each or pairs share their work, and "
+       "one mesh with ",
        SettingHint{"backend", {"petsc"}}}};
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "geotherm/many.h"
+#include "solver/method/farthest_points.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -23,8 +24,9 @@ bool has_extent(const TriangleMesh& mesh) {
 
 class Sampler {
  public:
-  Sampler(const DistanceMethod& method, const TriangleMesh& mesh, const Progress& progress)
-      : method_(method),
+  Sampler(const SampleCrew& crew, const TriangleMesh& mesh, const Progress& progress)
+      : crew_(crew),
+        mesh_(mesh),
         progress_(progress),
         open_(vertices_in_faces(mesh.vertex_count(), mesh.faces())) {
     out_.distances.assign(open_.size(), kUnreached);
@@ -61,15 +63,53 @@ class Sampler {
   Result<std::vector<double>> distances_from(Index v) {
     const double begun = static_cast<double>(done_) / queries_;
     const double ended = static_cast<double>(done_ + 1) / queries_;
+    if (const auto guessed = ahead_.find(v); guessed != ahead_.end()) {
+      std::vector<double> distances = std::move(guessed->second);
+      ahead_.erase(guessed);
+      ++done_;
+      if (!report(progress_, kSamplesStage, ended)) return cancelled_error();
+      return distances;
+    }
+    ahead_.clear();
+    const std::vector<Index> asked = worth_asking(v);
     const bool is_first = done_ == 0;
-    auto answer = method_.solve(SourceSet::of_vertices({v}), {.quality = is_first},
-                                part_of(progress_, begun, ended));
-    if (!answer) return answer.error();
-    std::vector<double> distances = std::move(answer->distances);
-    if (is_first) out_.first = *std::move(answer);
+    auto answers = crew_.solve(asked, {.quality = is_first}, part_of(progress_, begun, ended));
+    if (!answers) return answers.error();
+    std::vector<double> distances = std::move(answers->front().distances);
+    if (is_first) out_.first = std::move(answers->front());
+    for (std::size_t i = 1; i < asked.size(); ++i) {
+      ahead_[asked[i]] = std::move((*answers)[i].distances);
+    }
     ++done_;
     if (!report(progress_, kSamplesStage, ended)) return cancelled_error();
     return distances;
+  }
+
+  /// This vertex, and those that are likely to follow it.
+  std::vector<Index> worth_asking(Index v) const {
+    std::vector<Index> out = {v};
+    const std::size_t most =
+        std::min(crew_.at_once, static_cast<std::size_t>(std::max(queries_ - done_, Index{1})));
+    if (most == 1 || !(out_.distances[v] < kUnreached)) return out;
+    std::vector<char> may_follow = open_;
+    may_follow[v] = 0;
+    while (out.size() < most) {
+      const Vec3 from = mesh_.positions()[out.back()];
+      Index best = kNoIndex;
+      for (std::size_t i = 0; i < may_follow.size(); ++i) {
+        if (!may_follow[i]) continue;
+        const double d = out_.distances[i];
+        if ((mesh_.positions()[i] - from).squaredNorm() < d * d) {
+          may_follow[i] = 0;
+        } else if (best == kNoIndex || d > out_.distances[best]) {
+          best = static_cast<Index>(i);
+        }
+      }
+      if (best == kNoIndex) break;
+      may_follow[best] = 0;
+      out.push_back(best);
+    }
+    return out;
   }
 
   /// Every vertex that is nearer to the new sample becomes its own.
@@ -94,9 +134,11 @@ class Sampler {
     return best;
   }
 
-  const DistanceMethod& method_;
+  const SampleCrew& crew_;
+  const TriangleMesh& mesh_;
   const Progress& progress_;
-  std::vector<char> open_;  ///< in a face, and no sample yet
+  std::map<Index, std::vector<double>> ahead_;  ///< distances from vertices that may be next
+  std::vector<char> open_;                      ///< in a face, and no sample yet
   FarthestPoints out_;
   Index queries_ = 0, done_ = 0;
   Stopwatch watch_;
@@ -150,10 +192,25 @@ Result<void> check_sampling(const TriangleMesh& mesh, Index count, const Farthes
 
 Result<FarthestPoints> farthest_points(const DistanceMethod& method, const TriangleMesh& mesh,
                                        Index count, const FarthestOptions& options,
-                                       const Progress& progress) try {
+                                       const Progress& progress) {
+  const SampleCrew alone = {
+      .solve = [&method](std::span<const Index> vertices, const QueryOptions& query,
+                         const Progress& part) -> Result<std::vector<DistanceResult>> {
+        auto answer = method.solve(SourceSet::of_vertices({vertices.front()}), query, part);
+        if (!answer) return answer.error();
+        std::vector<DistanceResult> out;
+        out.push_back(*std::move(answer));
+        return out;
+      }};
+  return farthest_points_by(alone, mesh, count, options, progress);
+}
+
+Result<FarthestPoints> farthest_points_by(const SampleCrew& crew, const TriangleMesh& mesh,
+                                          Index count, const FarthestOptions& options,
+                                          const Progress& progress) try {
   if (auto valid = check_sampling(mesh, count, options); !valid) return valid.error();
   const Index first = options.first;
-  return Sampler(method, mesh, progress)
+  return Sampler(crew, mesh, progress)
       .run(count, first == kNoIndex ? first : mesh.standing_for(first));
 } catch (const std::bad_alloc&) {
   return Error{ErrorCode::kOutOfMemory,

@@ -10,6 +10,7 @@
 
 #include "geotherm/build_method.h"
 #include "geotherm/mesh.h"
+#include "solver/method/farthest_points.h"
 #include "tests/support/broken_mesh.h"
 #include "tests/support/shapes.h"
 
@@ -177,6 +178,39 @@ TEST(FarthestPoints, RefuseWhatThereIsNot) {
   EXPECT_NE(refusal(1, 4).find("no face"), std::string::npos);
   EXPECT_TRUE(check_sampling(*mesh, 4, {3}));
   EXPECT_EQ(points_on(mesh, 4).nearest[4], kNoIndex);
+}
+
+/// Components of other sizes, so that some have no sample when others have several.
+TEST(FarthestPoints, AreTheSameByACrewThatIsAskedLessOften) {
+  const auto mesh = finish(two_spheres());
+  const auto method = method_on(mesh, MethodKind::kWavefront);
+  constexpr Index kSamples = 24;
+  constexpr std::size_t kAtOnce = 3;
+  const auto alone = farthest_points(*method, *mesh, kSamples);
+  int calls = 0;
+  const auto solve = [&](std::span<const Index> vertices, const QueryOptions& query,
+                         const Progress& progress) -> Result<std::vector<DistanceResult>> {
+    ++calls;
+    EXPECT_LE(vertices.size(), kAtOnce);
+    std::vector<DistanceResult> out;
+    for (const Index v : vertices) {
+      auto answer = method->solve(SourceSet::of_vertices({v}), query, progress);
+      if (!answer) return answer.error();
+      out.push_back(*std::move(answer));
+    }
+    return out;
+  };
+  const auto together = farthest_points_by({kAtOnce, solve}, *mesh, kSamples);
+  ASSERT_TRUE(alone && together);
+  EXPECT_EQ(together->distances, alone->distances);
+  EXPECT_EQ(together->nearest, alone->nearest);
+  for (std::size_t i = 0; i < alone->samples.size(); ++i) {
+    EXPECT_EQ(together->samples[i].vertex, alone->samples[i].vertex);
+    EXPECT_EQ(together->samples[i].distance, alone->samples[i].distance);
+    EXPECT_EQ(together->samples[i].radius, alone->samples[i].radius);
+    EXPECT_EQ(together->samples[i].back, alone->samples[i].back);
+  }
+  EXPECT_LT(calls, 2 * kSamples / 3);  // alone: one more than samples
 }
 
 TEST(FarthestPoints, OfAMeshWithoutAreaAreRefusedForThat) {
